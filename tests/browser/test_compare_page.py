@@ -6,6 +6,7 @@ import pytest
 
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.results import BEARING_BOOK
 from tests.browser.driving import seen
 from tests.browser.outputs import address_of, summary_by_command
 from tests.helpers.places import EXAMPLES
@@ -41,8 +42,8 @@ def assert_effects(page, first, second):
     ):
         _, left, right, words = cells(page, name)
         for text, numbers in ((left, first), (right, second)):
-            digits = amount(numbers[key], unit) if unit else f"{numbers[key]:.4g}"
-            assert digits in text, name
+            digits = BEARING_BOOK[f"bearing.{key}"].digits
+            assert (amount(numbers[key], unit) if unit else f"{numbers[key]:{digits}}") in text, name
         change = 100.0 * (second[key] / first[key] - 1.0)
         sign = "▲ +" if change > 0.0 else "▼ −"
         assert words.startswith(sign), name

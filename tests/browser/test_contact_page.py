@@ -37,7 +37,7 @@ def smooth():
 # Film by formula of the present inputs.
 _FORMULA = (
     "[data-testid=by-formula]:not(.old) "
-    "[data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
+    "[data-testid^='number-formula-film_formulas.'][data-testid$='.minimum_thickness']"
 )
 _FILM = "film.minimum_thickness"
 

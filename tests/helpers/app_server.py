@@ -30,8 +30,8 @@ def longer(**given):
 def warm_and_patient(self):
     warm(self)
     from ehlectric.app import server
-    from ehlectric.app.pages import control
-    server._RECONNECT, control._BRIEF = {away}, 60.0
+    from ehlectric.app.pages import page_parts
+    server._RECONNECT, page_parts._BRIEF = {away}, 60.0
 
 work.limits_of, work.Work.warm = longer, warm_and_patient
 sys.argv[0] = "ehlectric"

@@ -4,47 +4,33 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.page_warnings import Told
 from ehlectric.cases.defaults import Contacts
+from ehlectric.quantities.units import known_factor, si_unit, split
 
 
 @dataclass(frozen=True)
 class Shown:
-    """Figure of an answer.
+    """Figure of a contact."""
 
-    Attributes
-    ----------
-    name : str
-        Name for a file and for tests, such as "film-map".
-    title : str
-        Heading above the figure.
-    label : str
-        Text for a screen reader: what the figure shows, with its main numbers.
-    plot : mapping
-        Figure of Plotly: data, layout and config, of built-in types.
-    caption : str
-        What a reader must know of the figure, such as what was left out.
-    """
-
-    name: str
-    title: str
-    label: str
-    plot: Mapping[str, Any]
-    caption: str = ""
+    name: str  # name for a file and for tests, such as "film-map"
+    title: str  # heading above the figure
+    label: str  # text for a screen reader: what the figure shows, with its main numbers
+    plot: Mapping[str, Any]  # figure of Plotly: data, layout and config, of built-in types
+    caption: str = ""  # what a reader must know of the figure, such as what was left out
 
 
 @dataclass(frozen=True)
 class Line:
     """Line of the table that the command prints; a line without text is a heading."""
 
-    # name and text: name of the quantity; value, unit and note.
     name: str
-    text: str = ""
+    text: str = ""  # value, unit and note
     alarm: bool = False  # whether the line says that the numbers must not be used
 
 
@@ -116,10 +102,8 @@ class MotionAnswer:
     times: tuple[float, ...]  # times of the instants, in the unit of the history
     # Sentence with time, minimum film, maximum field and breakdown voltage for every instant.
     texts: tuple[str, ...]
-    # at_least_film and at_largest_field: instants of the movie with the thinnest film and with the largest
-    # field.
-    at_least_film: int
-    at_largest_field: int
+    at_least_film: int  # instant of the movie with the thinnest film
+    at_largest_field: int  # instant of the movie with the largest field
     rows: tuple[tuple[str, str], ...]  # rows of the key figures: name, value and unit; a heading has no value
     warnings: tuple[Told, ...]
     folder: str
@@ -172,8 +156,7 @@ class Variable:
 
     key: str
     label: str
-    # low and high: ends of a range, with units.
-    low: str
+    low: str  # ends of a range, with units
     high: str
     log: bool = False  # whether values are better spaced by logarithms
 
@@ -195,9 +178,8 @@ class SweepPlan:
     # Estimated time [s]; None where films are solved, as that time is known only when some are.
     seconds: float | None
     workers: int  # processes that solve points
-    # refused and corners: number of corners of the ranges that are no valid case, and number of all corners.
-    refused: int = 0
-    corners: int = 0
+    refused: int = 0  # corners of the ranges that are no valid case
+    corners: int = 0  # all corners of the ranges
     reason: str = ""  # why the first of these is refused
 
 
@@ -248,8 +230,7 @@ class SweepView:
     values: Mapping[str, str]  # names of all numbers that some point has, by dotted key
     # Sentence about the error of films where contacts are not solved; empty where they are.
     accuracy: str = ""
-    # level and text: verdict; empty where no point has a margin.
-    level: str = ""
+    level: str = ""  # level of the verdict; empty where no point has a margin
     text: str = ""
     warnings: tuple[Told, ...] = field(default=())
 
@@ -268,12 +249,6 @@ _NO_CHANGE = 0.005
 
 # Critical speeds are found along speeds that depend on that of the case: a smaller change means nothing [%].
 _SPEED_ACCURACY = 1.0
-
-# Factors of the prefixes of units.
-_PREFIXES = {"p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}
-
-# Units that have a prefix in texts of results.
-_PREFIXED = ("s", "J", "V", "m", "F", "Hz")
 
 
 @dataclass(frozen=True)
@@ -296,14 +271,13 @@ class Result:
         """Number and its unit, also of a result that is a text such as "12.1 nJ"; None of other texts."""
         if self.value is not None:
             return self.value, ""
-        text, _, unit = self.text.partition(" ")
-        unit = unit or self.unit
-        base = next((one for one in _PREFIXED if unit.endswith(one) and unit[: -len(one)] in _PREFIXES), unit)
-        factor = _PREFIXES[unit.removesuffix(base)] if base else 1.0
-        try:
-            return factor * float(text), base
-        except ValueError:
+        found = split(self.text)
+        if found is None:
             return None, ""
+        unit = found[1] or self.unit
+        base = si_unit(unit)
+        factor = known_factor(unit, base)
+        return (found[0], unit) if factor is None else (factor * found[0], base)
 
     @property
     def shown(self) -> str:
@@ -326,8 +300,7 @@ class Side:
 
     kind: str
     title: str
-    # level and text: level of the verdict and its sentences, without solving.
-    level: str
+    level: str  # level of the verdict, without solving
     text: str
     results: tuple[Result, ...]
     warnings: tuple[Told, ...] = ()
@@ -340,8 +313,7 @@ class InputRow:
     """Input of both cases."""
 
     key: str
-    # first and second: values as they are written; empty where a case does not give it.
-    first: str
+    first: str  # values as they are written; empty where a case does not give them
     second: str
     sign: Literal["=", "≠", "only A", "only B"]
 
@@ -350,8 +322,7 @@ class InputRow:
 class Effect:
     """Result of both cases."""
 
-    # first and second: the result of each case; None where a case has none.
-    first: Result | None
+    first: Result | None  # results of both cases; None where a case has none
     second: Result | None
     # Change from the first to the second [%]; None where one has no number, or the first is zero.
     change: float | None
@@ -384,8 +355,8 @@ class Effect:
             return "differs" if self.first and self.second else "only A" if self.first else "only B"
         if abs(self.change) < self._accuracy:
             return "no change"
-        sign, digits = ("▲ +" if self.change > 0.0 else "▼ −"), abs(self.change)
-        number = f"{digits:.3g}" if digits < 1000.0 else f"{digits:.0f}"
+        sign, size = ("▲ +" if self.change > 0.0 else "▼ −"), abs(self.change)
+        number = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
         return f"{sign}{number}\N{NO-BREAK SPACE}%"
 
 
@@ -430,16 +401,16 @@ def _effect(first: Result | None, second: Result | None) -> Effect:
     return Effect(first, second, change if math.isfinite(change) else None)
 
 
-def only_in(first: Side, second: Side) -> Iterator[Told]:
+def only_in(first: Side, second: Side) -> list[Told]:
     """Warnings that the first case has, and the second has not in any words."""
     codes = {told.code for told in second.warnings}
-    return (told for told in first.warnings if told.code not in codes)
+    return [told for told in first.warnings if told.code not in codes]
 
 
-def in_both(first: Side, second: Side) -> Iterator[Told]:
+def in_both(first: Side, second: Side) -> list[Told]:
     """Warnings of the first case that the second has, too."""
     codes = {told.code for told in second.warnings}
-    return (told for told in first.warnings if told.code in codes)
+    return [told for told in first.warnings if told.code in codes]
 
 
 @dataclass(frozen=True)
@@ -448,17 +419,21 @@ class Number:
 
     key: str
     label: str
-    # text and unit: the number as it is shown, or why there is none, and its unit.
-    text: str
+    text: str  # the number as it is shown, or why there is none
     unit: str = ""
-    note: str = ""  # what a reader must know beside it
+    note: str = ""  # what a reader must know of the number
     bound: str = ""  # "≤" where the value is an upper bound only, "≥" where it is a lower one
     known: bool = True
     told: tuple[Told, ...] = ()
 
+    @property
+    def with_unit(self) -> str:
+        """Bound, value and unit."""
+        return " ".join(filter(None, [self.bound, self.text, self.unit]))
+
 
 # Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
-# in the verdict and beside the margin.
+# in the verdict and next to the margin.
 PENDING = "…"
 FOLLOWS = "Margin at once; its range follows."
 RANGE_FOLLOWS = "its range within the stated ranges follows"
@@ -466,7 +441,7 @@ RANGE_FOLLOWS = "its range within the stated ranges follows"
 
 @dataclass(frozen=True)
 class Judged:
-    """Verdict on a bearing, taken apart."""
+    """Verdict on a bearing or a drive, in its parts."""
 
     level: str  # "green", "yellow", "red", or "grey" without a verdict
     # Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
@@ -480,20 +455,10 @@ class Judged:
 
 @dataclass(frozen=True)
 class Table:
-    """Table of texts.
-
-    Attributes
-    ----------
-    caption : str
-        What the table has.
-    heads : tuple of str
-        Heads of the columns, with units.
-    rows : tuple of tuple of str
-        Cells.
-    """
+    """Table of texts."""
 
     caption: str
-    heads: tuple[str, ...]
+    heads: tuple[str, ...]  # heads of the columns, with units
     rows: tuple[tuple[str, ...], ...]
 
 
@@ -505,7 +470,7 @@ class Figure:
     label: str  # what it shows, for those who do not see it
     plot: Mapping[str, Any]  # data and layout of Plotly
     table: Table
-    caption: str = ""  # what a reader must know beside the figure
+    caption: str = ""  # what a reader must know of the figure
 
 
 @dataclass(frozen=True)
@@ -519,8 +484,23 @@ class Difference:
     way: str
 
 
+class PageAnswer:
+    """What the answers about a bearing and about a drive have in common."""
+
+    judged: Judged  # the verdict in its parts
+    how: str  # how the answer was computed, and how far off it may be
+    shown: tuple[Number, ...]  # numbers that the page shows large
+    lines: tuple[Line, ...]  # all rows that the command prints
+    warnings: tuple[Told, ...]
+    figures: Mapping[str, Figure]
+
+    def number(self, key: str) -> Number | None:
+        """Number of a key; None where the answer has none."""
+        return next((one for one in self.shown if one.key == key), None)
+
+
 @dataclass(frozen=True)
-class BearingAnswer:
+class BearingAnswer(PageAnswer):
     """Answer about a bearing, in SI units."""
 
     title: str
@@ -530,8 +510,8 @@ class BearingAnswer:
     converged: bool  # whether the films of all contacts converged
     level: str  # level of the verdict; "grey" without one
     text: str
-    judged: Judged  # the verdict taken apart
-    how: str  # how the contacts were computed, and how far off they may be
+    judged: Judged
+    how: str
     shown: tuple[Number, ...]
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
     margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``whole``
@@ -545,36 +525,33 @@ class BearingAnswer:
     differences: tuple[Difference, ...] = field(default=())
     effects: Table | None = None  # margins if one input changes; None unless ``whole``, and without a margin
 
-    def number(self, key: str) -> Number | None:
-        """Number of a key; None where the answer has none."""
-        return next((one for one in self.shown if one.key == key), None)
+
+@dataclass(frozen=True)
+class ContactAnswer:
+    """What the answers about a contact before and after its solution have in common."""
+
+    title: str
+    geometry: str  # "line" or "point"
+    level: str  # level of the verdict, "grey" where there is none
+    text: str  # the verdict in sentences
+    numbers: tuple[Number, ...]  # main numbers; none where a solved film is not converged
+    rows: tuple[Line, ...]  # table that the command prints
+    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
 
 
 @dataclass(frozen=True)
-class ContactCheck:
+class ContactCheck(ContactAnswer):
     """Answer about a contact before its film is solved, as of ``ehlectric check``."""
 
-    # title and geometry: title of the case; "line" or "point"
-    title: str
-    geometry: str
-    # level and text: level of the verdict by formula, "grey" where there is none, and the verdict in
-    # sentences.
-    level: str
-    text: str
-    numbers: tuple[Number, ...]
-    rows: tuple[Line, ...]  # table that the command prints
-    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
     summary: Mapping[str, Any] = field(repr=False)  # numbers in SI units with the keys of the command
     quick: bool = False  # whether the contact is solved so fast that the page need not be asked to
-    moving: bool = False  # whether the roughness moves, so that a run in time answers
 
 
 @dataclass(frozen=True)
 class Reach:
     """Range of the points through which a point contact can be cut, and the first one."""
 
-    # x and y: ends of the range, in ``unit``
-    x: tuple[float, float]
+    x: tuple[float, float]  # ends of the range, in ``unit``
     y: tuple[float, float]
     at: tuple[float, float]  # first point, such as that of the minimum film, in ``unit``
     unit: str
@@ -583,18 +560,10 @@ class Reach:
 
 
 @dataclass(frozen=True)
-class ContactView:
+class ContactView(ContactAnswer):
     """Solved contact."""
 
-    # title and geometry: title of the case; "line" or "point"
-    title: str
-    geometry: str
     converged: bool  # whether the film converged; if not, no number may be used
-    level: str
-    text: str
-    numbers: tuple[Number, ...]  # main numbers; none where the film is not converged
-    rows: tuple[Line, ...]  # table that the command prints
-    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
     figures: tuple[Shown, ...] = field(repr=False)
     # Figures of the cuts through one point of a point contact.
     cuts: tuple[Shown, ...] = field(default=(), repr=False)
@@ -604,14 +573,14 @@ class ContactView:
 
 
 @dataclass(frozen=True)
-class DriveAnswer:
+class DriveAnswer(PageAnswer):
     """Answer about a drive."""
 
     title: str
     simulated: bool  # whether the drive was simulated; otherwise the answer is that of the capacitive divider
-    judged: Judged  # verdict taken apart
-    how: str  # how the answer was computed, and what it leaves out
-    # Numbers at the top: before a simulation of its circuit and its films, after it of its discharges, too.
+    judged: Judged
+    how: str
+    # Before a simulation the numbers of its circuit and its films, after it those of its discharges, too.
     shown: tuple[Number, ...]
     ends: Table  # numbers of both bearings side by side
     lines: tuple[Line, ...]  # all rows that the command prints
@@ -622,7 +591,3 @@ class DriveAnswer:
     # simulation.
     figures: Mapping[str, Figure] = field(default_factory=dict)
     seconds: float = 0.0  # computing time of a simulation [s]
-
-    def number(self, key: str) -> Number | None:
-        """Number of a key; None where the answer has none."""
-        return next((one for one in self.shown if one.key == key), None)

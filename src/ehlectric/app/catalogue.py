@@ -24,7 +24,7 @@ _COATED = {"inner": "Coating on the inner ring", "outer": "Coating on the outer 
 
 @cache
 def bearing(name: str) -> dict[str, Any]:
-    """Table of a bearing of the library, with texts as the file has them; empty for another name."""
+    """Table of a bearing of the library, with texts as its file has them; empty for another name."""
     return library.bearing(name) if name in library.bearing_names() else {}
 
 
@@ -50,19 +50,18 @@ def oil_needs(name: str) -> tuple[str, ...]:
 @cache
 def choices() -> dict[str, tuple[Choice, ...]]:
     """Choices by key: ``bearing.base``, ``lubricant.base``, ``bearing.coating.base`` and materials."""
-    rolling = tuple(Choice(name, name) for name in library.solid_names(rolling=True))
-    solids = tuple(Choice(name, name) for name in library.solid_names())
-    thermal = tuple(Choice(name, name) for name in library.solid_names(thermal=True))
+    solids = {
+        ("bearing.element_material", "bearing.ring_material"): library.solid_names(rolling=True),
+        ("contact.body_1.material", "contact.body_2.material"): library.solid_names(thermal=True),
+        ("bearing.fits.shaft_material", "bearing.fits.housing_material"): library.solid_names(),
+    }
     return {
-        "bearing.base": tuple(_bearing(name) for name in library.bearing_names()),
-        "lubricant.base": tuple(_oil(name) for name in library.lubricant_names()),
-        "bearing.coating.base": tuple(_coating(name) for name in library.coating_names()),
-        "bearing.element_material": rolling,
-        "bearing.ring_material": rolling,
-        "contact.body_1.material": thermal,
-        "contact.body_2.material": thermal,
-        "bearing.fits.shaft_material": solids,
-        "bearing.fits.housing_material": solids,
+        "bearing.base": tuple(map(_bearing, library.bearing_names())),
+        "lubricant.base": tuple(map(_oil, library.lubricant_names())),
+        "bearing.coating.base": tuple(map(_coating, library.coating_names())),
+        **{
+            key: tuple(Choice(name, name) for name in names) for keys, names in solids.items() for key in keys
+        },
     }
 
 

@@ -16,9 +16,11 @@ _QUIET = 0.3
 
 
 class Following(Generic[I, T]):
-    """Answers to the latest inputs; those to older inputs that have not begun are never computed. ``quick``
-    and ``whole``, compute the answer at once and the whole one; None where the one at once is whole;
-    ``refuse``, called with the error where the latest inputs have no answer.
+    """Answers to the latest inputs; those to older inputs that have not begun are never computed.
+
+    ``quick`` computes an answer at once, and ``whole`` the whole one, unless the first is whole already.
+    ``show`` shows an answer to the latest inputs, ``passing`` one to inputs that have changed meanwhile, and
+    ``refuse`` the error where the latest inputs have no answer.
     """
 
     def __init__(
@@ -40,9 +42,7 @@ class Following(Generic[I, T]):
         self._later: asyncio.Task[None] | None = None
 
     def ask(self, inputs: I) -> asyncio.Task[None]:
-        """Ask for the answers to new inputs. Returns task that ends when the latest inputs have their answer
-        at once.
-        """
+        """Ask for the answers to new inputs; the task ends when the latest inputs have their quick answer."""
         self.drop()
         self._wanted = (self._asked, inputs)
         if self._running is None or self._running.done():
@@ -57,33 +57,32 @@ class Following(Generic[I, T]):
     async def _run(self) -> None:
         while self._wanted is not None:
             (asked, inputs), self._wanted = self._wanted, None
-            try:
-                answer = await self._quick(inputs)
-            except (InputError, ConvergenceError, LostError) as error:
-                if asked == self._asked:
-                    self._refuse(error)
-                continue
-            if asked == self._asked:
+            answer = await self._answer(asked, inputs, self._quick)
+            if answer is not None and asked == self._asked:
                 if self._whole is not None:
                     self._later = asyncio.create_task(self._when_quiet(asked, inputs, self._whole))
                 self._show(inputs, answer)
-            elif self._waits():
+            elif answer is not None and self._waits():
                 self._pass(inputs, answer)
 
     def _waits(self) -> bool:
         """Whether newer inputs wait for their answer; they do not where nothing is wanted any more."""
         return self._wanted is not None
 
+    async def _answer(self, asked: int, inputs: I, compute: Callable[[I], Awaitable[T]]) -> T | None:
+        """Answer to inputs; None for an error, which is shown if they are still the latest."""
+        try:
+            return await compute(inputs)
+        except (InputError, ConvergenceError, LostError) as error:
+            if asked == self._asked:
+                self._refuse(error)
+            return None
+
     async def _when_quiet(self, asked: int, inputs: I, whole: Callable[[I], Awaitable[T]]) -> None:
         await asyncio.sleep(_QUIET)
         async with self._behind:
             if asked != self._asked:
                 return
-            try:
-                answer = await whole(inputs)
-            except (InputError, ConvergenceError, LostError) as error:
-                if asked == self._asked:
-                    self._refuse(error)
-                return
-        if asked == self._asked:
+            answer = await self._answer(asked, inputs, whole)
+        if answer is not None and asked == self._asked:
             self._show(inputs, answer)

@@ -1,14 +1,11 @@
-"""Inputs of a page: the tables of an input file as a person writes them, in an address and as TOML; those
-of a sweep.
+"""Inputs of a page: the tables of an input file as a person writes them, in an address and as TOML.
 
-Inputs of a page: the tables of an input file as a person writes them, in an address and as TOML.
 A page has no other state of its inputs, so that a link and a downloaded file have all of them. Numbers stay
 the texts that were typed, such as "1800 N". An address has a pair of dotted key and value for every input,
 both as in TOML, but texts without quotes where they cannot be mistaken for another value.
 
-Inputs of the sweep page: a sweep file with its base case inside, and the result that the map shows.
-``case`` and ``vary`` are those of a sweep file, so that the downloaded file runs as it is. ``show`` is the
-dotted key of the shown result; only the address has it.
+Inputs of the sweep page are those of a sweep file with its base case inside, so that the downloaded file runs
+as it is, and ``show``, the dotted key of the shown result, which only the address has.
 """
 
 from __future__ import annotations
@@ -17,7 +14,7 @@ import datetime
 import re
 import time
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from copy import deepcopy
@@ -34,6 +31,9 @@ LONGEST_QUERY = 16_000
 
 # Parts of an address that are no inputs: the token of a server that other machines reach.
 _NO_INPUTS = ("token",)
+
+# Keys of the ends of a range in a sweep file.
+_ENDS = ("from", "to")
 
 # Part of a dotted key that TOML takes without quotes, and characters that it takes as escapes only.
 # Longest key with names in quotes: its parts are looked for in a time that grows with its square.
@@ -79,15 +79,15 @@ class Inputs:
         """
         import tomli_w
 
-        vary = self.table.get("vary")
-        lines = list(_varied(vary)) if isinstance(vary, Mapping) else []
+        # A range stands on one line: tables with headings would have to follow the lists of values.
+        lines = [f"{_dotted(names)} = {_toml(value)}" for names, value in _varied(self)]
         rest = {key: value for key, value in self.table.items() if key != "vary" or not lines}
         text: str = tomli_w.dumps(rest)
         return text + "\n".join(["", "[vary]", *lines, ""]) if lines else text
 
     def flat(self) -> dict[str, Any]:
         """Values by dotted key; lists of tables are values, and names with dots stand in quotes."""
-        return dict(_flat(self.table))
+        return {_dotted(names): value for names, value in _leaves(self.table)}
 
     def address(self) -> str:
         """Query of an address that holds these inputs."""
@@ -100,8 +100,9 @@ class Inputs:
 
     @classmethod
     def of_query(cls, pairs: Iterable[tuple[str, str]]) -> Self:
-        """Inputs of the query of an address, as pairs of key and text. Raises InputError if the query is too
-        long, or its keys contradict each other or are no keys.
+        """Inputs of the query of an address, as pairs of key and text.
+
+        Raises InputError if the query is too long, or its keys contradict each other or are no keys.
         """
         table: dict[str, Any] = {}
         length = 0
@@ -186,19 +187,18 @@ class History:
 
     def undo(self) -> Inputs:
         """Go back to the inputs before; the present ones where there are none."""
-        self._last = None
-        if self.before:
-            self.after.append(self.now)
-            self.now = self.before.pop()
-            self._tell()
-        return self.now
+        return self._go(self.before, self.after)
 
     def redo(self) -> Inputs:
         """Take back an undo."""
+        return self._go(self.after, self.before)
+
+    def _go(self, there: list[Inputs], back: list[Inputs]) -> Inputs:
+        """Make the last inputs of a list the present ones, and keep those before in another list."""
         self._last = None
-        if self.after:
-            self.before.append(self.now)
-            self.now = self.after.pop()
+        if there:
+            back.append(self.now)
+            self.now = there.pop()
             self._tell()
         return self.now
 
@@ -213,6 +213,7 @@ _STEPS = 100
 
 def parts_of(key: str) -> list[str]:
     """Names of the tables and the value to which a dotted key leads; a name with dots stands in quotes.
+
     Raises InputError if it is no key.
 
     Examples
@@ -300,26 +301,24 @@ def _add(table: dict[str, Any], key: str, value: Any) -> None:
     table[leaf] = value
 
 
-def _flat(table: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
+def _leaves(table: Mapping[str, Any], whole: Collection[str] = ()) -> Iterator[tuple[list[str], Any]]:
+    """Values with the names that lead to them; a table that has one of the keys ``whole`` is a value."""
     for name, value in table.items():
-        key = prefix + _name(name)
-        if isinstance(value, Mapping) and value:
-            yield from _flat(value, f"{key}.")
+        if isinstance(value, Mapping) and value and value.keys().isdisjoint(whole):
+            yield from (([name, *names], leaf) for names, leaf in _leaves(value, whole))
         else:
-            yield key, value
+            yield [name], value
 
 
-def _varied(table: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
-    """Lines of the table ``vary``, a range as a table on its line.
+def _dotted(names: list[str]) -> str:
+    """Dotted key of names; a name with dots stands in quotes."""
+    return ".".join(map(_name, names))
 
-    Tables with a heading of their own would have to follow the lists of values.
-    """
-    for name, value in table.items():
-        key = prefix + _name(name)
-        if isinstance(value, Mapping) and value and not {"from", "to"} & value.keys():
-            yield from _varied(value, f"{key}.")
-        else:
-            yield f"{key} = {_toml(value)}"
+
+def _varied(inputs: Inputs) -> list[tuple[list[str], Any]]:
+    """Varied inputs with the names of their keys, in the order of the design; a range is a table."""
+    vary = inputs.table.get("vary")
+    return list(_leaves(vary, _ENDS)) if isinstance(vary, Mapping) else []
 
 
 def _written(value: Any) -> str:
@@ -398,7 +397,8 @@ def sweep_inputs(inputs: Inputs) -> Inputs | None:
     if isinstance(inputs.value("case"), Mapping):
         return inputs
     if any(inputs.value(table) for table in ("bearing", "drive_end", "contact")):
-        return Inputs({"case": _of_case(inputs.table)})
+        others = ("vary", "show", "case", "token")
+        return Inputs({"case": {key: value for key, value in inputs.table.items() if key not in others}})
     return None
 
 
@@ -417,7 +417,7 @@ def case_of_link(link: str) -> dict[str, Any] | None:
 
 def ranges_of(inputs: Inputs) -> list[Range]:
     """Ranges of the varied inputs, in the order of the design; lists of values are none."""
-    return [one for _, one in _varied_keys(inputs) if isinstance(one, Range)]
+    return [one for _, one in _varied_ranges(inputs) if isinstance(one, Range)]
 
 
 def lists_of(inputs: Inputs) -> dict[str, Any]:
@@ -428,7 +428,7 @@ def lists_of(inputs: Inputs) -> dict[str, Any]:
     >>> lists_of(Inputs({"vary": {"bearing": {"elements": [8, 9]}}}))
     {'bearing.elements': [8, 9]}
     """
-    return {key: value for key, value in _varied_keys(inputs) if not isinstance(value, Range)}
+    return {key: value for key, value in _varied_ranges(inputs) if not isinstance(value, Range)}
 
 
 def with_ranges(inputs: Inputs, ranges: list[Range]) -> Inputs:
@@ -442,7 +442,7 @@ def with_ranges(inputs: Inputs, ranges: list[Range]) -> Inputs:
     """
     new = iter(ranges)
     varied: dict[str, Any] = {}
-    for key, value in _varied_keys(inputs):
+    for key, value in _varied_ranges(inputs):
         if not isinstance(value, Range):
             varied[key] = value
         elif (one := next(new, None)) is not None:
@@ -483,24 +483,15 @@ def number_of_text(text: str) -> str | int | float:
     return int(text) if re.fullmatch(r"[-+]?\d{1,15}", text.strip()) else float(text)
 
 
-def _of_case(table: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in table.items() if key not in ("vary", "show", "case", "token")}
-
-
-def _varied_keys(inputs: Inputs) -> list[tuple[str, Any]]:
+def _varied_ranges(inputs: Inputs) -> list[tuple[str, Any]]:
     """Varied inputs in the order of the design, by dotted key: a range, or other values as they are."""
-    table = inputs.value("vary")
-    return list(_leaves(table)) if isinstance(table, Mapping) else []
+    varied = ((".".join(names), value) for names, value in _varied(inputs))
+    return [(key, _range(key, value)) for key, value in varied]
 
 
-def _leaves(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in table.items():
-        key = f"{prefix}{name}"
-        if not isinstance(value, Mapping) or not value:
-            yield key, value
-        elif "from" in value or "to" in value:
-            log = value.get("spacing") == "log"
-            ends = (str(value.get("from", "")), str(value.get("to", "")))
-            yield key, Range(key, *ends, count=value.get("count", ""), log=log)
-        else:
-            yield from _leaves(value, f"{key}.")
+def _range(key: str, value: Any) -> Any:
+    """Range of a table of a sweep file; another value as it is."""
+    if not isinstance(value, Mapping) or not value:
+        return value
+    start, stop = (str(value.get(name, "")) for name in _ENDS)
+    return Range(key, start, stop, value.get("count", ""), value.get("spacing") == "log")

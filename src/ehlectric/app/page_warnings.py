@@ -1,4 +1,4 @@
-"""Warnings as the pages tell them: next to the numbers that they concern."""
+"""Warnings as the pages show them: next to the numbers that they concern."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ class Told:
     code: str
     severity: str
     text: str
-    # Keys of the quantities that it concerns, of which a page shows it beside those that it has; empty for a
+    # Keys of the quantities that it concerns, next to which a page shows it; empty for a
     # warning that concerns the whole result.
     beside: tuple[str, ...] = ()
     meaning: str = ""  # meaning of the code in one sentence, without numbers
 
 
-# Order in which warnings are told.
+# Severities in the order in which they are counted.
 SEVERITIES = ("severe", "warning", "note")
 
 
@@ -35,7 +35,7 @@ def within(told: Iterable[Told], keys: Collection[str]) -> tuple[Told, ...]:
 
 
 def elsewhere(told: Iterable[Told]) -> tuple[Told, ...]:
-    """Warnings that concern no single number, which a list below the numbers tells."""
+    """Warnings that concern no single number, which stand in a list below the numbers."""
     return tuple(one for one in told if not one.beside)
 
 

@@ -52,9 +52,8 @@ class Bounds:
 class Worker:
     """Process that calls functions, one at a time.
 
-    The process starts with the first call. Where it has died, the next call starts another.
-
-    ``bounds``, returns the bounds of the process when it starts.
+    The process starts with the first call, within the bounds that ``bounds`` returns then. Where it has died,
+    the next call starts another.
     """
 
     def __init__(self, context: Any, bounds: Callable[[], Bounds]) -> None:
@@ -89,8 +88,9 @@ class Worker:
     def ask(
         self, function: Callable[..., Any], values: tuple[Any, ...], tell: Progress | None = None
     ) -> Returned | Raised:
-        """Call a function in the process, and wait for its outcome; for a thread. Returns outcome; a
-        LostError where the process died.
+        """Call a function in the process, and wait for its outcome, a LostError where the process died.
+
+        This blocks its thread.
         """
         try:
             self.start()
@@ -152,7 +152,7 @@ class Worker:
 
 
 def new_context() -> Any:
-    """Way in which processes are started: forks of one that has loaded the physics, or new ones."""
+    """Context that starts processes: forks of one that has loaded the physics, or new ones."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     # A fork must not inherit the threads of a BLAS library.

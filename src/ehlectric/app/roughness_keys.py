@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -18,6 +18,7 @@ class RoughKey:
     choices: Mapping[str, str] = field(default_factory=dict)
     number: bool = False  # whether the value is a number without a unit
     point: bool = False  # whether only point contacts use it
+    needed: bool = False  # whether a made surface must have it
 
 
 FILE_KEYS = (
@@ -69,74 +70,59 @@ PLACE_KEYS = (
     RoughKey("shift_y", "Shift along y", "20 um", point=True),
 )
 
-GENERATOR_NAMES = MappingProxyType(
-    {
-        "sinusoid": "waviness (sinusoid)",
-        "gaussian": "random (Gaussian)",
-        "self-affine": "random (self-affine)",
-        "asperity": "single asperity",
-        "pit": "single pit",
-    }
-)
+GENERATOR_NAMES: Mapping[str, str] = {
+    "sinusoid": "waviness (sinusoid)",
+    "gaussian": "random (Gaussian)",
+    "self-affine": "random (self-affine)",
+    "asperity": "single asperity",
+    "pit": "single pit",
+}
 
-_RQ = RoughKey("rq", "Root mean square height Rq", "50 nm")
-_SEED = RoughKey("seed", "Seed of the random numbers", "1", number=True)
-_WIDTH = RoughKey("width", "Width", "50 um")
+_RQ = RoughKey("rq", "Root mean square height Rq", "50 nm", needed=True)
+_SEED = RoughKey("seed", "Seed of the random numbers", "1", number=True, needed=True)
+_WIDTH = RoughKey("width", "Width", "50 um", needed=True)
 _ORIENTATION = RoughKey("orientation", "Orientation, counter-clockwise from x", "30 deg", point=True)
 _PLACES = (
     RoughKey("position", "Position along x", "0 um"),
     RoughKey("position_y", "Position along y", "0 um", point=True),
 )
 
-# Keys of each kind of made surface; those without one of ``FIRST_VALUES`` are optional.
-GENERATOR_KEYS: Mapping[str, tuple[RoughKey, ...]] = MappingProxyType(
-    {
-        "sinusoid": (
-            RoughKey("amplitude", "Amplitude", "50 nm"),
-            RoughKey("wavelength", "Wavelength", "50 um"),
-            RoughKey("phase", "Phase [rad]", "0", number=True),
-            _ORIENTATION,
+# Keys of each kind of made surface.
+GENERATOR_KEYS: Mapping[str, tuple[RoughKey, ...]] = {
+    "sinusoid": (
+        RoughKey("amplitude", "Amplitude", "50 nm", needed=True),
+        RoughKey("wavelength", "Wavelength", "50 um", needed=True),
+        RoughKey("phase", "Phase [rad]", "0", number=True),
+        _ORIENTATION,
+    ),
+    "gaussian": (
+        _RQ,
+        RoughKey("correlation_length", "Correlation length along x", "20 um", needed=True),
+        _SEED,
+        RoughKey(
+            "correlation_length_y", "Correlation length along y (empty: as along x)", "60 um", point=True
         ),
-        "gaussian": (
-            _RQ,
-            RoughKey("correlation_length", "Correlation length along x", "20 um"),
-            _SEED,
-            RoughKey(
-                "correlation_length_y", "Correlation length along y (empty: as along x)", "60 um", point=True
-            ),
-            _ORIENTATION,
+        _ORIENTATION,
+    ),
+    "self-affine": (
+        _RQ,
+        RoughKey("hurst", "Hurst exponent", "0.8", number=True, needed=True),
+        RoughKey("rolloff_wavelength", "Roll-off wavelength", "50 um", needed=True),
+        _SEED,
+        RoughKey(
+            "shortest_wavelength",
+            "Shortest wavelength (empty: a fraction of the roll-off wavelength)",
+            "2 um",
         ),
-        "self-affine": (
-            _RQ,
-            RoughKey("hurst", "Hurst exponent", "0.8", number=True),
-            RoughKey("rolloff_wavelength", "Roll-off wavelength", "50 um"),
-            _SEED,
-            RoughKey(
-                "shortest_wavelength",
-                "Shortest wavelength (empty: a fraction of the roll-off wavelength)",
-                "2 um",
-            ),
-        ),
-        "asperity": (RoughKey("height", "Height", "50 nm"), _WIDTH, *_PLACES),
-        "pit": (
-            RoughKey("depth", "Depth", "500 nm"),
-            _WIDTH,
-            RoughKey("rim", "Height of the rim", "0 nm"),
-            *_PLACES,
-        ),
-    }
-)
-
-# Values with which a made surface begins. All are assumptions.
-FIRST_VALUES: Mapping[str, Mapping[str, str | int | float]] = MappingProxyType(
-    {
-        "sinusoid": {"amplitude": "50 nm", "wavelength": "50 um"},
-        "gaussian": {"rq": "50 nm", "correlation_length": "20 um", "seed": 1},
-        "self-affine": {"rq": "50 nm", "hurst": 0.8, "rolloff_wavelength": "50 um", "seed": 1},
-        "asperity": {"height": "50 nm", "width": "50 um"},
-        "pit": {"depth": "500 nm", "width": "50 um"},
-    }
-)
+    ),
+    "asperity": (RoughKey("height", "Height", "50 nm", needed=True), _WIDTH, *_PLACES),
+    "pit": (
+        RoughKey("depth", "Depth", "500 nm", needed=True),
+        _WIDTH,
+        RoughKey("rim", "Height of the rim", "0 nm"),
+        *_PLACES,
+    ),
+}
 
 # Kinds of made surfaces with processing steps: random ones.
 STEPPED = ("gaussian", "self-affine")
@@ -162,3 +148,10 @@ def value_of(key: RoughKey, text: str) -> str | int | float | bool | None:
             except ValueError:
                 continue
     return text
+
+
+# Values with which a made surface begins: the examples of the keys that it needs. All are assumptions.
+FIRST_VALUES: Mapping[str, Mapping[str, Any]] = {
+    kind: {key.key: value_of(key, key.example) for key in keys if key.needed}
+    for kind, keys in GENERATOR_KEYS.items()
+}

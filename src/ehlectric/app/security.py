@@ -1,9 +1,8 @@
-"""Access to the pages: requests that are answered or refused, their size and number, and what a page may
-load.
+"""Access to the pages: requests that are answered or refused, their size and number, and what pages may load.
 
-Messages of browsers that are none of the protocol, such as those of a scanner: one line of the log each.
-The libraries behind the pages write a traceback for each of them, by which anybody could fill the log and
-hide the faults of the program. These faults keep their traceback.
+A message of a browser that cannot be read, such as that of a scanner, is one line of the log. The libraries
+behind the pages write a traceback for each of them, by which anybody could fill the log and hide the faults
+of the program. These faults keep their traceback.
 
 Bound to this machine, the server answers only requests that name this machine, so that no other page in the
 browser reaches it by a name of its own (DNS rebinding). Bound to another address, it asks for a token, which
@@ -16,16 +15,18 @@ import ipaddress
 import logging
 import re
 import secrets
-from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 from http.cookies import CookieError, SimpleCookie
 from pathlib import PurePath
 from types import TracebackType
-from typing import Any
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
+from starlette.responses import HTMLResponse, PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ehlectric.errors import printable
 
@@ -49,7 +50,7 @@ _HEADERS = (
 _SCRIPT = re.compile(rb"<script(?=[\s>])")
 
 
-def with_policy(inner: Handler) -> Handler:
+def with_policy(inner: ASGIApp) -> ASGIApp:
     """Application whose responses say what a browser may load and run."""
 
     async def marked(scope: Scope, receive: Receive, send: Send) -> None:
@@ -108,8 +109,8 @@ MOST_PAGES = 200
 _PARTS = ("/_nicegui", "/favicon.ico")
 
 
-def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MOST_AT_ONCE) -> Handler:
-    """Application that refuses a request with a larger body, whether it tells its size or not.
+def with_bounded_bodies(inner: ASGIApp, most: int = MOST_BODY, at_once: int = MOST_AT_ONCE) -> ASGIApp:
+    """Application that refuses a request with a larger body, whether it states its size or not.
 
     It also refuses a request when those that are being answered have large bodies together.
 
@@ -123,10 +124,10 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MO
         if scope["type"] != "http":
             await inner(scope, receive, send)
             return
-        told = headers_of(scope).get("content-length", "0")
+        told = Headers(scope=scope).get("content-length", "0")
         reason = f"A request has at most {most / 1e6:g} MB."
         if not told.isdecimal() or int(told) > most:
-            await refuse(scope, send, 413, reason)
+            await refuse(scope, receive, send, 413, reason)
             return
         read = 0
 
@@ -149,29 +150,31 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MO
     return bounded
 
 
-def with_bounded_pages(inner: Handler, number: Callable[[], int], most: int = MOST_PAGES) -> Handler:
+def with_bounded_pages(inner: ASGIApp, number: Callable[[], int], most: int = MOST_PAGES) -> ASGIApp:
     """Application that opens no further page where many are open."""
 
     async def bounded(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http" and not scope["path"].startswith(_PARTS) and number() >= most:
-            await refuse(scope, send, 503, f"{most} pages are open; close one of them and try again.")
+            await refuse(
+                scope, receive, send, 503, f"{most} pages are open; close one of them and try again."
+            )
         else:
             await inner(scope, receive, send)
 
     return bounded
 
 
-# Loggers that tell of an error in a message, and packages that read messages.
+# Loggers that report an error in a message, and packages that read messages.
 _LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server")
 _READERS = ("engineio", "socketio")
 _PROGRAM = __name__.partition(".")[0]
 
-# Longest text of an error that is told, since it may quote the message [characters].
+# Longest text of an error that is logged, since it may quote the message [characters].
 _LONGEST = 200
 
 
 def tell_in_one_line() -> None:
-    """Let the loggers of the server tell of a message that cannot be read in one line."""
+    """Make the loggers of the server report a message that cannot be read in one line."""
     for name in _LOGGERS:
         logger = logging.getLogger(name)
         if not any(isinstance(each, _OneLine) for each in logger.filters):
@@ -210,15 +213,11 @@ def _paths(trace: TracebackType | None) -> Iterator[PurePath]:
         trace = trace.tb_next
 
 
-Scope = MutableMapping[str, Any]
-Message = MutableMapping[str, Any]
-Receive = Callable[[], Awaitable[Message]]
-Send = Callable[[Message], Awaitable[None]]
-Handler = Callable[[Scope, Receive, Send], Awaitable[None]]
-Headers = list[tuple[bytes, bytes]]
-
 # Name of the key of an address that holds the token.
 _KEY = "token"
+
+# Header of a response that no cache keeps.
+_UNCACHED = {"cache-control": "no-store"}
 
 _OTHERS = "Requests of other sites are refused."
 
@@ -255,23 +254,25 @@ class Guard:
         """Name of the cookie; browsers share cookies between the ports of a machine."""
         return f"ehlectric_{_KEY}_{self.port}"
 
-    def around(self, inner: Handler) -> Handler:
+    def around(self, inner: ASGIApp) -> ASGIApp:
         """Application that refuses requests against the rules, and passes on all others."""
 
         async def guarded(scope: Scope, receive: Receive, send: Send) -> None:
             if scope["type"] not in ("http", "websocket"):
                 await inner(scope, receive, send)
                 return
-            headers = headers_of(scope)
+            headers = Headers(scope=scope)
             reason = self.refused(headers) or _from_elsewhere(scope, headers)
             if reason:
-                await refuse(scope, send, 403, reason)
+                await refuse(scope, receive, send, 403, reason)
             elif not self.token or self._has_cookie(headers):
                 await inner(scope, receive, send)
             elif self._has_token(scope):
-                await self._admit(scope, send)
+                await self._admit(scope, receive, send)
             else:
-                await refuse(scope, send, 403, "The address needs the token that the command printed.")
+                await refuse(
+                    scope, receive, send, 403, "The address needs the token that the command printed."
+                )
 
         return guarded
 
@@ -300,7 +301,7 @@ class Guard:
             return False
         return any(self._is_token(value) for key, value in _query(scope) if key == _KEY)
 
-    async def _admit(self, scope: Scope, send: Send) -> None:
+    async def _admit(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Give the cookie, and lead the browser to the address without the token.
 
         A page leads it on, because browsers do not send a strict cookie along a redirection from another
@@ -311,8 +312,7 @@ class Guard:
         target = "/" + quote(scope["path"].lstrip("/\\")) + (f"?{query}" if query else "")
         cookie = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         page = f'<!DOCTYPE html><meta http-equiv="refresh" content="0; url={escape(target)}">'
-        headers = [(b"content-type", b"text/html; charset=utf-8"), (b"set-cookie", cookie.encode())]
-        await respond(send, 200, headers, page)
+        await HTMLResponse(page, headers={**_UNCACHED, "set-cookie": cookie})(scope, receive, send)
 
 
 def is_loopback(host: str) -> bool:
@@ -345,25 +345,12 @@ def is_any(host: str) -> bool:
         return False
 
 
-def headers_of(scope: Scope) -> dict[str, str]:
-    """Headers of a request by their names in small letters."""
-    return {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
-
-
-async def refuse(scope: Scope, send: Send, status: int, reason: str) -> None:
+async def refuse(scope: Scope, receive: Receive, send: Send, status: int, reason: str) -> None:
     """Refuse a request with a status and a line of text."""
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 1008, "reason": reason})
     else:
-        await respond(send, status, [(b"content-type", b"text/plain; charset=utf-8")], reason)
-
-
-async def respond(send: Send, status: int, headers: Headers, text: str) -> None:
-    """Send a whole response, which no cache keeps."""
-    body = text.encode()
-    further = [(b"cache-control", b"no-store"), (b"content-length", str(len(body)).encode())]
-    await send({"type": "http.response.start", "status": status, "headers": [*headers, *further]})
-    await send({"type": "http.response.body", "body": body})
+        await PlainTextResponse(reason, status, _UNCACHED)(scope, receive, send)
 
 
 def _query(scope: Scope) -> list[tuple[str, str]]:

@@ -13,12 +13,12 @@ import uvicorn
 from fastapi import FastAPI
 from nicegui import Client, app, ui
 from starlette.middleware.gzip import GZipMiddleware
+from starlette.types import ASGIApp
 
 from ehlectric.app.pages import PAGES
 from ehlectric.app.security import (
     MOST_PAGES,
     Guard,
-    Handler,
     tell_in_one_line,
     with_bounded_bodies,
     with_bounded_pages,
@@ -50,7 +50,7 @@ _LARGEST_MESSAGE = 4_000_000
 
 
 def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable[[], None]) -> None:
-    """Serve the pages until the process is stopped. ``ready``, called when requests are answered."""
+    """Serve the pages until the process is stopped; ``ready`` is called when requests are answered."""
     config = uvicorn.Config(
         _application(guard, work),
         log_level="warning",
@@ -67,12 +67,12 @@ def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable
 
 
 def open_browser(address: str) -> None:
-    """Open a browser, beside the server."""
+    """Open a browser while the server runs."""
     threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 class _Server(uvicorn.Server):
-    """Server that tells when it answers requests."""
+    """Server that calls a function when it begins to answer requests."""
 
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -95,7 +95,7 @@ class _Server(uvicorn.Server):
         self._ready()
 
 
-def _application(guard: Guard, work: Work) -> Handler:
+def _application(guard: Guard, work: Work) -> ASGIApp:
     """Pages, behind all that bounds and guards them."""
     keep_in_memory()
     for page in PAGES:

@@ -1,9 +1,8 @@
 """Session of a tab: its inputs over time, uploaded files, and its work.
 
-Files that are uploaded into a session: their size, and their names in its folder and in its inputs.
-Inputs name a file relative to the folder of the session, as a case names one relative to its own folder; a
-download with case and files is then complete. The content of a file goes to the readers of ``ehlectric
-surface`` and to nothing else.
+Inputs name an uploaded file relative to the folder of the session, as a case names one relative to its own
+folder; a download with case and files is then complete. The content of a file goes to the readers of
+``ehlectric surface`` and to nothing else.
 """
 
 from __future__ import annotations
@@ -13,14 +12,17 @@ import re
 import shutil
 from itertools import count
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from starlette.formparsers import MultiPartParser
 
 from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import History, Inputs
 from ehlectric.app.work import Job, Work
-from ehlectric.errors import LostError, printable
+from ehlectric.errors import InputError, LostError, printable
+
+if TYPE_CHECKING:
+    from nicegui.elements.upload_files import FileUpload
 
 # Largest size of an uploaded file, and of a request with its envelope [bytes].
 LARGEST = 60_000_000
@@ -109,6 +111,9 @@ class Session:
         self._server = work
         self._folder: Path | None = None
         self._closed = False
+        # Names that users gave to uploaded files, and sizes of files that are being stored [bytes], by path.
+        self._names: dict[str, str] = {}
+        self._coming: dict[str, int] = {}
 
     @property
     def inputs(self) -> Inputs:
@@ -117,8 +122,9 @@ class Session:
 
     @property
     def folder(self) -> Path:
-        """Temporary folder of the session, which only this user can read; made when first used. Raises
-        LostError if the session has ended: nobody would remove a folder that is made after that.
+        """Temporary folder of the session, which only this user can read; made when first used.
+
+        It is a LostError to use it after the session has ended: nobody would remove the folder.
         """
         if self._closed:
             raise LostError("the page was closed")
@@ -130,6 +136,38 @@ class Session:
     def made_folder(self) -> Path | None:
         """Temporary folder of the session; None where it has none yet, and so no uploaded files."""
         return self._folder
+
+    def name_of(self, file: str) -> str:
+        """Name of a file as its user knows it."""
+        return self._names.get(file, shown_name(file))
+
+    async def store(self, file: FileUpload) -> str:
+        """Store an uploaded file, and return its name relative to the folder of the session.
+
+        Raises InputError if it is too large or cannot be stored, and LostError if the session has ended.
+        """
+        size, given, folder = file.size(), shown_name(file.name), self.folder
+        kept = sum(
+            max(path.stat().st_size, self._coming.get(f"{SURFACES}/{path.name}", 0))
+            for path in folder.glob(f"{SURFACES}/*")
+        )
+        if size > LARGEST or kept + size > MOST_TOGETHER:
+            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
+            raise InputError.worded(None, f"{given}: has {size / 1e6:.4g} MB; expected {limits}")
+        name = new_file(file.name, folder)
+        self._coming[name] = size
+        try:
+            await file.save(folder / name)
+        except OSError:
+            (folder / name).unlink(missing_ok=True)
+            raise InputError.worded(None, f"{given}: could not be stored; try again") from None
+        finally:
+            del self._coming[name]
+        if self._closed:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise LostError("the page was closed")
+        self._names[name] = given
+        return name
 
     def start(self, function: Call[Any], *values: Any) -> Job:
         """Start a job that ends with the session."""

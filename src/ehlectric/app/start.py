@@ -24,9 +24,10 @@ def start(
     tell: Callable[[str], None],
     limits: Limits | None = None,
 ) -> None:
-    """Serve the app until it is interrupted. ``port``, 0 for any free one, None for the first free one from
-    8080 upwards; ``tell``, called with a line that has the address of the app, when it answers requests.
-    Raises InputError if the port is taken, or the address is none of this machine.
+    """Serve the app until it is interrupted.
+
+    The port is the first free one from 8080 upwards where it is None, and any free one where it is 0.
+    ``tell`` is called with a line that has the address of the app when it answers requests.
     """
     listening = listen(host, port)
     guard = Guard.of(host, listening.getsockname()[1])
@@ -57,9 +58,7 @@ def start(
 
 
 def listen(host: str, port: int | None) -> socket.socket:
-    """Socket that is bound to an address. ``port``, 0 for any free one, None for the first free one from 8080
-    upwards. Raises InputError if it cannot be bound.
-    """
+    """Socket that is bound to an address; InputError for a port that is taken, or another machine."""
     for candidate in _PORTS if port is None else (port,):
         try:
             return _bound(host, candidate)

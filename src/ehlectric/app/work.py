@@ -29,12 +29,21 @@ from ehlectric.runtime.locks import RENAMES_OPEN, take
 from ehlectric.runtime.memory import available_memory
 from ehlectric.runtime.worker_processes import cores
 
+T = TypeVar("T")
+
+_log = logging.getLogger("ehlectric.app")
+
+# Quick answers of one session that are computed at once, and those that may wait.
+_AT_ONCE, _QUEUED = 2, 50
+
 # Names of the folders of servers, and of the file in each that its server keeps locked.
 _PREFIX, _LOCK = "ehlectric-app-", "lock"
 
 # Beginning of the name of the folder that multiprocessing makes for its sockets.
 _MULTIPROCESSING = "pymp-"
 
+# Time after which the rate of a job is known well enough to be shown [s].
+_SOON = 3.0
 
 # Longest path of a folder whose sockets have names that systems allow, of about 100 characters, below the
 # folder that multiprocessing makes.
@@ -113,10 +122,6 @@ def _left_behind(folder: Path) -> bool:
         return False
 
 
-# Time after which a rate is known well enough to be told [s].
-_SOON = 3.0
-
-
 @dataclass
 class Remaining:
     """Estimate for the part of a job that is under way.
@@ -131,7 +136,7 @@ class Remaining:
     """
 
     text: str = ""
-    # of and done: steps of the part, and those done when it was first seen, as of a job that is resumed.
+    # Steps of the part, and those done when it was first seen, as of a job that is resumed.
     of: int = 0
     done: int = 0
     since: float = 0.0  # time at which it was first seen [s]
@@ -157,7 +162,7 @@ class Job:
     """Work in a process of its own, as its page sees it."""
 
     state: State = "waiting"  # "waiting", "running", "done", "failed" or "cancelled"
-    # done, of and text: progress, as ``runtime.progress`` tells it.
+    # Progress: steps that are done, all steps, and what is being done.
     done: int = 0
     of: int = 0
     text: str = "waiting for a free core"
@@ -186,7 +191,7 @@ class Job:
         self._worker, self.state, self.text = worker, "running", "starting"
 
     def told(self, done: int, of: int, text: str) -> None:
-        """Take over its progress."""
+        """Note its progress."""
         self.done, self.of, self.text = done, of, text
 
     def end(self, state: State, *, result: Any = None, error: Exception | None = None) -> None:
@@ -197,16 +202,6 @@ class Job:
         if self._worker is not None:
             self._worker.end()
         self._ended.set()
-
-
-__all__ = ["Job", "Limits", "ReplacedError", "Share", "Work"]
-
-T = TypeVar("T")
-
-_log = logging.getLogger("ehlectric.app")
-
-# Quick answers of one session that are computed at once, and those that may wait.
-_AT_ONCE, _QUEUED = 2, 50
 
 
 @dataclass(frozen=True)
@@ -260,7 +255,6 @@ class Work:
         # Number of the last job that began, by session.
         self._turns: WeakKeyDictionary[object, int] = WeakKeyDictionary()
         self._number = 0
-        self._own = Share(self)
 
     @cached_property
     def scratch(self) -> Scratch:
@@ -275,17 +269,6 @@ class Work:
     def share(self) -> Share:
         """Share of a session in the work."""
         return Share(self)
-
-    async def quick(self, function: Call[T], *values: Any) -> T:
-        """Result of a function of a worker process that takes a second at most, for no session. Raises
-        InputError, ConvergenceError as the function raises them; LostError where it takes too long, its
-        process dies, or the program has an error.
-        """
-        return await self._own.quick(function, *values)
-
-    def start(self, function: Call[Any], *values: Any) -> Job:
-        """Start a job for no session; see ``Share.start``."""
-        return self._own.start(function, *values)
 
     def close(self) -> None:
         """End all jobs and processes, and remove the temporary folder."""
@@ -323,8 +306,9 @@ class Work:
         return outcome
 
     def add(self, job: Job) -> None:
-        """Take over a job, which runs as soon as its session has its turn. Raises LostError if too many jobs
-        wait already, of its session or of all.
+        """Queue a job, which runs as soon as its session has its turn.
+
+        Raises LostError if too many jobs wait already, of its session or of all.
         """
         unfinished = [other for other in [*self._waiting, *self._running] if not other.over]
         if sum(other.owner is job.owner for other in unfinished) >= self.limits.each:
@@ -355,9 +339,7 @@ class Work:
 
     async def _run(self, job: Job, worker: Worker) -> None:
         assert job.call is not None
-        asked = asyncio.get_running_loop().run_in_executor(
-            self._threads, worker.ask, *job.call, lambda *told: job.told(*told)
-        )
+        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, *job.call, job.told)
         try:
             outcome = await asyncio.wait_for(asyncio.shield(asked), self.limits.seconds)
         except TimeoutError:
@@ -393,10 +375,11 @@ class Share:
         self._closed = False
 
     async def quick(self, function: Call[T], *values: Any, lane: str = "") -> T:
-        """Result of a function of a worker process that takes a second at most. Raises InputError,
-        ConvergenceError as the function raises them; ReplacedError where a later answer of the lane was asked
-        for; LostError where it takes too long, its process dies, the session has ended, or the program has an
-        error.
+        """Result of a function of a worker process that takes a second at most.
+
+        Raises InputError and ConvergenceError as the function raises them; ReplacedError where a later answer
+        of the lane was asked for; LostError where it takes too long, its process dies, the session has ended,
+        or the program has an error.
         """
         if self._queued >= _QUEUED:
             raise LostError("this page asks for more answers than are computed; wait a moment")
@@ -418,8 +401,9 @@ class Share:
         return cast("T", outcome.result)
 
     def start(self, function: Call[Any], *values: Any) -> Job:
-        """Start a job: ``function(*values, progress)`` in a process of its own. Raises LostError if too many
-        jobs wait already, or the session has ended.
+        """Start a job: ``function(*values, progress)`` in a process of its own.
+
+        Raises LostError if too many jobs wait already, or the session has ended.
         """
         if self._closed:
             raise LostError("the page was closed")

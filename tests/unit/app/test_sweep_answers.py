@@ -98,13 +98,13 @@ def test_a_stopped_job_resumes_without_solving_a_point_twice(tmp_path):
     async def stop_and_resume():
         work = Work(Limits(jobs=1))
         try:
-            first = work.start(SWEEP_SOLVED, table, place, 1)
+            first = work.share().start(SWEEP_SOLVED, table, place, 1)
             while not first.over and first.done < 2:
                 await asyncio.sleep(0.005)
             first.cancel()
             assert first.state == "cancelled"
             kept = {point.number: point.seconds for point in read_sweep(place).points if point.solved}
-            second = work.start(SWEEP_SOLVED, table, place, 1)
+            second = work.share().start(SWEEP_SOLVED, table, place, 1)
             await second.wait()
             return kept, second
         finally:

@@ -41,7 +41,7 @@ def test_a_work_closed_when_a_job_ends_closes_no_file_of_others():
     """A pipe closed by two threads at once closes a file that another was given in between."""
 
     async def use(work):
-        job = work.start(calls.refuse)
+        job = work.share().start(calls.refuse)
         await job.wait()
         return os.fstat(work.scratch._lock.fileno()).st_size
 
@@ -50,19 +50,19 @@ def test_a_work_closed_when_a_job_ends_closes_no_file_of_others():
 
 
 def test_a_quick_answer():
-    assert working(None, lambda work: work.quick(calls.double, 21)) == 42
+    assert working(None, lambda work: work.share().quick(calls.double, 21)) == 42
 
 
 def test_an_input_error_is_that_of_the_function():
     with pytest.raises(InputError) as caught:
-        working(None, lambda work: work.quick(calls.refuse))
+        working(None, lambda work: work.share().quick(calls.refuse))
     assert (caught.value.key, caught.value.takes) == ("bearing.radial_load", "above 0 N")
 
 
 @pytest.mark.parametrize("function", [calls.fail, calls.make_unpicklable])
 def test_an_error_of_the_program_is_one_line_and_its_traceback_is_in_the_log(function, caplog):
     with caplog.at_level(logging.ERROR, "ehlectric.app"), pytest.raises(LostError) as caught:
-        working(None, lambda work: work.quick(function))
+        working(None, lambda work: work.share().quick(function))
     assert "error in the program" in str(caught.value)
     assert "\n" not in str(caught.value)
     assert "Traceback" in caplog.text
@@ -73,8 +73,8 @@ def test_a_killed_process_loses_its_answer_only_and_another_takes_its_place():
     async def use(work):
         slow = asyncio.create_task(work.share().quick(calls.wait, 1.0))
         with pytest.raises(LostError, match="killed"):
-            await work.quick(calls.die)
-        return await slow, [await work.quick(calls.double, 1) for _ in range(8)]
+            await work.share().quick(calls.die)
+        return await slow, [await work.share().quick(calls.double, 1) for _ in range(8)]
 
     assert working(None, use) == (1.0, [2] * 8)
 
@@ -85,9 +85,9 @@ def test_an_answer_that_takes_too_long_is_given_up():
         await asyncio.gather(*(work.share().quick(calls.wait, 0.1) for _ in range(4)))
         work.limits = Limits(patience=0.5)
         with pytest.raises(LostError, match=r"longer than 0\.5 s"):
-            await work.quick(calls.wait, 600.0)
+            await work.share().quick(calls.wait, 600.0)
         work.limits = Limits(patience=PATIENCE)
-        return await work.quick(calls.double, 2)
+        return await work.share().quick(calls.double, 2)
 
     assert working(None, use) == 4
 
@@ -138,7 +138,7 @@ def test_a_later_answer_of_a_lane_replaces_one_that_waits():
 
 def test_a_job_tells_its_progress_and_returns():
     async def use(work):
-        job = work.start(calls.count_up, 5)
+        job = work.share().start(calls.count_up, 5)
         return *await outcome(job), job.done, job.of, job.text
 
     assert working(None, use) == ("done", 5, None, 4, 5, "points")
@@ -156,7 +156,7 @@ def test_a_job_tells_its_progress_and_returns():
 )
 def test_a_job_fails_in_words(function, values, told, caplog):
     async def use(work):
-        return await outcome(work.start(function, *values))
+        return await outcome(work.share().start(function, *values))
 
     with caplog.at_level(logging.CRITICAL, "ehlectric.app"):
         state, _, error = working(Limits(memory=MEMORY), use)
@@ -167,7 +167,7 @@ def test_a_job_fails_in_words(function, values, told, caplog):
 @pytest.mark.slow
 def test_a_job_that_takes_too_long_is_stopped():
     async def use(work):
-        return await outcome(work.start(calls.wait, 600.0))
+        return await outcome(work.share().start(calls.wait, 600.0))
 
     state, _, error = working(Limits(seconds=3.0), use)
     assert state == "failed"

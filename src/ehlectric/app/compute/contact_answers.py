@@ -69,7 +69,6 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
         warnings=others,
         summary=meaning.summary,
         quick=_is_quick(case),
-        moving=case.motion is not None,
     )
 
 

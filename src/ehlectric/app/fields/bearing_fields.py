@@ -7,34 +7,30 @@ from typing import Any
 from ehlectric.app.fields.field import (
     ANGULAR,
     ROLLERS,
-    Field,
     Group,
     Way,
+    both,
+    equal,
     fields_of,
+    given,
     has_balls,
     has_clearance,
     kind_of,
+    list_of_ways,
     never,
+    unequal,
+    way_by,
 )
 from ehlectric.app.fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 from ehlectric.quantities.inputs import form
 
-_ASSUMED = "The first values are assumptions: replace them with your own."
+ASSUMED = "The first values are assumptions: replace them with your own."
 _ISOTHERMAL = "Isothermal, fully flooded"
 
 
-def _own(inputs: Inputs) -> bool:
-    return inputs.value("bearing.base") is None
-
-
-def _own_balls(inputs: Inputs) -> bool:
-    return _own(inputs) and has_balls(inputs)
-
-
-def _own_rollers(inputs: Inputs) -> bool:
-    return _own(inputs) and kind_of(inputs) == ROLLERS
+_own = equal("bearing.base", None)
 
 
 def _rollers(inputs: Inputs) -> bool:
@@ -43,14 +39,6 @@ def _rollers(inputs: Inputs) -> bool:
 
 def _angular(inputs: Inputs) -> bool:
     return kind_of(inputs) == ANGULAR
-
-
-def _ceramic(inputs: Inputs) -> bool:
-    return bool(inputs.value("bearing.element_material") == "silicon-nitride")
-
-
-def _own_coating(inputs: Inputs) -> bool:
-    return inputs.value("bearing.coating.base") is None
 
 
 # Endings of a designation that change nothing here: seals, shields and classes of clearance, as makers write
@@ -68,18 +56,6 @@ _FITS = {
 }
 
 
-def _fits(inputs: Inputs) -> bool:
-    return inputs.value("bearing.fits") is not None
-
-
-def _factor(inputs: Inputs) -> bool:
-    return inputs.value("bearing.film_factor") not in (None, *FILM_FACTORS)
-
-
-def _part(inputs: Inputs) -> bool:
-    return inputs.value("bearing.fill") not in (None, "oil", "air")
-
-
 # Ways of supply in words, by the value of ``bearing.supply``.
 _SUPPLIES = {
     "flooded": "Fully flooded",
@@ -90,69 +66,43 @@ _SUPPLIES = {
 }
 
 
-def _share(inputs: Inputs) -> bool:
-    return inputs.value("bearing.supply") not in (None, *_SUPPLIES)
-
-
 # Lists of alternatives, by the key before which they stand.
 _WAYS = {
-    "bearing.radial_clearance": Field(
+    "bearing.radial_clearance": list_of_ways(
         "bearing.clearance",
         "Clearance given as",
-        kind="ways",
-        ways=(
-            Way("Class and fits", _FITS, "bearing.fits"),
-            Way(
-                "Class before mounting",
-                {"bearing.clearance_class": "CN", "bearing.fits": None},
-                "bearing.clearance_class",
-            ),
-            Way("Clearance in operation", {"bearing.radial_clearance": "10 um"}),
+        Way("Class and fits", _FITS, "bearing.fits"),
+        Way(
+            "Class before mounting",
+            {"bearing.clearance_class": "CN", "bearing.fits": None},
+            "bearing.clearance_class",
         ),
+        Way("Clearance in operation", {"bearing.radial_clearance": "10 um"}),
         when=has_clearance,
     ),
-    "bearing.film_factor": Field(
+    "bearing.film_factor": list_of_ways(
         "bearing.film_way",
         "Heat and starvation",
-        kind="ways",
-        ways=(
-            Way(_ISOTHERMAL, {"bearing.film_factor": "none"}, "bearing.film_factor", "none"),
-            Way(
-                "Heat by shear in the inlet",
-                {"bearing.film_factor": "inlet-shear"},
-                "bearing.film_factor",
-                "inlet-shear",
-            ),
-            Way(
-                "Heat in the film, solved with the contacts",
-                {"bearing.film_factor": "solved"},
-                "bearing.film_factor",
-                "solved",
-            ),
-            Way("A factor of your own", {"bearing.film_factor": 0.7}, "bearing.film_factor"),
-            Way(_ISOTHERMAL, listed=False),
-        ),
+        way_by("bearing.film_factor", _ISOTHERMAL, "none", exactly=True),
+        way_by("bearing.film_factor", "Heat by shear in the inlet", "inlet-shear", exactly=True),
+        way_by("bearing.film_factor", "Heat in the film, solved with the contacts", "solved", exactly=True),
+        way_by("bearing.film_factor", "A factor of your own", 0.7),
+        Way(_ISOTHERMAL, listed=False),
     ),
-    "bearing.supply": Field(
+    "bearing.supply": list_of_ways(
         "bearing.supply_way",
         "Oil supplied by",
-        kind="ways",
-        ways=(
-            *(Way(words, {"bearing.supply": way}, "bearing.supply", way) for way, words in _SUPPLIES.items()),
-            Way("A share of the flooded film", {"bearing.supply": 0.6}, "bearing.supply"),
-            Way("Fully flooded", listed=False),
-        ),
+        *(way_by("bearing.supply", words, name, exactly=True) for name, words in _SUPPLIES.items()),
+        way_by("bearing.supply", "A share of the flooded film", 0.6),
+        Way("Fully flooded", listed=False),
     ),
-    "bearing.fill": Field(
+    "bearing.fill": list_of_ways(
         "bearing.fill_way",
         "Around the films",
-        kind="ways",
-        ways=(
-            Way("Oil", {"bearing.fill": "oil"}, "bearing.fill", "oil"),
-            Way("Air", {"bearing.fill": "air"}, "bearing.fill", "air"),
-            Way("Partly oil", {"bearing.fill": "30 %"}, "bearing.fill"),
-            Way("Oil", listed=False),
-        ),
+        way_by("bearing.fill", "Oil", "oil", exactly=True),
+        way_by("bearing.fill", "Air", "air", exactly=True),
+        way_by("bearing.fill", "Partly oil", "30 %"),
+        Way("Oil", listed=False),
     ),
 }
 
@@ -168,21 +118,25 @@ _SHOWN: dict[str, dict[str, Any]] = {
         "lacks": "not in the catalogue ({count} bearings): choose your own geometry and type its dimensions",
     },
     **{f"bearing.{name}": {"when": _own} for name in _DIMENSIONS},
-    **{f"bearing.{name}": {"when": _own_balls} for name in _OF_BALLS},
-    "bearing.roller_length": {"when": _own_rollers},
+    **{f"bearing.{name}": {"when": both(_own, has_balls)} for name in _OF_BALLS},
+    "bearing.roller_length": {"when": both(_own, _rollers)},
     "bearing.profile": {"when": _rollers},
     "bearing.contact_angle": {"when": _angular},
-    "bearing.element_capacitance": {"when": _ceramic},
+    "bearing.element_capacitance": {"when": equal("bearing.element_material", "silicon-nitride")},
     "bearing.axial_load": {"when": has_balls},
-    "bearing.film_factor": {"when": _factor, "strict": True},
-    "bearing.supply": {"when": _share, "strict": True},
-    "bearing.fill": {"when": _part, "strict": True},
+    "bearing.film_factor": {"when": unequal("bearing.film_factor", None, *FILM_FACTORS), "strict": True},
+    "bearing.supply": {"when": unequal("bearing.supply", None, *_SUPPLIES), "strict": True},
+    "bearing.fill": {"when": unequal("bearing.fill", None, "oil", "air"), "strict": True},
     "bearing.radial_clearance": {"when": never},
     "bearing.clearance_class": {"when": never},
-    **{key: {"when": _fits} for key in form("bearing")["Clearance"] if key.startswith("bearing.fits.")},
+    **{
+        key: {"when": given("bearing.fits")}
+        for key in form("bearing")["Clearance"]
+        if key.startswith("bearing.fits.")
+    },
     "bearing.fits.unmounted_clearance": {"when": never},
     "bearing.coating.base": {"own": "Own coating"},
-    "bearing.coating.ring": {"when": _own_coating},
+    "bearing.coating.ring": {"when": equal("bearing.coating.base", None)},
 }
 
 
@@ -203,25 +157,25 @@ MOTOR = _group(
         "winding_rotor_capacitance": "20 pF",
         "rotor_frame_capacitance": "1 nF",
     },
-    note=f"{_ASSUMED} Without a motor no shaft voltage is computed.",
+    note=f"{ASSUMED} Without a motor no shaft voltage is computed.",
 )
 BREAKDOWN = _group(
     "Breakdown",
     table="discharge",
     start={"dielectric_strength": "15 V/um"},
-    note=f"{_ASSUMED} 15 V/µm is a rule of thumb for the films of bearings.",
+    note=f"{ASSUMED} 15 V/µm is a rule of thumb for the films of bearings.",
 )
 COATING = _group(
     "Insulating coating",
     table="bearing.coating",
     start={"base": "schaeffler-j20aa", "relative_permittivity": 9.0},
-    note=f"{_ASSUMED} No maker states a permittivity.",
+    note=f"{ASSUMED} No maker states a permittivity.",
 )
 SUMMITS = _group(
     "Summits of the roughness",
     table="bearing.summits",
     start={"density": "2000 1/mm^2", "radius": "50 um"},
-    note=f"{_ASSUMED} ehlectric surface prints those of a measured surface.",
+    note=f"{ASSUMED} ehlectric surface prints those of a measured surface.",
 )
 REPORT = _group("Title", opened=False)
 

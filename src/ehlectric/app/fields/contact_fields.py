@@ -8,7 +8,19 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ehlectric.app.catalogue import oil
-from ehlectric.app.fields.field import Field, Group, Way, When, always, fields_of, never
+from ehlectric.app.fields.field import (
+    Field,
+    Group,
+    Way,
+    always,
+    both,
+    equal,
+    fields_of,
+    given,
+    list_of_ways,
+    never,
+    way_by,
+)
 from ehlectric.app.fields.field_rules import changed
 from ehlectric.app.fields.oil_fields import oil as oil_fields
 from ehlectric.app.page_inputs import Inputs
@@ -24,15 +36,10 @@ def _hot(inputs: Inputs) -> bool:
 
 def _follows(inputs: Inputs) -> bool:
     """Whether the viscosity of the oil follows its temperature, without which no heat can be computed."""
-    if any(inputs.value(f"lubricant.{key}") is not None for key in ("temperature", "atmospheric_law")):
+    if given("lubricant.temperature", "lubricant.atmospheric_law")(inputs):
         return True
     known = oil(str(inputs.value("lubricant.base")))
     return bool(known) and "viscosity" not in known and inputs.value("lubricant.viscosity") is None
-
-
-def _sheared(name: str) -> When:
-    """Whether the oil is sheared after a law."""
-    return lambda inputs: inputs.value("film.rheology") == name
 
 
 # Keys that only a film has whose temperature is computed.
@@ -45,10 +52,10 @@ _OF_HEAT = (
     ),
 )
 _SHOWN: dict[str, dict[str, Any]] = {
-    "lubricant.eyring_stress": {"when": _sheared("eyring")},
-    "lubricant.carreau_stress": {"when": _sheared("carreau")},
-    "lubricant.carreau_exponent": {"when": _sheared("carreau")},
-    "lubricant.limiting_coefficient": {"when": _sheared("limiting")},
+    "lubricant.eyring_stress": {"when": equal("film.rheology", "eyring")},
+    "lubricant.carreau_stress": {"when": equal("film.rheology", "carreau")},
+    "lubricant.carreau_exponent": {"when": equal("film.rheology", "carreau")},
+    "lubricant.limiting_coefficient": {"when": equal("film.rheology", "limiting")},
     **{key: {"when": _hot} for key in _OF_HEAT},
     **{f"contact.body_{number}.material": {"when": _hot, "own": "Own values"} for number in (1, 2)},
     "lubricant.heat_capacity": {
@@ -59,14 +66,11 @@ _SHOWN: dict[str, dict[str, Any]] = {
     },
 }
 _WAYS = {
-    "lubricant.thermal_conductivity": Field(
+    "lubricant.thermal_conductivity": list_of_ways(
         "film.way_thermal",
         "Temperature of the film",
-        kind="ways",
-        ways=(
-            Way("Computed", {"film.thermal": True, **_STEEL}, "film.thermal", value=True),
-            Way("That of the oil in the inlet", {"film.thermal": None}),
-        ),
+        Way("Computed", {"film.thermal": True, **_STEEL}, "film.thermal", value=True),
+        Way("That of the oil in the inlet", {"film.thermal": None}),
         when=_follows,
     )
 }
@@ -93,60 +97,40 @@ _MODULUS, _RATIO = "youngs_modulus", "poissons_ratio"
 _ELASTIC = tuple(f"contact.body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO))
 
 
-def _no_sheet(inputs: Inputs) -> bool:
-    return inputs.value("lubricant.temperature") is None
-
-
-def _bodies(inputs: Inputs) -> bool:
-    return any(inputs.value(key) is not None for key in _ELASTIC)
-
-
-def _mean_speed(inputs: Inputs) -> bool:
-    return inputs.value("contact.entrainment_speed") is not None
-
-
-def _refined(inputs: Inputs) -> bool:
-    return inputs.value("grid.nodes") is None and inputs.value("motion") is None
-
-
 # Steel, as both bodies of the examples have it; an assumption.
 _CONTACT_STEEL = dict(zip(_ELASTIC, 2 * ("206 GPa", 0.3), strict=True))
 
 
-def _alternatives(key: str, label: str, *ways: Way) -> Field:
-    return Field(key, label, kind="ways", ways=ways)
-
-
 def _load_ways(key: str, label: str, first: str) -> Field:
     """Load as such, or by its Hertz pressure."""
-    return _alternatives(
+    return list_of_ways(
         "contact.way_load",
         "Load given as",
-        Way(label, {key: first}, key),
+        way_by(key, label, first),
         Way("Hertz pressure", {"contact.max_hertz_pressure": "1 GPa"}),
     )
 
 
 # Lists of alternatives, by the key before which they stand.
 _CONTACT_WAYS = {
-    "contact.reduced_radius": _alternatives(
+    "contact.reduced_radius": list_of_ways(
         "contact.way_radius",
         "Radius given as",
-        Way("Reduced radius", {"contact.reduced_radius": "10 mm"}, "contact.reduced_radius"),
+        way_by("contact.reduced_radius", "Reduced radius", "10 mm"),
         Way("Both radii", {"contact.radius_1": "20 mm", "contact.radius_2": "20 mm"}),
     ),
     "contact.load_per_length": _load_ways("contact.load_per_length", "Load per length", "0.5 MN/m"),
     "contact.load": _load_ways("contact.load", "Load", "20 N"),
-    "contact.entrainment_speed": _alternatives(
+    "contact.entrainment_speed": list_of_ways(
         "contact.way_speed",
         "Speeds given as",
-        Way("Mean of both", {"contact.entrainment_speed": "2 m/s"}, "contact.entrainment_speed"),
+        way_by("contact.entrainment_speed", "Mean of both", "2 m/s"),
         Way("Speed of each surface", {"contact.speed_1": "2 m/s", "contact.speed_2": "2 m/s"}),
     ),
-    "contact.reduced_modulus": _alternatives(
+    "contact.reduced_modulus": list_of_ways(
         "contact.way_modulus",
         "Elasticity given as",
-        Way("Reduced modulus", {"contact.reduced_modulus": "226 GPa"}, "contact.reduced_modulus"),
+        way_by("contact.reduced_modulus", "Reduced modulus", "226 GPa"),
         Way("Both materials", _CONTACT_STEEL),
     ),
 }
@@ -159,10 +143,10 @@ _ALTERNATIVES = (
 )
 _CONTACT_SHOWN: dict[str, dict[str, Any]] = {
     **{key: {"when": never} for key in _ALTERNATIVES},
-    **{key: {"when": _bodies} for key in _ELASTIC},
-    "contact.slide_to_roll_ratio": {"when": _mean_speed},
+    **{key: {"when": given(*_ELASTIC)} for key in _ELASTIC},
+    "contact.slide_to_roll_ratio": {"when": given("contact.entrainment_speed")},
     "discharge.dielectric_strength": {"note": "an assumption; none is published for films"},
-    "grid.error": {"when": _refined},
+    "grid.error": {"when": both(equal("grid.nodes", None), equal("motion", None))},
 }
 
 
@@ -170,10 +154,10 @@ def _groups(name: str, nodes: str, first: int, ends: tuple[float, float]) -> tup
     """Groups of the form of a geometry, with the label, the first value and the slider of its nodes."""
     groups = form(name)
     ways = _CONTACT_WAYS | {
-        "grid.nodes": _alternatives(
+        "grid.nodes": list_of_ways(
             "grid.way_nodes",
             "Grid given by",
-            Way(nodes, {"grid.nodes": first}, "grid.nodes"),
+            way_by("grid.nodes", nodes, first),
             Way("Error of the film", {"grid.nodes": None}),
         )
     }
@@ -187,7 +171,7 @@ def _groups(name: str, nodes: str, first: int, ends: tuple[float, float]) -> tup
         oil_fields(
             groups["Oil"],
             base={"own": "Own values"},
-            viscosity={"when": _no_sheet},
+            viscosity={"when": equal("lubricant.temperature", None)},
             pressure_viscosity_coefficient={"when": always, "note": ""},
             relative_permittivity={"when": always, "high": 8.0},
         ),
@@ -232,9 +216,10 @@ def groups_of(geometry: str) -> tuple[Group, ...]:
 
 
 def switched(inputs: Inputs, start: Inputs) -> Inputs:
-    """Inputs of a contact of the other geometry, with what both have. Returns oil, potentials, breakdown,
-    materials, speeds and temperature of the present inputs; geometry, load and grid of the others; roughness
-    and motion, which belong to a geometry, are left out.
+    """Inputs of a contact of the other geometry, which begin with those of ``start``.
+
+    Oil, potentials, breakdown, materials, speeds and temperature are those of the present inputs; geometry,
+    load and grid are those of ``start``. Roughness and motion, which belong to a geometry, are left out.
     """
     left = (*_SHARED, "title", "roughness", "motion")
     table = {key: value for key, value in start.table.items() if key not in left}
@@ -243,5 +228,5 @@ def switched(inputs: Inputs, start: Inputs) -> Inputs:
     # A point contact has no length, and a line contact gets back the one it had before.
     if found.value("discharge") is not None:
         found = found.changed({"discharge.length": start.value("discharge.length")})
-    given = {f"contact.{name}": inputs.value(f"contact.{name}") for name in _SHARED_CONTACT}
-    return changed(found, {key: value for key, value in given.items() if value is not None})
+    values = {f"contact.{name}": inputs.value(f"contact.{name}") for name in _SHARED_CONTACT}
+    return changed(found, {key: value for key, value in values.items() if value is not None})

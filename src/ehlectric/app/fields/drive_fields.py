@@ -1,4 +1,4 @@
-"""Fields of the page of a drive: source, circuit and arc, and the rules of its inputs."""
+"""Fields of the page of a drive: source, circuit, arc and bearings, its remedies, and rules of its inputs."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.fields.bearing_fields import (
+    ASSUMED,
     BREAKDOWN,
     CLEARANCE,
     COATING,
@@ -17,7 +18,18 @@ from ehlectric.app.fields.bearing_fields import (
     REPORT,
     SUMMITS,
 )
-from ehlectric.app.fields.field import Field, Group, Way, When, fields_of
+from ehlectric.app.fields.field import (
+    Field,
+    Group,
+    Way,
+    both,
+    equal,
+    fields_of,
+    given,
+    list_of_ways,
+    unequal,
+    way_by,
+)
 from ehlectric.app.fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
@@ -66,13 +78,13 @@ def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
     {'source.modulation_index': None}
     """
     modulation = inputs.value("source.modulation")
-    given = {key: inputs.value(f"source.{key}") for key in OF_CARRIER}
+    values = {key: inputs.value(f"source.{key}") for key in OF_CARRIER}
     if modulation == "six-step":
-        return {f"source.{key}": None for key, value in given.items() if value is not None}
+        return {f"source.{key}": None for key, value in values.items() if value is not None}
     if modulation is None:
         return {}
-    lacking = {key: first for key, first in OF_CARRIER.items() if given[key] is None and first is not None}
-    return {f"source.{key}": first for key, first in lacking.items()}
+    lacking = (key for key, first in OF_CARRIER.items() if values[key] is None and first is not None)
+    return {f"source.{key}": OF_CARRIER[key] for key in lacking}
 
 
 def half_of(value: object) -> str | None:
@@ -89,13 +101,16 @@ def half_of(value: object) -> str | None:
 
 def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:
     """Changes of the remedies of a drive by their titles; what is no remedy is left out."""
-    given = inputs.value("remedies")
-    found = {}
-    for one in given if isinstance(given, list) else []:
-        changes = one.get("changes") if isinstance(one, Mapping) else None
-        if isinstance(changes, Mapping):
-            found[str(one.get("title", ""))] = changes
-    return found
+    tables = [one for one in _remedies(inputs) if isinstance(one, Mapping)]
+    return {
+        str(one.get("title", "")): one["changes"] for one in tables if isinstance(one.get("changes"), Mapping)
+    }
+
+
+def _remedies(inputs: Inputs) -> list[Any]:
+    """Entries of the list of remedies; none where the inputs have no list."""
+    found = inputs.value("remedies")
+    return found if isinstance(found, list) else []
 
 
 def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
@@ -114,25 +129,21 @@ def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
 
 def with_remedy(inputs: Inputs, title: str, changes: Mapping[str, Any]) -> list[Any]:
     """List of the remedies with a further one."""
-    given = inputs.value("remedies")
-    return [*(given if isinstance(given, list) else []), {"title": title, "changes": dict(changes)}]
+    return [*_remedies(inputs), {"title": title, "changes": dict(changes)}]
 
 
 def without_remedy(inputs: Inputs, title: str) -> list[Any]:
     """List of the remedies without those of a title."""
-    given = inputs.value("remedies")
     return [
-        one
-        for one in (given if isinstance(given, list) else [])
-        if not isinstance(one, Mapping) or str(one.get("title", "")) != title
+        one for one in _remedies(inputs) if not isinstance(one, Mapping) or str(one.get("title", "")) != title
     ]
 
 
 def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
     """Inputs whose remedy with half the switching frequency follows a new frequency."""
     old, new = before.value(SWITCHING), after.value(SWITCHING)
-    remedies = after.value("remedies")
-    if old == new or not isinstance(remedies, list):
+    remedies = _remedies(after)
+    if old == new or not remedies:
         return after
     return after.changed({"remedies": [_fitted(one, half_of(old), half_of(new)) for one in remedies]})
 
@@ -145,30 +156,8 @@ def _fitted(remedy: Any, old: str | None, new: str | None) -> Any:
     return {**remedy, "changes": {SWITCHING: new}}
 
 
-def _measured(inputs: Inputs) -> bool:
-    return inputs.value("source.file") is not None
-
-
-def _described(inputs: Inputs) -> bool:
-    return not _measured(inputs)
-
-
-def _carrier(inputs: Inputs) -> bool:
-    return _described(inputs) and inputs.value("source.modulation") != "six-step"
-
-
-def _follows(inputs: Inputs) -> bool:
-    return _described(inputs) and inputs.value("source.pole_pairs") is not None
-
-
-def _fixed(inputs: Inputs) -> bool:
-    return _described(inputs) and inputs.value("source.pole_pairs") is None
-
-
-def _ringing(inputs: Inputs) -> bool:
-    return _described(inputs) and inputs.value("source.overshoot") is not None
-
-
+_measured = given("source.file")
+_described = equal("source.file", None)
 # Source of the example.
 _SOURCE = {
     "source.dc_link": "560 V",
@@ -186,65 +175,40 @@ _RINGING = {
 }
 
 _WAYS = {
-    "source.dc_link": Field(
+    "source.dc_link": list_of_ways(
         "source.way",
         "Common-mode voltage",
-        kind="ways",
-        ways=(
-            Way("Measured waveform", {}, "source.file", listed=False),
-            Way("Described by its modulation", _SOURCE),
-        ),
+        Way("Measured waveform", {}, "source.file", listed=False),
+        Way("Described by its modulation", _SOURCE),
     ),
-    "source.pole_pairs": Field(
+    "source.pole_pairs": list_of_ways(
         "source.frequency_way",
         "Fundamental frequency",
-        kind="ways",
-        ways=(
-            Way("Follows the speed", {"source.pole_pairs": 2}, "source.pole_pairs"),
-            Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
-        ),
+        way_by("source.pole_pairs", "Follows the speed", 2),
+        Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
         when=_described,
     ),
-    "source.overshoot": Field(
+    "source.overshoot": list_of_ways(
         "source.ringing_way",
         "Ringing",
-        kind="ways",
-        ways=(
-            Way("At the end of each edge", _RINGING, "source.overshoot"),
-            Way("None", dict.fromkeys(_RINGING)),
-        ),
+        Way("At the end of each edge", _RINGING, "source.overshoot"),
+        Way("None", dict.fromkeys(_RINGING)),
         when=_described,
     ),
 }
 _SHOWN = {
     **{f"source.{key}": {"when": _described} for key in DESCRIBED},
     **{f"source.{key}": {"when": _measured} for key in MEASURED},
-    **{f"source.{key}": {"when": _carrier} for key in OF_CARRIER},
-    "source.pole_pairs": {"when": _follows},
-    "source.fundamental_frequency": {"when": _fixed},
-    **{key: {"when": _ringing} for key in _RINGING},
+    **{
+        f"source.{key}": {"when": both(_described, unequal("source.modulation", "six-step"))}
+        for key in OF_CARRIER
+    },
+    "source.pole_pairs": {"when": both(_described, given("source.pole_pairs"))},
+    "source.fundamental_frequency": {"when": both(_described, equal("source.pole_pairs", None))},
+    **{key: {"when": both(_described, given("source.overshoot"))} for key in _RINGING},
 }
 
 SOURCE = Group("Source", fields_of(form("drive")["Source"], _SHOWN, _WAYS))
-
-
-_ASSUMED = "The first values are assumptions: replace them with your own."
-
-
-def _machine(inputs: Inputs) -> bool:
-    return inputs.value("circuit.machine") is not None
-
-
-def _given(inputs: Inputs) -> bool:
-    return not _machine(inputs)
-
-
-def _by_current(inputs: Inputs) -> bool:
-    return inputs.value("breakdown.extinction_current") is not None
-
-
-def _by_voltage(inputs: Inputs) -> bool:
-    return not _by_current(inputs)
 
 
 # Geometry of the machine of the guide.
@@ -267,33 +231,27 @@ _CAPACITANCES = {
 }
 
 _DRIVE_WAYS = {
-    "circuit.winding_rotor_capacitance": Field(
+    "circuit.winding_rotor_capacitance": list_of_ways(
         "circuit.way",
         "Capacitances",
-        kind="ways",
-        ways=(
-            Way(
-                "From the geometry of the machine",
-                {**dict.fromkeys(_CAPACITANCES), "circuit.machine": _GEOMETRY},
-                "circuit.machine",
-            ),
-            Way("Given, as measured", {**_CAPACITANCES, "circuit.machine": None}),
+        Way(
+            "From the geometry of the machine",
+            {**dict.fromkeys(_CAPACITANCES), "circuit.machine": _GEOMETRY},
+            "circuit.machine",
         ),
+        Way("Given, as measured", {**_CAPACITANCES, "circuit.machine": None}),
     ),
-    "breakdown.extinction_current": Field(
+    "breakdown.extinction_current": list_of_ways(
         "breakdown.extinction_way",
         "The arc goes out",
-        kind="ways",
-        ways=(
-            Way("Below a current", {"breakdown.extinction_current": "10 mA"}, "breakdown.extinction_current"),
-            Way("Below a voltage", {"breakdown.extinction_voltage": "0.1 V"}),
-        ),
+        way_by("breakdown.extinction_current", "Below a current", "10 mA"),
+        Way("Below a voltage", {"breakdown.extinction_voltage": "0.1 V"}),
     ),
 }
 _DRIVE_SHOWN = {
-    **{key: {"when": _given} for key in _CAPACITANCES},
-    "breakdown.extinction_current": {"when": _by_current},
-    "breakdown.extinction_voltage": {"when": _by_voltage},
+    **{key: {"when": equal("circuit.machine", None)} for key in _CAPACITANCES},
+    "breakdown.extinction_current": {"when": given("breakdown.extinction_current")},
+    "breakdown.extinction_voltage": {"when": equal("breakdown.extinction_current", None)},
 }
 
 
@@ -302,11 +260,11 @@ def _group(title: str, **more: Any) -> Group:
 
 
 DRIVE = _group("Operation")
-MACHINE = _group("Machine", note=_ASSUMED)
+MACHINE = _group("Machine", note=ASSUMED)
 STATOR = _group(
     "Geometry of the machine",
-    note=f"{_ASSUMED} End windings are left out, and add to all capacitances.",
-    when=_machine,
+    note=f"{ASSUMED} End windings are left out, and add to all capacitances.",
+    when=given("circuit.machine"),
 )
 PATHS = _group("Ring, choke and ground", opened=False)
 ARC = _group("Arc of a discharge", note="There is no model of the arc: these values are assumptions.")
@@ -315,15 +273,10 @@ ARC = _group("Arc of a discharge", note="There is no model of the arc: these val
 _REPLACED = {"bearing.inner_speed": "drive.speed", "bearing.temperature": "drive.temperature"}
 
 
-def _open(key: str) -> When:
-    """Whether the drive leaves a key to its bearings."""
-    return lambda inputs: inputs.value(key) is None
-
-
 def _fields_at(group: Group, end: str) -> Iterator[Field]:
     for field in group.fields:
         if field.key in _REPLACED:
-            yield field_at(field, end, when=_open(_REPLACED[field.key]), strict=True)
+            yield field_at(field, end, when=equal(_REPLACED[field.key], None), strict=True)
         elif field.key != "discharge.peak_current":
             # The simulation computes the current of a discharge.
             yield field_at(field, end)
@@ -351,20 +304,16 @@ def _bearing(end: str, name: str) -> Iterator[Group]:
         found = group_at(group, end, title, fields, opened=opened)
         if group is BREAKDOWN:
             found = Group(title, fields, note=group.note, opened=False)
-        yield found if end == DRIVE_END else _only_own(found)
-
-
-def _own(inputs: Inputs) -> bool:
-    return inputs.value(NON_DRIVE_END) is not None
-
-
-def _only_own(group: Group) -> Group:
-    """Group that is there only where the non-drive end has a bearing of its own."""
-    return replace(group, when=_own)
+        # The other end has these groups only where it has a bearing of its own.
+        yield found if end == DRIVE_END else replace(found, when=given(NON_DRIVE_END))
 
 
 def _which(inputs: Inputs) -> str:
-    return "" if _own(inputs) else "The bearing at the non-drive end is the same as at the drive end."
+    return (
+        ""
+        if inputs.value(NON_DRIVE_END) is not None
+        else "The bearing at the non-drive end is the same as at the drive end."
+    )
 
 
 OTHER = Group(

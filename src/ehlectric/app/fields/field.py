@@ -1,6 +1,4 @@
-"""Fields of the forms: keys of an input file with units, sliders and texts, numbers as typed, kinds of
-bearings.
-"""
+"""Fields and groups of the forms, the conditions under which they are shown, and the texts in their boxes."""
 
 from __future__ import annotations
 
@@ -35,8 +33,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
 
 def kind_of(inputs: Inputs) -> str:
     """Kind of the bearing; empty where the inputs do not tell it."""
-    kind = inputs.value("bearing.kind") or bearing(str(inputs.value("bearing.base"))).get("kind", "")
-    return str(kind)
+    return str(inputs.value("bearing.kind") or bearing(str(inputs.value("bearing.base"))).get("kind", ""))
 
 
 def has_balls(inputs: Inputs) -> bool:
@@ -75,17 +72,33 @@ When = Callable[[Inputs], bool]
 
 
 def always(_: Inputs) -> bool:
-    """Whether a field is shown that belongs to all inputs."""
+    """Condition of a field that belongs to all inputs."""
     return True
 
 
 def never(_: Inputs) -> bool:
-    """Whether a field is shown that appears only with a value, such as the one of an alternative."""
+    """Condition of a field that is shown only where its key has a value, as one of several alternatives."""
     return False
 
 
-def _nothing(_: Inputs) -> str:
-    return ""
+def given(*keys: str) -> When:
+    """Condition that the inputs have one of the keys."""
+    return lambda inputs: any(inputs.value(key) is not None for key in keys)
+
+
+def equal(key: str, *values: Any) -> When:
+    """Condition that a key has one of the values; None stands for a key that is not given."""
+    return lambda inputs: inputs.value(key) in values
+
+
+def unequal(key: str, *values: Any) -> When:
+    """Condition that a key has none of the values; None stands for a key that is not given."""
+    return lambda inputs: inputs.value(key) not in values
+
+
+def both(first: When, second: When) -> When:
+    """Condition that two conditions hold."""
+    return lambda inputs: first(inputs) and second(inputs)
 
 
 @dataclass(frozen=True)
@@ -95,9 +108,9 @@ class Way:
     label: str
     # Values by dotted key with which the way begins; None removes a key.
     changes: Mapping[str, Any] = field(default_factory=dict)
-    key: str = ""  # key whose presence tells this way; empty for the way of inputs that have no other
-    value: Any = None  # value of the key that tells this way; None for any
-    listed: bool = True  # whether the list has this way also while it is not taken
+    key: str = ""  # key whose presence shows that the inputs take this way; empty for the last of the list
+    value: Any = None  # value of this key with which they take this way; None for any
+    listed: bool = True  # whether the list has this way also while the inputs do not take it
 
     def taken(self, inputs: Inputs) -> bool:
         """Whether the inputs take this way."""
@@ -223,16 +236,22 @@ def field_of(key: str, **more: Any) -> Field:
     return Field(key, **(own | more))
 
 
+def way_by(key: str, label: str, first: Any, *, exactly: bool = False) -> Way:
+    """Way of inputs that have a key, with its first value; if ``exactly``, of inputs with that value."""
+    return Way(label, {key: first}, key, first if exactly else None)
+
+
+def list_of_ways(key: str, label: str, *ways: Way, when: When = always) -> Field:
+    """List of alternative ways to give a quantity."""
+    return Field(key, label, kind="ways", ways=ways, when=when)
+
+
 def fields_of(
     keys: Iterable[str], shown: Mapping[str, Mapping[str, Any]], ways: Mapping[str, Field]
 ) -> tuple[Field, ...]:
-    """Fields of keys in their order."""
-    fields: list[Field] = []
-    for key in keys:
-        if key in ways:
-            fields.append(ways[key])
-        fields.append(field_of(key, **shown.get(key, {})))
-    return tuple(fields)
+    """Fields of keys in their order, each after the list of alternatives that stands before it."""
+    pairs = ((ways.get(key), field_of(key, **shown.get(key, {}))) for key in keys)
+    return tuple(field for pair in pairs for field in pair if field is not None)
 
 
 @dataclass(frozen=True)
@@ -246,7 +265,7 @@ class Group:
     start: Mapping[str, Any] = field(default_factory=dict)  # values of the table when it is switched on
     note: str = ""  # what a user must know about the group, such as that its first values are assumptions
     # Sentence on given inputs, such as on values that hold where none are given; may be empty.
-    tells: Callable[[Inputs], str] = _nothing
+    tells: Callable[[Inputs], str] = lambda _: ""
     copies: str = ""  # table whose values the table has when it is first switched on, in place of ``start``
     when: When = always  # whether the group belongs to given inputs
 
@@ -320,7 +339,5 @@ def in_field_unit(field: Field, text: str) -> str:
 
     names = "|".join(sorted({re.escape(name) for name in (si, si.replace("^", "**"))}))
     elsewhere = re.compile(rf"(?<!['\d.e+-])({_NUMBER}) (?:{names})(?![\w*^/²³])")
-    if si != field.unit:
-        text = _TAKES.sub(lambda found: takes(found), text)
-        return elsewhere.sub(lambda found: number(found[1]), text)
-    return _TAKES.sub(lambda found: takes(found), text)
+    text = _TAKES.sub(takes, text)
+    return text if si == field.unit else elsewhere.sub(lambda found: number(found[1]), text)

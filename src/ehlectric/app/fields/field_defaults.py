@@ -39,9 +39,7 @@ def at_end(changes: Mapping[str, Any], end: str) -> dict[str, Any]:
 
 
 def field_at(field: Field, end: str, *, when: When | None = None, strict: bool | None = None) -> Field:
-    """Field of the bearing at an end of a drive. ``when``, whether it belongs to the inputs of a drive; that
-    of the field for its bearing if not given.
-    """
+    """Field of the bearing at an end of a drive, with its own condition unless ``when`` is given."""
     own = field.when
     return replace(
         field,
@@ -110,13 +108,8 @@ def default_of(inputs: Inputs, key: str) -> Any:
         return f"{100.0 * error:g} %"
     if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:
         return None
-    estimated = inputs.value("lubricant.temperature.base_oil") is not None
-    if key == "lubricant.roelands_z" and estimated:
+    if key == "lubricant.roelands_z" and inputs.value("lubricant.temperature.base_oil") is not None:
         return None
-    for table, known in _LIBRARY.items():
-        if key.startswith(f"{table}."):
-            value = known(str(inputs.value(f"{table}.base"))).get(key.removeprefix(f"{table}."))
-            if value is not None:
-                return value
-            break
-    return _DEFAULTS.get(key)
+    table = next((table for table in _LIBRARY if key.startswith(f"{table}.")), None)
+    known = {} if table is None else _LIBRARY[table](str(inputs.value(f"{table}.base")))
+    return known.get(key.removeprefix(f"{table}."), _DEFAULTS.get(key))

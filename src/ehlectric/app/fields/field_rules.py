@@ -1,7 +1,7 @@
-"""Rules by which a new input takes the place of others, and the memory of a form of what was replaced.
+"""Rules by which a new input replaces others, and a memory of the values that were replaced.
 
-Rules by which a new input takes the place of others, as ``BearingCase.replace`` and ``Case.replace`` do.
-They work on inputs as a person writes them, so that the values of the library stay in the library.
+The rules are those of ``BearingCase.replace`` and ``Case.replace``. They work on inputs as a person writes
+them, so that the values of the library stay in the library.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle
 
 
 class Memory:
-    """Last values of groups that can be switched off, of own entries of lists, and of ways.
+    """Last values of groups that can be switched off, of user-defined entries of lists, and of alternatives.
 
     Examples
     --------
@@ -59,18 +59,18 @@ class Memory:
                 self._note_field(field, inputs)
 
     def table(self, group: Group, inputs: Inputs) -> dict[str, Any]:
-        """Table of a group that is switched on: the last one, or that with which it begins."""
+        """Table of a group that is switched on: the last one, or its first values."""
         if group.table in self._tables:
             return deepcopy(dict(self._tables[group.table]))
         copied = inputs.value(group.copies) if group.copies else None
         return deepcopy(dict(copied if isinstance(copied, Mapping) else group.start))
 
     def own(self, field: Field, inputs: Inputs) -> dict[str, Any]:
-        """Changes that bring back the last own values of a list, or those of the library as own ones."""
+        """Changes to the last user-defined values of a list, or to copies of those of the library."""
         return deepcopy(self._own[field.key]) if field.key in self._own else own_values(inputs, field.key)
 
     def way(self, field: Field, place: int, inputs: Inputs) -> dict[str, Any]:
-        """Changes that take a way with its last values, or with those with which it begins."""
+        """Changes to an alternative with its last values, or with its first ones."""
         way = field.ways[place]
         last = {**way.changes, **deepcopy(self._ways.get((field.key, place), {}))}
         return last if field.way(changed(inputs, last)) == place else dict(way.changes)
@@ -85,17 +85,13 @@ class Memory:
 
 
 def _own_of(inputs: Inputs, key: str) -> dict[str, Any]:
-    """Changes that make the present own values those of other inputs."""
+    """Changes that set the present user-defined values again."""
     end, key = end_and_key(key)
-    return at_end(_own_of_case(bearing_at(inputs, end), key), end)
-
-
-def _own_of_case(inputs: Inputs, key: str) -> dict[str, Any]:
-    table = key.rpartition(".")[0]
+    inputs, table = bearing_at(inputs, end), key.rpartition(".")[0]
     if table != "bearing":
-        return {table: inputs.value(table)}
+        return at_end({table: inputs.value(table)}, end)
     given = {name: inputs.value(name) for name in _GEOMETRY}
-    return {name: value for name, value in given.items() if value is not None} | {key: None}
+    return at_end({name: value for name, value in given.items() if value is not None} | {key: None}, end)
 
 
 # Alternatives of the checks, and those of an oil of one's own and of tables that exclude each other.
@@ -119,8 +115,9 @@ OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
 
 
 def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
-    """Inputs with new values, and without those that the new values take the place of. ``changes``, new
-    values by dotted key; None removes a key, and a mapping sets a table.
+    """Inputs with new values by dotted key, and without those that they replace.
+
+    None removes a key, and a mapping sets a table.
 
     Examples
     --------
@@ -130,21 +127,20 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
     {'base': '6206', 'radial_clearance': '10 um'}
     """
-    own: dict[str, Any] = {}
-    of_ends: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
+    by_end: dict[str, dict[str, Any]] = {end: {} for end in ("", *ENDS)}
     for key, value in changes.items():
         end, inner = end_and_key(key)
-        (of_ends[end] if end else own)[inner] = value
-    found = _changed(inputs, own)
-    for end, changes_there in of_ends.items():
-        if changes_there:
-            after = _changed(bearing_at(found, end), changes_there)
+        by_end[end][inner] = value
+    found = _changed(inputs, by_end[""])
+    for end in ENDS:
+        if by_end[end]:
+            after = _changed(bearing_at(found, end), by_end[end])
             found = found.changed({end: dict(after.table) or None})
     return with_fitted_remedies(inputs, found)
 
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
-    """Inputs of a case, of which a drive has one at each end, with new values."""
+    """Inputs of a case, or of the bearing at one end of a drive, with new values."""
     given = _flat(changes)
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
     found = inputs.changed(dropped).changed(changes)
@@ -160,10 +156,10 @@ def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
 def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
     """First values of the thermal properties of a data sheet, which the heat of the films needs."""
     factor = inputs.value("bearing.film_factor")
-    needed = dict(_THERMAL[: FILM_FACTORS.index(factor)]) if factor in FILM_FACTORS else {}
-    if inputs.value("lubricant.temperature") is None:
+    if inputs.value("lubricant.temperature") is None or factor not in FILM_FACTORS:
         return {}
-    return {key: value for key, value in needed.items() if inputs.value(key) is None}
+    needed = _THERMAL[: FILM_FACTORS.index(factor)]
+    return {key: value for key, value in needed if inputs.value(key) is None}
 
 
 # Thermal properties of the oil of the examples, assumptions, in the order in which film factors need them.
@@ -174,25 +170,22 @@ _THERMAL = (
 
 
 def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
-    """Changes by which the values of the library under a key become values of one's own."""
+    """Changes by which the values of the library under a key become user-defined values."""
     end, key = end_and_key(key)
-    return at_end(_own_values(bearing_at(inputs, end), key), end)
-
-
-def _own_values(inputs: Inputs, key: str) -> dict[str, Any]:
+    inputs = bearing_at(inputs, end)
     base = str(inputs.value(key))
-    if key == "bearing.base":
-        values = {f"bearing.{name}": value for name, value in bearing(base).items()}
-    elif key == "bearing.coating.base":
-        values = {f"bearing.coating.{name}": value for name, value in coating(base).items()}
-        values = {"bearing.coating.thickness": "200 um"} | values
-    else:
+    if key == "lubricant.base":
         # The paper's oil has all laws; the data sheet replaces its viscosity and density.
-        return {key: _OIL_OF_LAWS, "lubricant.temperature": dict(_SHEET)}
-    return {name: value for name, value in values.items() if inputs.value(name) is None} | {key: None}
+        return at_end({key: "paper", "lubricant.temperature": dict(_SHEET)}, end)
+    known = {
+        "bearing.base": bearing(base),
+        "bearing.coating.base": {"thickness": "200 um"} | coating(base),
+    }.get(key, {})
+    values = {f"{key.rpartition('.')[0]}.{name}": value for name, value in known.items()}
+    return at_end(
+        {name: one for name, one in values.items() if inputs.value(name) is None} | {key: None}, end
+    )
 
-
-_OIL_OF_LAWS = "paper"
 
 # Data sheet of the example of a bearing; an assumption.
 _SHEET = {
@@ -203,7 +196,7 @@ _SHEET = {
 
 
 def is_own(inputs: Inputs, key: str) -> bool:
-    """Whether the values under a key are a user's own, and not those of the library."""
+    """Whether the values under a key are user-defined, and not those of the library."""
     end, key = end_and_key(key)
     own = bearing_at(inputs, end)
     if key == "lubricant.base" and own.value("lubricant.temperature") is not None:
@@ -212,7 +205,7 @@ def is_own(inputs: Inputs, key: str) -> bool:
 
 
 def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
-    """Keys that new values take the place of."""
+    """Keys that new values replace."""
     new = {key for key, value in given.items() if value is not None}
     if "lubricant.base" in new:
         yield from _within(inputs, "lubricant")

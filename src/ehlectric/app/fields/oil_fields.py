@@ -7,18 +7,22 @@ from typing import Any
 
 from ehlectric.app.catalogue import oil as oil_named
 from ehlectric.app.catalogue import oil_needs
-from ehlectric.app.fields.field import Field, Group, Way, fields_of, never
+from ehlectric.app.fields.field import Group, Way, both, equal, fields_of, given, list_of_ways, never, way_by
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 
 _SHEET = "lubricant.temperature"
 
+# Viscosities of a data sheet, at 40 and 100 °C.
+_AT_TEMPERATURES = ("iso_vg", "kinematic_viscosity_40", "viscosity_index", "kinematic_viscosity_100")
+
 # Thermal expansion of an oil whose data sheet gives none.
 EXPANSION = "6.5e-4 1/K"
 
 
-def _sheet(inputs: Inputs) -> bool:
-    return inputs.value(_SHEET) is not None
+_sheet = given(_SHEET)
+_heated = both(_sheet, equal("bearing.film_factor", *FILM_FACTORS[1:]))
+_solved_heat = both(_sheet, equal("bearing.film_factor", "solved"))
 
 
 def _permittivity(inputs: Inputs) -> bool:
@@ -27,14 +31,6 @@ def _permittivity(inputs: Inputs) -> bool:
 
 def _needs_exponent(inputs: Inputs) -> bool:
     return "roelands_z" in oil_needs(str(inputs.value("lubricant.base")))
-
-
-def _heated(inputs: Inputs) -> bool:
-    return _sheet(inputs) and inputs.value("bearing.film_factor") in FILM_FACTORS[1:]
-
-
-def _solved_heat(inputs: Inputs) -> bool:
-    return _sheet(inputs) and inputs.value("bearing.film_factor") == "solved"
 
 
 def assumed(inputs: Inputs) -> str:
@@ -91,24 +87,18 @@ _WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "r
 
 
 _WAYS = {
-    f"{_SHEET}.iso_vg": Field(
+    f"{_SHEET}.iso_vg": list_of_ways(
         f"{_SHEET}.way_40",
         "At 40 °C given as",
-        kind="ways",
-        ways=(
-            Way("ISO viscosity grade", {f"{_SHEET}.iso_vg": 46}, f"{_SHEET}.iso_vg"),
-            Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_40": "46 mm^2/s"}),
-        ),
+        way_by(f"{_SHEET}.iso_vg", "ISO viscosity grade", 46),
+        Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_40": "46 mm^2/s"}),
         when=_sheet,
     ),
-    f"{_SHEET}.viscosity_index": Field(
+    f"{_SHEET}.viscosity_index": list_of_ways(
         f"{_SHEET}.way_100",
         "At 100 °C given as",
-        kind="ways",
-        ways=(
-            Way("Viscosity index", {f"{_SHEET}.viscosity_index": 100.0}, f"{_SHEET}.viscosity_index"),
-            Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_100": "6.8 mm^2/s"}),
-        ),
+        way_by(f"{_SHEET}.viscosity_index", "Viscosity index", 100.0),
+        Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_100": "6.8 mm^2/s"}),
         when=_sheet,
     ),
 }
@@ -118,10 +108,7 @@ _SHOWN: dict[str, dict[str, Any]] = {
         "own": "From a data sheet",
         "lacks": "not in the library ({count} oils): give the values of its data sheet",
     },
-    f"{_SHEET}.iso_vg": {"when": never},
-    f"{_SHEET}.kinematic_viscosity_40": {"when": never},
-    f"{_SHEET}.viscosity_index": {"when": never},
-    f"{_SHEET}.kinematic_viscosity_100": {"when": never},
+    **{f"{_SHEET}.{name}": {"when": never} for name in _AT_TEMPERATURES},
     f"{_SHEET}.density_15": {"when": _sheet},
     f"{_SHEET}.base_oil": {"when": _sheet},
     f"{_SHEET}.thermal_conductivity": {"when": _heated},

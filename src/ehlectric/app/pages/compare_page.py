@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from html import escape
 from typing import Any, Literal
 
@@ -28,6 +29,7 @@ from ehlectric.app.figures import compare_charts as figures
 from ehlectric.app.following import Following
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages import page_parts
+from ehlectric.app.pages.answer_page import behind
 from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.frame import (
     BEARING,
@@ -51,17 +53,15 @@ def inputs_table(rows: Sequence[InputRow], labels: Mapping[str, str]) -> str:
     """Table of the inputs that differ, and of all others in a part that can be opened."""
     differ = [row for row in rows if row.sign != "="]
     equal = [row for row in rows if row.sign == "="]
-    first = (
-        "<p>Both cases have the same inputs.</p>" if not differ else _inputs(differ, labels, "inputs-differ")
-    )
-    return f"{first}{_details(f'{len(equal)} inputs that are equal', _inputs(equal, labels, 'inputs-equal'))}"
+    first = _inputs(differ, labels, "inputs-differ") if differ else "<p>Both cases have the same inputs.</p>"
+    return first + behind(f"{len(equal)} inputs that are equal", _inputs(equal, labels, "inputs-equal"))
 
 
 def effects_table(effects: Sequence[Effect]) -> str:
     """Table of the results that decide, and of all others in a part that can be opened."""
     main = [effect for effect in effects if effect.either.main]
     others = [effect for effect in effects if not effect.either.main]
-    return _effects(main) + _details(f"{len(others)} further results", _effects(others))
+    return _effects(main) + behind(f"{len(others)} further results", _effects(others))
 
 
 def _inputs(rows: Iterable[InputRow], labels: Mapping[str, str], test: str) -> str:
@@ -74,7 +74,8 @@ def _inputs(rows: Iterable[InputRow], labels: Mapping[str, str], test: str) -> s
             f"<td>{escape(row.first) or '–'}</td><td>{escape(row.second) or '–'}</td>"
             f"<td>{_SIGNS[row.sign]}</td></tr>"
         )
-    return _table(("input", "A", "B", "A and B"), body, test)
+    heads = ("input", "A", "B", "A and B")
+    return page_parts.scrolling_table(test.replace("-", " "), heads, body, test)
 
 
 def _effects(effects: Iterable[Effect]) -> str:
@@ -90,7 +91,7 @@ def _effects(effects: Iterable[Effect]) -> str:
             f"<tr{differs} data-testid={_quoted(test)}><th scope=row>{escape(either.name)}</th>"
             f"{_cell(effect.first)}{_cell(effect.second)}<td>{escape(effect.words)}</td></tr>"
         )
-    return _table(("result", "A", "B", "from A to B"), body, "effects")
+    return page_parts.scrolling_table("effects", ("result", "A", "B", "from A to B"), body, "effects")
 
 
 def _cell(result: Result | None) -> str:
@@ -105,19 +106,6 @@ def _named(label: str, key: str) -> str:
     return f"{escape(label)}<span class=note>{escape(key)}</span>" if label else escape(key)
 
 
-def _table(heads: Iterable[str], body: str, test: str) -> str:
-    head = "".join(f"<th scope=col>{head}</th>" for head in heads)
-    words = test.replace("-", " ")
-    return (
-        f'<div class=scroll tabindex=0 role=region aria-label="{words}"><table data-testid={test}>'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
-    )
-
-
-def _details(words: str, inner: str) -> str:
-    return f"<details><summary>{words}</summary>{inner}</details>"
-
-
 def _quoted(text: str) -> str:
     return f'"{escape(text, quote=True)}"'
 
@@ -126,6 +114,7 @@ _PATH = "/compare"
 Name = Literal["a", "b"]
 Sides = tuple[Side | Exception, Side | Exception]
 _NAMES: tuple[Name, Name] = ("a", "b")
+_LOOKS: dict[Name, str] = {"a": "side first", "b": "side second"}
 
 # Two cases with which the page begins: a bearing at two speeds.
 _START = Inputs(
@@ -188,16 +177,11 @@ class ComparePage:
     def build(self, error: InputError | None) -> None:
         """Build the forms and the places of the answers."""
         self.toolbar = Toolbar(self.session, _PATH, self.show, opens=False)
-        if error is not None:
-            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        page_parts.address_error(error)
         with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Both cases"'):
-            for words, test, first, second in (
-                ("Swap A and B", "swap", "b", "a"),
-                ("Take B as A", "b-as-a", "b", "b"),
-                ("Take A as B", "a-as-b", "a", "a"),
-            ):
-                button = ui.button(words, on_click=lambda one=first, two=second: self._take(one, two))
-                button.props(f'outline no-caps dense data-testid="{test}"')
+            page_parts.tool("Swap A and B", "swap", partial(self._take, "b", "a"))
+            page_parts.tool("Take B as A", "b-as-a", partial(self._take, "b", "b"))
+            page_parts.tool("Take A as B", "a-as-b", partial(self._take, "a", "a"))
         with ui.element("div").classes("sides"):
             self._verdicts = {name: self._side(name) for name in _NAMES}
         self._notice = ui.label(_EARLIER).classes("wrong notice").props('role="status" data-testid="notice"')
@@ -213,15 +197,13 @@ class ComparePage:
 
     def _side(self, name: Name) -> ui.element:
         """Place of the verdict of a case."""
-        number = "first" if name == "a" else "second"
-        with ui.element("section").classes(f"side {number}").props(f'data-testid="side-{name}"'):
+        with ui.element("section").classes(_LOOKS[name]).props(f'data-testid="side-{name}"'):
             page_parts.heading(f"Case {name.upper()}", 2)
             return ui.element("div").props('aria-live="polite"')
 
     def _inputs_of(self, name: Name) -> ui.expansion:
         """Place of the form of a case, which is opened where an input is wrong."""
-        number = "first" if name == "a" else "second"
-        with ui.element("section").classes(f"side {number}").props(f'data-testid="form-{name}"'):
+        with ui.element("section").classes(_LOOKS[name]).props(f'data-testid="form-{name}"'):
             form = ui.expansion(f"Change the inputs of {name.upper()}").props(f'data-testid="inputs-{name}"')
             return form.classes("inputs")
 
@@ -278,8 +260,7 @@ class ComparePage:
 
     def _push(self, table: Mapping[str, Any]) -> None:
         self.session.history.push(Inputs(table))
-        if self.session.inputs.linkable:
-            show_address(self.session.inputs, _PATH)
+        show_address(self.session.inputs, _PATH)
         self.refresh()
 
     def show(self) -> None:
@@ -314,7 +295,7 @@ class ComparePage:
         return found[0], found[1]
 
     def _refuse(self, error: Exception) -> None:
-        """Say what is wrong with both cases together; that of each stands beside it."""
+        """Say what is wrong with both cases together; the error of one case stands next to it."""
         self._notice.text = str(error)
         self._notice.set_visibility(True)
 
@@ -363,17 +344,16 @@ class ComparePage:
         """Show the differences of two answers."""
         found = effects(first, second)
         cases = [Inputs(inputs.value(name) or {}) for name in _NAMES]
-        methods = dict.fromkeys((first.method, second.method))
-        self._method.text = "; ".join(methods)
+        self._method.text = "; ".join(dict.fromkeys((first.method, second.method)))
         self._effects.content = effects_table(found)
         self._inputs.content = inputs_table(input_rows(cases[0].table, cases[1].table), _labels(cases))
         self._draw([effect for effect in found if effect.either.main], (first, second))
         self._warnings.clear()
         with self._warnings:
             for words, told in (
-                ("Only A", list(only_in(first, second))),
-                ("Only B", list(only_in(second, first))),
-                ("Both, in the words of A", list(in_both(first, second))),
+                ("Only A", only_in(first, second)),
+                ("Only B", only_in(second, first)),
+                ("Both, in the words of A", in_both(first, second)),
             ):
                 page_parts.heading(f"{words}: {len(told) or 'none'}", 3)
                 page_parts.warnings(told)

@@ -3,31 +3,41 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Awaitable, Callable, Iterable, Mapping
+from collections.abc import Awaitable, Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import ContactCheck, ContactView, Number, Reach, Shown
+from ehlectric.app.answers import ContactCheck, ContactView, Reach, Shown
 from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
 from ehlectric.app.fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
-from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, contact_start, framed, session_of, show_address
+from ehlectric.app.pages.frame import (
+    PAGE_PATIENCE,
+    Toolbar,
+    connected,
+    contact_start,
+    framed,
+    session_of,
+    show_address,
+)
 from ehlectric.app.pages.movie_box import MovieBox
 from ehlectric.app.pages.page_parts import (
     JobBox,
     Strip,
+    address_error,
     card,
     figure,
     heading,
     light,
     light_shown,
     lines_html,
-    number,
+    mark,
+    number_cards,
     warnings,
 )
 from ehlectric.app.pages.roughness_box import RoughnessBox
@@ -41,14 +51,6 @@ _WIDE = ("profiles", "section", "surface")
 
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"
-
-
-def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
-    """Main numbers beside each other, each with what concerns it."""
-    with ui.element("div").classes("numbers"):
-        for one in numbers:
-            with ui.element("div").props(f'data-testid="number-{prefix}{one.key}"'):
-                number(one.label, one.text, one.unit, bound=one.bound, warnings=one.told, note=one.note)
 
 
 class FigureBox:
@@ -84,10 +86,9 @@ class CutSlider:
         self.value = value
         self._name, self._ends, self._unit, self._changed = name, ends, unit, slid
         self._label = ui.label().classes("cut-value")
-        slider = ui.element("input").props(f'type="range" data-testid="slider-cut-{name}" step="any"')
-        slider.props(f'aria-label="{name} of the cut in {unit}" min="{ends[0]}" max="{ends[1]}"')
-        slider.on("input", self._moved, js_handler="(event) => emit(event.target.value)", throttle=0.1)
-        self._slider = slider
+        self._slider = ui.element("input").props(f'type="range" data-testid="slider-cut-{name}" step="any"')
+        self._slider.props(f'aria-label="{name} of the cut in {unit}" min="{ends[0]}" max="{ends[1]}"')
+        self._slider.on("input", self._moved, js_handler="(event) => emit(event.target.value)", throttle=0.1)
         self.set(value)
 
     def set(self, value: float) -> None:
@@ -99,15 +100,14 @@ class CutSlider:
 
     async def _moved(self, event: Any) -> None:
         self.value = float(event.args)
-        # What the element was told last must not come back with its next update.
+        # The next update of the element must not set its earlier value again.
         self._slider.props["value"] = self.value
         self._tell()
         await self._changed()
 
     def _tell(self) -> None:
-        text = f"{self._name} = {self.value:.4g} {self._unit}"
-        self._label.text = text
-        self._slider.props["aria-valuetext"] = text
+        self._label.text = f"{self._name} = {self.value:.4g} {self._unit}"
+        self._slider.props["aria-valuetext"] = self._label.text
 
 
 class ContactViewBox:
@@ -132,7 +132,7 @@ class ContactViewBox:
 
     def dim(self, *, old: bool) -> None:
         """Dim the answer where it belongs to earlier inputs."""
-        self._box.classes(add="old" if old else "", remove="" if old else "old")
+        mark(self._box, "old", on=old)
 
     def show(self, view: ContactView, folder: Path | None) -> None:
         """Show a solved contact."""
@@ -177,30 +177,23 @@ class ContactViewBox:
             return
         with self._choice:
             heading("Cuts through a point", 3)
-            said = f"Click on a map, or move the sliders. At first: {reach.first}."
-            ui.label(said).classes("note")
+            ui.label(f"Click on a map, or move the sliders. At first: {reach.first}.").classes("note")
             for name, ends, at in (("x", reach.x, reach.at[0]), ("y", reach.y, reach.at[1])):
                 self._sliders[name] = CutSlider(name, ends, at, reach.unit, self._slid)
 
-    async def _slid(self) -> None:
-        await self._cut(self._sliders["x"].value, self._sliders["y"].value)
-
     async def _clicked(self, event: Any) -> None:
-        place: Mapping[str, Any] = event.args
-        if self._reach is None:
-            return
-        across, down = float(place["x"]), float(place["y"])
-        x, y = (down, across) if self._reach.turned else (across, down)
-        self._sliders["x"].set(x)
-        self._sliders["y"].set(y)
-        await self._slid()
+        if self._reach is not None:
+            axes = ("y", "x") if self._reach.turned else ("x", "y")
+            for axis, place in zip(axes, ("x", "y"), strict=True):
+                self._sliders[axis].set(float(event.args[place]))
+            await self._slid()
 
-    async def _cut(self, x: float, y: float) -> None:
-        """Cut through a point; while one cut is made, only the last of further points waits."""
+    async def _slid(self) -> None:
+        """Cut through the chosen point; while one cut is made, only the last of further points waits."""
         reach, folder = self._reach, self._folder
         if reach is None or folder is None:
             return
-        self._at = (x, y)
+        self._at = (self._sliders["x"].value, self._sliders["y"].value)
         if self._cutting:
             return
         self._cutting = True
@@ -228,9 +221,9 @@ class ContactViewBox:
 _PATH = "/contact"
 _GEOMETRIES = {"line": "Line contact", "point": "Point contact"}
 
-# Numbers of the short answer.
-_SHORT = ("minimum-film", "breakdown-voltage")
-_SHORT_OF_SPOTS = ("behaviour", "breakdown-5")
+# Ends of the keys of the numbers of the short answer, by formula or solved, and where the surfaces touch.
+_SHORT = (".minimum_thickness", ".breakdown_voltage")
+_SHORT_OF_SPOTS = (".behaviour", ".breakdown_5")
 
 # Places of the movie among the cards of the answer, while surfaces move and at rest.
 _MOVIE_FIRST, _MOVIE_LAST = 1, 3
@@ -253,9 +246,7 @@ def add(work: Work) -> None:
         page = ContactPage(session_of(work, inputs))
         with framed("Film, pressure and field of one contact", _PATH):
             page.build(error)
-        await ui.context.client.connected()
-        # The wait ends with the client, too; an answer would make the folder of its session again.
-        if not ui.context.client.is_deleted:
+        if await connected():
             await page.refresh()
 
 
@@ -276,16 +267,15 @@ class ContactPage:
     @property
     def folder(self) -> Path | None:
         """Folder with files of a result of the present inputs; None where they are still to be made."""
-        if self.session.inputs.value("motion") is not None:
+        if self._moving:
             return self._movie.folder
-        return self._folder if self._solved == self.session.inputs else None
+        return self._folder if self._is_solved else None
 
     def build(self, error: InputError | None = None) -> None:
         """Build the form and the places of the answers; ``error`` is that of the address."""
         self._strip = Strip()
         Toolbar(self.session, _PATH, self.shown_again)
-        if error is not None:
-            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        address_error(error)
         with ui.element("div").classes("columns"):
             with ui.element("div").classes("inputs"):
                 self._build_inputs()
@@ -314,7 +304,7 @@ class ContactPage:
                 self._solve = ui.button("Solve", on_click=self.solve, color=None).classes("primary")
                 self._solve.props('flat no-caps data-testid="solve"')
                 self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
-            self._job = JobBox(self._ended)
+            self._job = JobBox(self.session, self._ended, self._tell_refused)
             self.view = ContactViewBox(self.session)
         with card("Rough surfaces"):
             self._roughness = RoughnessBox(self.session, self._inputs_changed)
@@ -338,7 +328,7 @@ class ContactPage:
         self.session.history.push(self.session.inputs.changed({key: value}))
         # The button that removed an input is no longer there.
         with self._form_place:
-            self._show_address()
+            show_address(self.session.inputs, _PATH)
             self._roughness.refresh()
             self._movie.refresh()
             await self.refresh()
@@ -354,7 +344,7 @@ class ContactPage:
     async def shown_again(self) -> None:
         """Show the present inputs everywhere, as after an undo, and answer them."""
         self._place_movie()
-        self._show_address()
+        show_address(self.session.inputs, _PATH)
         self._kind.set_value(geometry_of(self.session.inputs))
         if self._form_of == geometry_of(self.session.inputs):
             self.form.set(self.session.inputs)
@@ -363,10 +353,6 @@ class ContactPage:
         self._roughness.refresh()
         self._movie.refresh()
         await self.refresh()
-
-    def _show_address(self) -> None:
-        if self.session.inputs.linkable:
-            show_address(self.session.inputs, _PATH)
 
     async def refresh(self) -> None:
         """Answer the present inputs; an answer that comes after newer inputs is dropped."""
@@ -389,11 +375,11 @@ class ContactPage:
         self._check = answer
         self._show_check(answer)
         self._show_state()
-        if answer.quick and self._solved != self.session.inputs:
+        if answer.quick and not self._is_solved:
             await self._solve_at_once()
 
     def _awaits(self, asked: int) -> bool:
-        """Whether a tab is still open that waits for the answer to a question of this number."""
+        """Whether the tab is still open, and no newer answer was asked for than that of this number."""
         return asked == self._asked and not self._formula.is_deleted
 
     def _show_check(self, answer: ContactCheck) -> None:
@@ -405,7 +391,7 @@ class ContactPage:
             warnings(answer.warnings)
             with ui.expansion("All numbers before solving"):
                 ui.html(lines_html(answer.rows, "Numbers before the film is solved"), sanitize=False)
-        if not self._is_solved():
+        if not self._is_solved:
             self._show_short(answer, "by formula")
 
     def _show_short(self, answer: ContactCheck | ContactView, what: str = "") -> None:
@@ -413,45 +399,47 @@ class ContactPage:
         shown = light_shown(answer.level, answer.text)
         spots = answer.spots if isinstance(answer, ContactView) else ()
         texts = [
-            " ".join(filter(None, [one.label.lower(), one.bound, one.text, one.unit]))
+            f"{one.label.lower()} {one.with_unit}"
             for one in spots or answer.numbers
-            if one.key in (_SHORT_OF_SPOTS if spots else _SHORT)
+            if one.key.endswith(_SHORT_OF_SPOTS if spots else _SHORT)
         ]
         self._strip.show(answer.level, f"{shown.words} {what}".strip(), texts, bound=shown.bound)
         self._strip.dim(dimmed=False)
 
-    def _is_moving(self) -> bool:
+    @property
+    def _moving(self) -> bool:
         return self.session.inputs.value("motion") is not None
+
+    @property
+    def _is_solved(self) -> bool:
+        return self._solved == self.session.inputs
 
     def _place_movie(self) -> bool:
         """Put the movie above what is solved at rest while surfaces move; True where it changed its place."""
-        moving = self._is_moving()
+        moving = self._moving
         if moving == self._movie_first:
             return False
         self._movie_first = moving
         self._movie_card.move(self._answer, _MOVIE_FIRST if moving else _MOVIE_LAST)
         return True
 
-    def _is_solved(self) -> bool:
-        return self._solved == self.session.inputs
-
     def _show_state(self, text: str = "") -> None:
         """Say what the solved answer belongs to, and dim it where that is other inputs."""
-        moving = self._is_moving()
-        old = self._solved is not None and not self._is_solved()
+        moving = self._moving
+        old = self._solved is not None and not self._is_solved
         self._solve.set_visibility(not moving)
         self.view.dim(old=old)
         if moving:
             text = f"{_MOVING}{' The result below belongs to earlier inputs.' if old else ''}"
         elif old and not text:
             text = "The result below belongs to earlier inputs."
-        elif self._is_solved() and not text:
+        elif self._is_solved and not text:
             text = "Solved." if self._converged else "Not converged."
         self._state.text = text
 
     async def solve(self) -> None:
         """Solve the present inputs: small contacts at once, others as a job with progress."""
-        if self._check is None or self._is_moving():
+        if self._check is None or self._moving:
             return
         if self._check.quick:
             await self._solve_at_once()
@@ -459,16 +447,9 @@ class ContactPage:
         self._runs += 1
         folder = self.session.folder / f"contact-{self._runs}"
         inputs = self.session.inputs
-        try:
-            job = self.session.start(
-                CONTACT_SOLVED, dict(inputs.table), str(self.session.folder), str(folder)
-            )
-        except LostError as error:
-            self._state.text = str(error)
-            return
-        self._running = (inputs, folder)
-        self._solve.disable()
-        self._job.show(job)
+        if self._job.start(CONTACT_SOLVED, dict(inputs.table), str(self.session.folder), str(folder)):
+            self._running = (inputs, folder)
+            self._solve.disable()
 
     async def _solve_at_once(self) -> None:
         """Solve the latest inputs; those in between are left out while one is being solved."""
@@ -493,8 +474,11 @@ class ContactPage:
         finally:
             self._busy = False
 
+    def _tell_refused(self, error: LostError) -> None:
+        self._state.text = str(error)
+
     def _ended(self, job: Job) -> None:
-        """Show what a job came to."""
+        """Show the outcome of a job."""
         self._solve.enable()
         if job.state == "done" and self._running is not None:
             self._show(job.result, *self._running)
@@ -513,11 +497,11 @@ class ContactPage:
         self._converged = view.converged
         self.view.show(view, folder)
         self._show_state()
-        if self._is_solved():
+        if self._is_solved:
             self._show_short(view)
 
     def _tell(self, error: Exception) -> None:
-        """Show an error beside its field, and that the answers belong to earlier inputs."""
+        """Show an error next to its field, and that the answers belong to earlier inputs."""
         self.form.tell(error)
         self._state.text = "No answer to the present inputs." if isinstance(error, InputError) else str(error)
         self.view.dim(old=True)

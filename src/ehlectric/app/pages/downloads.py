@@ -12,7 +12,7 @@ from nicegui import ui
 from ehlectric.app.answers import Download, Written, file_title
 from ehlectric.app.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.page_parts import JobBox, card
+from ehlectric.app.pages.page_parts import JobBox, card, tool
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.cases.defaults import quick_way
@@ -82,8 +82,8 @@ class Downloads:
                     self._file_buttons()
                 for test, words, ending in _MADE:
                     if ending not in _OF_CONTACTS or kind == "contact":
-                        _button(words, test, partial(self._wanted, partial(self._convert, ending)))
-            self._box = JobBox(self._ended)
+                        tool(words, test, partial(self._wanted, partial(self._convert, ending)))
+            self._box = JobBox(session, self._ended, lambda error: self._tell(error=str(error)))
             self._status = ui.label().classes("told-status").props('role="status"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
         session.history.told.append(self.look)
@@ -91,9 +91,9 @@ class Downloads:
 
     def _file_buttons(self) -> None:
         """Buttons of the case and of the files of its result."""
-        _button("Case (TOML)", "download-toml", self.toml)
+        tool("Case (TOML)", "download-toml", self.toml)
         for test, words, what in _FILES:
-            _button(words, test, partial(self._wanted, partial(self._pack, what)))
+            tool(words, test, partial(self._wanted, partial(self._pack, what)))
 
     @property
     def title(self) -> str:
@@ -146,12 +146,7 @@ class Downloads:
         self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)
 
     def _start(self, *call: Any) -> None:
-        try:
-            self._job = self.session.start(*call)
-        except LostError as error:
-            self._tell(error=str(error))
-            return
-        self._box.show(self._job)
+        self._job = self._box.start(*call) or self._job
 
     async def _ended(self, job: Job) -> None:
         """Go on with the files of a job that is done."""
@@ -196,7 +191,3 @@ class Downloads:
 
     def _tell(self, text: str = "", *, error: str = "") -> None:
         self._status.text, self._error.text = text, error
-
-
-def _button(name: str, test: str, click: Callable[[], Any]) -> None:
-    ui.button(name, on_click=click).props(f'outline no-caps dense data-testid="{test}"')

@@ -9,9 +9,10 @@ from typing import Any
 from nicegui import events, ui
 
 from ehlectric.app.pages.page_parts import weakly
-from ehlectric.app.session import ENDINGS, LARGEST, shown_name
+from ehlectric.app.session import ENDINGS, LARGEST, Session, shown_name
+from ehlectric.errors import InputError, LostError
 
-# Sends the chosen file to the address of the uploader, and tells the page what became of it.
+# Sends the chosen file to the address of the uploader, and reports its state to the page.
 _SEND = """async (event) => {
   const field = event.target, file = field.files[0];
   if (!file) return;
@@ -28,18 +29,22 @@ _SEND = """async (event) => {
 
 
 class UploadField:
-    """Field for the file of an instrument. ``label``, label of the field; that of a surface if not given."""
+    """Field for the file of an instrument, which is stored in the folder of the session.
+
+    ``take`` is called with the name of a file there, and ``refuse`` with the reason why there is none.
+    """
 
     def __init__(
         self,
-        take: Callable[[events.UploadEventArguments], Awaitable[None]],
+        session: Session,
+        take: Callable[[str], Awaitable[None]],
         refuse: Callable[[str], None],
         *,
         name: str = "surface",
         label: str = "",
     ) -> None:
-        self._refuse = refuse
-        uploader = ui.upload(on_upload=weakly(take), max_file_size=LARGEST).style("display: none")
+        self._session, self._take, self._refuse = session, take, refuse
+        uploader = ui.upload(on_upload=weakly(self._uploaded), max_file_size=LARGEST).style("display: none")
         send = _SEND % {"largest": LARGEST, "address": json.dumps(uploader.props["url"])}
         with ui.element("div").classes("key upload"):
             words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
@@ -47,14 +52,25 @@ class UploadField:
             field = ui.element("input").props(f'type="file" id="{name}-file" data-testid="upload-{name}"')
             field.props["aria-describedby"] = "roughness-error" if name == "surface" else f"{name}-error"
             field.props["accept"] = ",".join((*ENDINGS, "*/*"))
-            field.on("change", self._told, js_handler=send)
+            field.on("change", self._sent, js_handler=send)
             self._state = ui.label().classes("muted").props('aria-live="polite"')
 
-    def _told(self, event: Any) -> None:
-        told = event.args
-        name, status = shown_name(str(told.get("name", ""))), told.get("status")
+    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+        try:
+            name = await self._session.store(event.file)
+        except InputError as error:
+            self._refuse(str(error))
+        except LostError:
+            # The tab was closed meanwhile.
+            return
+        else:
+            await self._take(name)
+
+    def _sent(self, event: Any) -> None:
+        """Show that the browser sends a file, or why it does not."""
+        name, status = shown_name(str(event.args.get("name", ""))), event.args.get("status")
         if status is None:
-            size = float(told.get("size", 0)) / 1e6
+            size = float(event.args.get("size", 0)) / 1e6
             self._refuse(f"{name}: has {size:.4g} MB; expected at most {LARGEST / 1e6:g} MB")
         elif status == 0:
             self._state.text = f"Reading {name}"

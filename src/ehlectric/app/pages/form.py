@@ -1,10 +1,11 @@
-"""Form of a page: a field and a slider for every input, and errors beside the field that is wrong."""
+"""Form of a page: a field and a slider for every input, and errors next to the field that is wrong."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import nullcontext
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -19,7 +20,7 @@ from ehlectric.app.fields.field_defaults import default_of, end_and_key
 from ehlectric.app.fields.field_rules import Memory, changed, is_own
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
-from ehlectric.app.pages.page_parts import Control, GroupBox, brief
+from ehlectric.app.pages.page_parts import Control, GroupBox, brief, removable
 from ehlectric.errors import InputError, LostError
 
 Change = Callable[[str, Any], Awaitable[None]]
@@ -29,8 +30,10 @@ _OWN = "~own"
 
 
 class Form:
-    """Fields of a page. ``change``, called with key and new value; the value is a whole table where a new
-    input takes the place of others, and None removes the key.
+    """Fields of a page.
+
+    ``change`` is called with a key and its new value, which is a whole table where a new input replaces
+    others, and None where the key is removed. Other parts of the page show the keys ``elsewhere``.
 
     While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
     value is sent.
@@ -49,7 +52,7 @@ class Form:
         self._inputs = inputs
         self._groups, self._elsewhere = groups, elsewhere
         self._memory = Memory(groups)
-        self._wrong: Field | None = None
+        self.wrong: Field | None = None  # field with an error
         self._slid: tuple[Field, float] | None = None
         self._sliding = False
         self._boxes: dict[str, GroupBox] = {}
@@ -64,20 +67,20 @@ class Form:
                 self._others_head = ui.html("", sanitize=False, tag="summary").classes("group-title")
                 self._others_list = ui.element("div")
             self._others = others
-        self._tell_note("")
+        brief(self.note, "")
         self._show()
         self.tell(None)
         if session_here() is not None:
             ui.timer(0.3, self._load_help, once=True)
 
     def tell(self, error: Exception | None) -> None:
-        """Show an error beside its field, and take away the one before."""
+        """Show an error next to its field, and remove the one before."""
         key = error.key if isinstance(error, InputError) else None
         field = None if key is None else self._field_of(key)
         exact = field is not None and field.key == key
         own = in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
         text = own if exact else "" if error is None else str(error)
-        self._wrong = field
+        self.wrong = field
         for one, control in self._controls:
             control.show(error=text if one is field else "", shown=self._is_shown(one))
         self.message.text = "" if field is not None else text
@@ -96,14 +99,9 @@ class Form:
             return str(error)
         return f"{field.label}: {in_field_unit(field, error.text)}"
 
-    @property
-    def wrong(self) -> Field | None:
-        """Field beside which an error is shown."""
-        return self._wrong
-
     def go_to_wrong(self) -> None:
         """Move the page and the focus to the field that is wrong."""
-        boxes = [control.props["box-id"] for field, control in self._controls if field is self._wrong]
+        boxes = [control.props["box-id"] for field, control in self._controls if field is self.wrong]
         for box in boxes:
             ui.run_javascript(
                 f"const box = document.getElementById({json.dumps(box)});"
@@ -114,20 +112,16 @@ class Form:
         """Box of a group, to which a page may add what is no field."""
         return self._boxes[title]
 
-    async def take(self, changes: dict[str, Any]) -> None:
-        """Take over changes as if they had been typed, with what they displace."""
-        await self._apply(changes)
-
     def set(self, inputs: Inputs) -> None:
         """Show other inputs, as after an undo; nothing is sent."""
         self._slid = None
         self._inputs = inputs
-        self._tell_note("")
+        brief(self.note, "")
         self._show()
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
-            await self._apply({group.table: self._memory.table(group, self._inputs) if event.args else None})
+            await self.take({group.table: self._memory.table(group, self._inputs) if event.args else None})
 
         first = group in self._groups[:_FIRST]
         box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
@@ -196,11 +190,11 @@ class Form:
     async def _commit(self, field: Field, text: str) -> None:
         self._slid = None
         if field.kind == "ways":
-            await self._apply(self._memory.way(field, int(text), self._inputs))
+            await self.take(self._memory.way(field, int(text), self._inputs))
         elif text == _OWN:
-            await self._apply(self._memory.own(field, self._inputs))
+            await self.take(self._memory.own(field, self._inputs))
         else:
-            await self._apply({field.key: field.from_text(written_text(field, text))})
+            await self.take({field.key: field.from_text(written_text(field, text))})
 
     async def _slide(self, field: Field, place: float) -> None:
         self._slid = (field, place)
@@ -210,19 +204,19 @@ class Form:
         try:
             while self._slid is not None:
                 (field, place), self._slid = self._slid, None
-                await self._apply({field.key: field.from_slider(place)}, drag=field.key)
+                await self.take({field.key: field.from_slider(place)}, drag=field.key)
         finally:
             self._sliding = False
 
-    async def _apply(self, changes: Any, drag: str = "") -> None:
-        """Take over changes with what they displace, show them, and send them.
+    async def take(self, changes: Any, drag: str = "") -> None:
+        """Take over changes with the inputs that they replace, show them, and send them.
 
         They are one step to undo, together with those just before of the same dragged slider.
         """
         self._memory.note(self._inputs)
         before, after = self._inputs, changed(self._inputs, changes)
         self._inputs = after
-        self._tell_note(self._also(before, after, changes))
+        brief(self.note, self._also(before, after, changes))
         self._show()
         session = session_here()
         with nullcontext() if session is None else session.history.step(drag):
@@ -230,7 +224,7 @@ class Form:
                 await self._change(key, value)
 
     def _also(self, before: Inputs, after: Inputs, changes: Any) -> str:
-        """Sentence on the inputs that changed beside those that were asked for."""
+        """Sentence on the further inputs that changed."""
         fields = {field.key: field for field, _ in self._controls}
         labels = {key: field.label for key, field in fields.items()}
         old, new = before.flat(), after.flat()
@@ -247,9 +241,6 @@ class Form:
         parts = [f"removed: {', '.join(gone)}" if gone else "", f"assumed: {', '.join(came)}" if came else ""]
         text = "; ".join(filter(None, parts))
         return f"Also {text}" if text else ""
-
-    def _tell_note(self, text: str) -> None:
-        brief(self.note, text)
 
     def _show(self) -> None:
         """Show the present inputs in all fields."""
@@ -293,16 +284,7 @@ class Form:
         self._others_list.clear()
         with self._others_list:
             for key, value in rest.items():
-                self._other(key, value)
-
-    def _other(self, key: str, value: Any) -> None:
-        async def removed() -> None:
-            await self._apply({key: None})
-
-        with ui.element("div").classes("other"):
-            ui.label(f"{key} = {value}")
-            button = ui.button("Remove", on_click=removed).props("flat dense no-caps")
-            button.props["aria-label"] = f"Remove {key}"
+                removable(f"{key} = {value}", key, partial(self.take, {key: None}))
 
     def _on(self, group: Group) -> bool:
         given = not group.table or self._inputs.value(group.table) is not None
@@ -313,7 +295,7 @@ class Form:
 
     def _is_shown(self, field: Field) -> bool:
         on = self._on(self._group_of(field))
-        return field is self._wrong or (on and field.shown(self._inputs))
+        return field is self.wrong or (on and field.shown(self._inputs))
 
     def _group_of(self, field: Field) -> Group:
         return next(group for group in self._groups if field in group.fields)
@@ -328,7 +310,7 @@ class Form:
         return next(iter([*exact, *above, *below]), None)
 
     async def _load_help(self) -> None:
-        """Load what the fields mean, which the physics' own reference tells."""
+        """Load the meanings of the fields."""
         session = session_here()
         if session is None:
             return
@@ -336,7 +318,7 @@ class Form:
         try:
             texts = await session.work.quick(FIELD_HELP, keys)
         except LostError as error:
-            self._tell_note(f"no help for the fields: {error}")
+            brief(self.note, f"no help for the fields: {error}")
             return
         for field, control in self._controls:
             control.show(help=texts.get(field.key, ""))

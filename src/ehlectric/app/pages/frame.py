@@ -18,7 +18,7 @@ from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.calls import FILES_UPLOADED
 from ehlectric.app.fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
-from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, weakly
+from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, tool, weakly
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
@@ -135,8 +135,8 @@ def framed(title: str, here: str) -> Iterator[None]:
         yield
 
 
-# Session of each tab, for the parts of its page. A session holds parts of the page that it tells of changes,
-# and with them its tab: it is taken out when the tab ends.
+# Session of each tab, for the parts of its page. A session refers to parts of the page that it informs of
+# changes, and with them to its tab; it is removed when the tab ends.
 _SESSIONS: dict[Client, Session] = {}
 
 
@@ -158,9 +158,20 @@ def session_of(work: Work, inputs: Inputs) -> Session:
     return session
 
 
+async def connected() -> bool:
+    """Wait until a browser shows the present page; False where its tab was closed meanwhile.
+
+    An answer to a closed tab would make the folder of its session again.
+    """
+    client = ui.context.client
+    await client.connected()
+    return not client.is_deleted
+
+
 def show_address(inputs: Inputs, path: str) -> None:
-    """Put the inputs into the address of the page."""
-    ui.navigate.history.replace(f"{path}?{inputs.address()}")
+    """Put the inputs into the address of the page; one that cannot hold them stays as it is."""
+    if inputs.linkable:
+        ui.navigate.history.replace(address_of(path, inputs))
 
 
 # Called after the inputs changed in another way than by the form.
@@ -347,8 +358,7 @@ class Toolbar:
 
     async def _changed(self, text: str) -> None:
         """Show changed inputs, in the address, too."""
-        if self.session.inputs.linkable:
-            show_address(self.session.inputs, self._path)
+        show_address(self.session.inputs, self._path)
         brief(self._toast, text)
         showing = self._show()
         if showing is not None:
@@ -358,7 +368,7 @@ class Toolbar:
         self._status.text, self._error.text = text, error
 
     def _look(self) -> None:
-        """Allow what can be done, and take away what was told of earlier inputs."""
+        """Enable the buttons that can be used, and remove messages on earlier inputs."""
         self._tell()
         brief(self._toast, "")
         self._link.set_visibility(False)
@@ -379,5 +389,5 @@ def _has_files(table: Mapping[str, Any]) -> bool:
 
 def _button(name: str, test: str, click: Callable[[], Any], keys: str = "") -> ui.button:
     """Button of the toolbar, with the keys that do the same."""
-    button = ui.button(name, on_click=click).props(f'outline no-caps dense data-testid="{test}"')
+    button = tool(name, test, click)
     return button.props(f'aria-keyshortcuts="{keys}"').tooltip(keys) if keys else button

@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Awaitable, Callable, Mapping
-from html import escape
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import MotionAnswer
+from ehlectric.app.answers import Line, MotionAnswer
 from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
-from ehlectric.app.pages.page_parts import JobBox, figure, heading, warnings
+from ehlectric.app.pages.page_parts import JobBox, figure, heading, lines_html, mark, warnings
 from ehlectric.app.pages.roughness_box import Keys
 from ehlectric.app.roughness_keys import RoughKey
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
-
-Changed = Callable[[], Awaitable[None] | None]
 
 _KEYS = (
     RoughKey("passes", "Lengths of the domain travelled at the mean speed", "1.5", number=True),
@@ -38,7 +35,7 @@ _FIRST = {**start("moving_roughness").value("motion"), "record": 60}
 class MovieBox:
     """Box in which the roughness of a contact is set in motion and shown over time."""
 
-    def __init__(self, session: Session, changed: Changed | None = None) -> None:
+    def __init__(self, session: Session, changed: Callable[[], Awaitable[None]]) -> None:
         self._session, self._changed = session, changed
         self._of: Mapping[str, Any] | None = None
         self._folder: Path | None = None
@@ -53,7 +50,7 @@ class MovieBox:
             with ui.element("div").classes("buttons"):
                 self._run = ui.button("Compute the movie", on_click=self._start, color=None)
                 self._run.classes("primary").props('flat no-caps data-testid="solve-motion"')
-            self._job = JobBox(self._ended)
+            self._job = JobBox(session, self._ended, self._tell)
             self._state = ui.label().classes("muted").props('aria-live="polite" data-testid="motion-state"')
             self._view = ui.element("div").classes("box").props('data-testid="movie"')
         self._tell(None)
@@ -61,7 +58,7 @@ class MovieBox:
 
     @property
     def folder(self) -> Path | None:
-        """Folder with the files of the movie; see the attributes."""
+        """Folder with the files of a complete movie of the present inputs; None without one."""
         return self._folder if self._of == self._session.inputs.table else None
 
     def show_switch(self) -> None:
@@ -80,7 +77,7 @@ class MovieBox:
         self._switch.set_value(on)
         self._run.set_visibility(on)
         old = self._of is not None and self._of != self._session.inputs.table
-        self._view.classes(add="old" if old else None, remove=None if old else "old")
+        mark(self._view, "old", on=old)
         if old:
             self._state.text = "This movie is of earlier inputs. Compute it again for the present ones."
         elif self._of is None:
@@ -119,20 +116,13 @@ class MovieBox:
         self._session.history.push(self._session.inputs.changed({"motion": table}))
         self._tell(None)
         self.refresh()
-        waiting = self._changed() if self._changed is not None else None
-        if waiting is not None:
-            await waiting
+        await self._changed()
 
     def _start(self) -> None:
         self._tell(None)
         self._running = dict(self._session.inputs.table)
-        try:
-            job = self._session.start(MOTION_RUN, self._running, str(self._session.folder))
-        except LostError as error:
-            self._tell(error)
-            return
-        self._run.disable()
-        self._job.show(job)
+        if self._job.start(MOTION_RUN, self._running, str(self._session.folder)):
+            self._run.disable()
 
     async def _ended(self, job: Job) -> None:
         self._run.enable()
@@ -149,7 +139,7 @@ class MovieBox:
         try:
             answer = await self._session.work.quick(MOTION_STORED, self._running, str(self._session.folder))
         except (InputError, LostError) as error:
-            # The error of the run itself is told already.
+            # The error of the run itself is shown already.
             if why == "cancelled" and self._running == self._session.inputs.table:
                 self._tell(error)
             answer = None
@@ -165,8 +155,7 @@ class MovieBox:
         self._of = self._running
         self._folder = Path(answer.folder) if answer.complete else None
         self._told = _state(answer, why)
-        failed = None if answer.complete else "failed"
-        self._state.classes(add=failed, remove=None if failed else "failed")
+        mark(self._state, "failed", on=not answer.complete)
         self._view.clear()
         self._view.classes(remove="old")
         with self._view:
@@ -216,7 +205,8 @@ def _movie(answer: MotionAnswer) -> None:
     history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
     warnings(answer.warnings)
     with ui.expansion("Numbers of the run").props('data-testid="motion-numbers"'):
-        ui.html(_table(answer), sanitize=False, tag="table")
+        rows = (Line(name, value) for name, value in answer.rows)
+        ui.html(lines_html(rows, "Numbers of the run"), sanitize=False)
     values = {
         "movie": movie.html_id,
         "history": history.html_id,
@@ -229,13 +219,3 @@ def _movie(answer: MotionAnswer) -> None:
     }
     script = resources.files("ehlectric.app").joinpath("static/movie.js").read_text(encoding="utf-8")
     ui.run_javascript(f"{script}({json.dumps(values)})")
-
-
-def _table(answer: MotionAnswer) -> str:
-    rows = "".join(
-        f'<tr><th scope="row">{escape(name)}</th><td>{escape(value)}</td></tr>'
-        if value
-        else f'<tr><th scope="rowgroup" colspan="2">{escape(name)}</th></tr>'
-        for name, value in answer.rows
-    )
-    return f"<tbody>{rows}</tbody>"

@@ -12,10 +12,12 @@ from weakref import WeakMethod
 from nicegui import ui
 from nicegui.element import Element
 
-from ehlectric.app.answers import Line
+from ehlectric.app.answers import Line, Number
+from ehlectric.app.calls import Call
 from ehlectric.app.page_warnings import Told
+from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
-from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
 from ehlectric.report.light import Light, light_of
 
 if TYPE_CHECKING:
@@ -25,8 +27,8 @@ if TYPE_CHECKING:
 def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """Function that calls a method for as long as its object lives.
 
-    The framework keeps the routes of uploads, and with them what they call, for long after the page has
-    ended. With this function it does not keep the page, too.
+    The framework keeps the routes of uploads and the functions that they call long after the page has ended.
+    With this function it does not keep the page, too.
 
     Examples
     --------
@@ -48,6 +50,11 @@ def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
         return None if bound is None else bound(argument)
 
     return call
+
+
+def mark(element: Element, name: str, *, on: bool) -> None:
+    """Add a class of the style sheets to an element, or remove it."""
+    element.classes(add=name if on else None, remove=None if on else name)
 
 
 # Time for which a short message is shown [s].
@@ -118,6 +125,25 @@ def heading(text: str, level: int) -> None:
         ui.html(escape(text), sanitize=False, tag="span")
 
 
+def address_error(error: InputError | None) -> None:
+    """Line on the error of a wrong address; nothing without one."""
+    if error is not None:
+        ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+
+
+def tool(text: str, test: str, click: Callable[[], Any]) -> ui.button:
+    """Outlined button of a toolbar or of a row of downloads."""
+    return ui.button(text, on_click=click).props(f'outline no-caps dense data-testid="{test}"')
+
+
+def removable(text: str, name: str, remove: Callable[[], Any]) -> None:
+    """Line with a button that removes what it names."""
+    with ui.element("div").classes("other"):
+        ui.label(text)
+        button = ui.button("Remove", on_click=remove).props("flat dense no-caps")
+        button.props["aria-label"] = f"Remove {name}"
+
+
 @contextmanager
 def card(title: str) -> Iterator[ui.element]:
     """Context of a section with a heading of level 2."""
@@ -152,38 +178,32 @@ class Strip:
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it is that of earlier inputs."""
-        self._box.classes(add="old" if dimmed else "", remove="" if dimmed else "old")
+        mark(self._box, "old", on=dimmed)
 
 
-def number(
-    label: str,
-    text: str,
-    unit: str = "",
-    *,
-    bound: str = "",
-    warnings: Iterable[Told] = (),
-    testid: str = "",
-    note: str = "",
-) -> None:
-    """Number with its name, its unit and the warnings that concern it.
+def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
+    """Main numbers next to each other, each with its unit, its bound, its note and its warnings."""
+    with ui.element("div").classes("numbers"):
+        for one in numbers:
+            with ui.element("div").props(f'data-testid="number-{prefix}{one.key}"'):
+                _number(one)
 
-    ``bound`` is "≤" or "≥" where the number is a bound only. ``note`` is a short remark, such as by how much
-    a formula differs.
-    """
-    told = tuple(warnings)
-    worst = next((level for level in ("severe", "warning") if any(one.severity == level for one in told)), "")
-    with ui.element("div").classes(f"number {worst}").props(f'data-testid="{testid}"'):
-        ui.label(label).classes("label")
+
+def _number(one: Number) -> None:
+    found = {told.severity for told in one.told}
+    worst = next((level for level in ("severe", "warning") if level in found), "")
+    with ui.element("div").classes(f"number {worst}"):
+        ui.label(one.label).classes("label")
         with ui.element("div").classes("value"):
-            ui.label(" ".join(filter(None, [bound, text]))).classes("digits")
-            if unit:
-                ui.label(unit).classes("unit")
-        if bound:
-            ui.label(_BOUNDS.get(bound, "bound")).classes("bound")
-        if note:
-            ui.label(note).classes("remark")
-        for one in told:
-            ui.label(one.text).classes(f"told {one.severity}")
+            ui.label(" ".join(filter(None, [one.bound, one.text]))).classes("digits")
+            if one.unit:
+                ui.label(one.unit).classes("unit")
+        if one.bound:
+            ui.label(_BOUNDS.get(one.bound, "bound")).classes("bound")
+        if one.note:
+            ui.label(one.note).classes("remark")
+        for told in one.told:
+            ui.label(told.text).classes(f"told {told.severity}")
 
 
 def light_shown(level: str, text: str) -> Light:
@@ -214,6 +234,16 @@ def warnings(told: Iterable[Told]) -> None:
                 ui.label(one.text)
 
 
+def scrolling_table(name: str, heads: Iterable[str], body: str, test: str = "", caption: str = "") -> str:
+    """Table that scrolls within its own box; the rows of its body, and its caption, are HTML."""
+    head = "".join(f'<th scope="col">{escape(one)}</th>' for one in heads)
+    table = f"{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody>"
+    return (
+        f'<div class="scroll" tabindex="0" role="region" aria-label="{escape(name)}">'
+        f'<table data-testid="{test}">{table}</table></div>'
+    )
+
+
 def lines_html(lines: Iterable[Line], caption: str) -> str:
     """Table of the lines that the command prints, with a caption for screen readers."""
     rows = []
@@ -236,12 +266,16 @@ def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
 
 
 class JobBox:
-    """Progress of a job, with a button that cancels it. ``done``, called with the job when it has ended in
-    any way.
+    """Progress of a job, with a button that cancels it.
+
+    ``done`` is called with the job when it has ended in any way, ``refused`` with the error where it cannot
+    be started.
     """
 
-    def __init__(self, done: Callable[[Job], Any]) -> None:
-        self._done = done
+    def __init__(
+        self, session: Session, done: Callable[[Job], Any], refused: Callable[[LostError], None]
+    ) -> None:
+        self._session, self._done, self._refused = session, done, refused
         self._job: Job | None = None
         self._remaining = Remaining()
         with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
@@ -251,11 +285,17 @@ class JobBox:
         self._timer = ui.timer(0.2, self._look, active=False)
         self._box.set_visibility(False)
 
-    def show(self, job: Job) -> None:
-        """Show a job until it ends."""
-        self._job, self._remaining = job, Remaining()
+    def start(self, function: Call[Any], *values: Any) -> Job | None:
+        """Start a job, and show it until it ends; None where it is refused."""
+        try:
+            self._job = self._session.start(function, *values)
+        except LostError as error:
+            self._refused(error)
+            return None
+        self._remaining = Remaining()
         self._box.set_visibility(True)
         self._timer.activate()
+        return self._job
 
     def cancel(self) -> None:
         """Cancel the job."""

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
-from weakref import WeakKeyDictionary
 
-from nicegui import events, ui
+from nicegui import ui
 
 from ehlectric.app.answers import SummitsTable, SurfaceAnswer
 from ehlectric.app.calls import SURFACE
@@ -26,7 +24,7 @@ from ehlectric.app.roughness_keys import (
     RoughKey,
     value_of,
 )
-from ehlectric.app.session import LARGEST, MOST_TOGETHER, SURFACES, Session, new_file, own_file, shown_name
+from ehlectric.app.session import Session, own_file
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 
@@ -34,7 +32,7 @@ Changed = Callable[[str, Any], Awaitable[None]]
 
 
 class Keys:
-    """Fields of a table. ``changed``, called with a key and its new value, None for an empty field."""
+    """Fields of a table; ``changed`` is called with a key and its new value, None for an empty field."""
 
     def __init__(
         self, table: str, keys: Sequence[RoughKey], values: Mapping[str, Any], changed: Changed
@@ -46,7 +44,7 @@ class Keys:
                 self._field(key, values.get(key.key))
 
     def tell(self, error: Exception | None) -> bool:
-        """Show an error beside its field, and take away others; False where no field here has its key."""
+        """Show an error next to its field, and remove others; False where no field here has its key."""
         name = str(getattr(error, "key", None) or "").removeprefix(f"{self._table}.")
         for key, (label, box) in self._errors.items():
             wrong = error is not None and key == name
@@ -154,8 +152,6 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody>"
 
 
-RoughnessChanged = Callable[[], Awaitable[None] | None]
-
 # Size of a file from which a process of its own reads it [bytes]; smaller ones take a second at most.
 _LARGE = 4_000_000
 
@@ -166,17 +162,15 @@ _SOURCE = RoughKey("source", "Surface", choices={"file": "from an instrument's f
 class RoughnessBox:
     """Box in which rough surfaces are uploaded or made, processed, and put into the inputs."""
 
-    def __init__(self, session: Session, changed: RoughnessChanged) -> None:
+    def __init__(self, session: Session, changed: Callable[[], Awaitable[None]]) -> None:
         self._session, self._changed = session, changed
         self._draft: dict[str, Any] = {"surface": 1}
-        self._names = _NAMES.setdefault(session, {})
-        self._coming = _COMING.setdefault(session, {})
         self._parts: list[Keys] = []
         self._groups: dict[Keys, ui.element] = {}
         self._answer: SurfaceAnswer | None = None
         # Numbers of the last look, and of that for which a job reads a large file.
         self._asked = self._asked_by_job = 0
-        # Inputs of which the note tells something.
+        # Inputs to which the note belongs.
         self._noted: Inputs | None = None
         with ui.element("div").classes("box").props('data-testid="roughness"'):
             self._used = ui.element("div").classes("box").props('aria-live="polite"')
@@ -184,7 +178,7 @@ class RoughnessBox:
             self._editor = ui.element("div").classes("box")
             self._message = ui.label().classes("error").props('role="alert" id="roughness-error"')
             self._message.props('data-testid="error-roughness"')
-            self._job = JobBox(self._ended)
+            self._job = JobBox(session, self._ended, self._tell)
             self._view = ui.element("div").classes("box").props('aria-live="polite" data-testid="surface"')
             with ui.element("div").classes("buttons"):
                 self._use = ui.button("Use this surface", on_click=self._put, color=None).classes("primary")
@@ -234,10 +228,11 @@ class RoughnessBox:
 
     def _told(self, table: Mapping[str, Any]) -> str:
         if isinstance(table.get("file"), str):
-            source = self._names.get(table["file"], shown_name(table["file"]))
+            source = self._session.name_of(table["file"])
         else:
             source = GENERATOR_NAMES.get(str(table.get("generator")), str(table.get("generator")))
-        shown = (f"{key} {value}" for key, value in table.items() if key not in _HIDDEN)
+        named = ("surface", "file", "generator")
+        shown = (f"{key} {value}" for key, value in table.items() if key not in named)
         return ", ".join([source, *shown])
 
     def _edit(self) -> None:
@@ -250,9 +245,9 @@ class RoughnessBox:
         with self._editor:
             self._parts.append(Keys("roughness", (_SOURCE, _SURFACE), values, self._set))
             if generator is None:
-                UploadField(self._take, self._refuse)
-                name = self._names.get(self._draft.get("file", ""))
-                ui.label(f"File: {name}" if name else "No file yet.").classes("muted")
+                UploadField(self._session, self._take, self._refuse)
+                file = self._draft.get("file")
+                ui.label(f"File: {self._session.name_of(file)}" if file else "No file yet.").classes("muted")
                 ui.label(
                     "The server keeps the file in a folder that is removed when this tab is closed. The "
                     "address of the page cannot hold it; the downloaded case comes with it."
@@ -289,32 +284,8 @@ class RoughnessBox:
             self._draft[key] = value
         await self._look()
 
-    async def _take(self, event: events.UploadEventArguments) -> None:
-        """Keep an uploaded file in the folder of the session, and show it."""
-        size, given, folder = event.file.size(), event.file.name, self._session.folder
-        kept = sum(
-            max(file.stat().st_size, self._coming.get(f"{SURFACES}/{file.name}", 0))
-            for file in folder.glob(f"{SURFACES}/*")
-        )
-        if size > LARGEST or kept + size > MOST_TOGETHER:
-            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
-            self._refuse(f"{shown_name(given)}: has {size / 1e6:.4g} MB; expected {limits}")
-            return
-        name = new_file(given, folder)
-        self._coming[name] = size
-        try:
-            await event.file.save(folder / name)
-        except OSError:
-            (folder / name).unlink(missing_ok=True)
-            self._refuse(f"{shown_name(given)}: could not be stored; try again")
-            return
-        finally:
-            del self._coming[name]
-        if self._view.is_deleted:
-            # The tab was closed meanwhile, and its folder removed.
-            shutil.rmtree(folder, ignore_errors=True)
-            return
-        self._names[name] = shown_name(given)
+    async def _take(self, name: str) -> None:
+        """Show an uploaded file of the folder of the session."""
         # The file of an instrument has the tilt of the sample, which is no roughness.
         self._draft = {"form": "line"} | {
             key: value for key, value in self._draft.items() if key != "generator"
@@ -339,13 +310,10 @@ class RoughnessBox:
         file = self._draft.get("file", "")
         path = own_file(file, self._session.folder) if file else None
         inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
-        values = dict(self._draft), inputs, folder, self._names.get(file, shown_name(file) if file else "")
+        values = dict(self._draft), inputs, folder, self._session.name_of(file) if file else ""
         if path is not None and path.stat().st_size > _LARGE:
             self._asked_by_job = asked
-            try:
-                self._job.show(self._session.start(SURFACE, *values))
-            except LostError as error:
-                self._tell(error)
+            self._job.start(SURFACE, *values)
             return
         try:
             answer = await self._session.work.quick(SURFACE, *values)
@@ -407,26 +375,15 @@ class RoughnessBox:
     async def _give(self, tables: list[Any]) -> None:
         """Put other rough surfaces into the inputs; nothing moves without one."""
         changes: dict[str, Any] = {"roughness": tables or None}
-        moved = self._session.inputs.value("motion") is not None
-        if moved and not tables:
+        stops = not tables and self._session.inputs.value("motion") is not None
+        if stops:
             changes["motion"] = None
         self._session.history.push(self._session.inputs.changed(changes))
         self.refresh()
-        if moved and not tables:
+        if stops:
             self._noted = self._session.inputs
             self._note.text = "The motion is removed, too: it needs a rough surface."
-        waiting = self._changed()
-        if waiting is not None:
-            await waiting
-
-
-# Names that users gave to the uploaded files of a session, by path; a box may be built again in a session.
-_NAMES: WeakKeyDictionary[Session, dict[str, str]] = WeakKeyDictionary()
-
-# Sizes of the files of a session that are being stored [bytes].
-_COMING: WeakKeyDictionary[Session, dict[str, int]] = WeakKeyDictionary()
-
-_HIDDEN = ("surface", "file", "generator")
+        await self._changed()
 
 
 def _tables(session: Session) -> list[Any]:

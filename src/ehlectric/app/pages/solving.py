@@ -6,26 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import rmtree
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 from nicegui import ui
 
+from ehlectric.app.answers import PageAnswer
 from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.page_parts import JobBox
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
-from ehlectric.errors import LostError
 
-
-class _Answer(Protocol):
-    """Answer that says how it was computed."""
-
-    @property
-    def how(self) -> str: ...
-
-
-A = TypeVar("A", bound=_Answer)
+A = TypeVar("A", bound=PageAnswer)
 
 
 @dataclass(frozen=True)
@@ -33,16 +25,16 @@ class Words:
     """Texts of a solution."""
 
     solve: str
-    # show_solved and show_quick: buttons that change between its answer and the quick one.
+    # Buttons that change between its answer and the quick one.
     show_solved: str
     show_quick: str
     back: str  # button that goes back to the inputs of the last answer
-    # earlier, running and done: sentences on inputs that have changed since: beside a quick answer, while a
-    # solution runs, and when it is done.
+    # Sentences on inputs that have changed since: next to a quick answer, while a solution runs, and when it
+    # is done.
     earlier: str
     running: str
     done: str
-    # cancelled and failed: sentence on a cancelled solution, and words before an error.
+    # Sentence on a cancelled solution, and words before an error.
     cancelled: str
     failed: str
     beyond: str  # what an error has where only a quick answer lacks what is asked for
@@ -62,8 +54,9 @@ class _Solved(Generic[A]):
 
 
 class Solving(Generic[A]):
-    """Button that starts a solution, and the answers solved so far by their inputs. ``changed``, called when
-    another answer is to be shown.
+    """Button that starts a solution, and the answers solved so far by their inputs.
+
+    ``changed`` is called when another answer is to be shown, ``back`` with the inputs to go back to.
     """
 
     def __init__(
@@ -88,7 +81,7 @@ class Solving(Generic[A]):
             self._other.props('flat no-caps data-testid="other-contacts"')
             self._return = ui.button(words.back, on_click=self._go_back, color=None)
             self._return.props('flat no-caps data-testid="back-to-solved"')
-        self._box = JobBox(self._done)
+        self._box = JobBox(session, self._done, lambda error: self._tell(str(error)))
         self._message = ui.label().classes("notice").props('role="status" data-testid="solve-message"')
         self._message.set_visibility(False)
         self.show(None)
@@ -112,9 +105,7 @@ class Solving(Generic[A]):
         self._message.set_visibility(False)
 
     def show(self, answer: A | None, error: Exception | None = None) -> None:
-        """Show how an answer was computed, and the buttons that suit it. ``answer``, answer that is shown;
-        None for inputs that have none.
-        """
+        """Show how an answer was computed, if there is one, and the buttons that suit it."""
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how
         self._solve.set_visibility(not solved and self._running is None)
@@ -134,15 +125,10 @@ class Solving(Generic[A]):
         # A folder for every run, so that the files of an answer stay as long as the answer.
         self._runs += 1
         folder = self._session.folder / f"solved-{self._runs}"
-        try:
-            job = self._session.start(self._call, dict(inputs.table), self._session.folder, folder)
-        except LostError as error:
-            self._tell(str(error))
-            return
-        self._running = (inputs, folder)
-        self._message.set_visibility(False)
-        self._solve.set_visibility(False)
-        self._box.show(job)
+        if self._box.start(self._call, dict(inputs.table), self._session.folder, folder):
+            self._running = (inputs, folder)
+            self._message.set_visibility(False)
+            self._solve.set_visibility(False)
 
     def _done(self, job: Job) -> None:
         running, self._running = self._running, None

@@ -8,6 +8,7 @@ import shutil
 import time
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,8 @@ from ehlectric.app.pages.frame import (
     PAGE_PATIENCE,
     SWEEP,
     Toolbar,
+    address_of,
+    connected,
     framed,
     session_of,
     show_address,
@@ -77,7 +80,7 @@ _SEARCHED = 9
 
 
 class Box:
-    """Text field whose error is told beside it."""
+    """Text field with a place for its error."""
 
     def __init__(self, label: str, value: str, test_id: str, typed: Callable[[str], Awaitable[None]]) -> None:
         async def changed() -> None:
@@ -107,7 +110,7 @@ class Box:
 
 
 class RangesForm:
-    """Form of a sweep. ``choices``, what may vary; None where the base case is not valid."""
+    """Form of a sweep; ``choices`` has what may vary, and is None where the base case is not valid."""
 
     def __init__(self, inputs: Inputs, choices: SweepChoices | None, change: Change) -> None:
         self._inputs, self._choices, self._change = inputs, choices, change
@@ -139,15 +142,15 @@ class RangesForm:
                 self._selects[key].value = text if text in self._selects[key].options else None
 
     def tell(self, error: InputError | None) -> None:
-        """Show an error beside its field, and take away the one before."""
+        """Show an error next to its field, and remove the one before."""
         for box in (*self._boxes.values(), self._link):
             box.tell("")
         self._message.text = ""
         self.case.tell(None)
-        key = "" if error is None else str(error.key or "")
-        found = self._boxes.get(key) or self._boxes.get(f"{key}.from")
         if error is None:
             return
+        key = str(error.key or "")
+        found = self._boxes.get(key) or self._boxes.get(f"{key}.from")
         if found is not None:
             found.tell(self._in_unit(key, error.text))
         elif key and not f"{key}.".startswith("vary."):
@@ -165,8 +168,7 @@ class RangesForm:
     def _build_axes(self) -> None:
         """Fields of the varied inputs."""
         self._boxes.clear()
-        for name in [name for name in self._selects if name.startswith("vary")]:
-            del self._selects[name]
+        self._selects = {name: box for name, box in self._selects.items() if not name.startswith("vary")}
         self._varied.clear()
         with self._varied:
             ranges = ranges_of(self._inputs)
@@ -194,7 +196,9 @@ class RangesForm:
                 "formula": "by formula: half a second each",
                 "solved": "solved: ten seconds or more each",
             }
-            self._select("case.contacts", "Contacts of the bearing", kinds, self._contacts)
+            self._select(
+                "case.contacts", "Contacts of the bearing", kinds, partial(self._changed_case, "contacts")
+            )
         self._page = ui.link("Open the base case on its page", "/", new_tab=True)
         self._values = ui.expansion("Inputs of the base case").props('data-testid="base-inputs"')
 
@@ -203,7 +207,7 @@ class RangesForm:
         case = Inputs(self._inputs.value("case") or {})
         self._title.text = str(case.value("title") or "Case without a title")
         path = "/drive" if case.value("drive_end") else "/" if case.value("bearing") else "/contact"
-        self._page.props["href"] = f"{path}?{case.address()}"
+        self._page.props["href"] = address_of(path, case)
         self._page.update()
         self._kind.set_visibility(bool(case.value("bearing")))
         self._selects["case.contacts"].value = _texts(self._inputs)["case.contacts"]
@@ -228,9 +232,6 @@ class RangesForm:
             await self._change(Inputs({"case": found}))
         elif link:
             self._link.tell("this link has no bearing, drive or contact: copy one of their pages")
-
-    async def _contacts(self, value: str) -> None:
-        await self._change(self._inputs.changed({"case.contacts": value}))
 
     def _axis(self, place: int, ranges: Sequence[Range]) -> None:
         """Fields of one varied input."""
@@ -263,28 +264,19 @@ class RangesForm:
             present[place] = replace(present[place], **changes)
             await self._change(with_ranges(self._inputs, present))
 
-        async def first(text: str) -> None:
-            await put(start=text)
-
-        async def last(text: str) -> None:
-            await put(stop=text)
-
-        async def count(text: str) -> None:
-            await put(count=int(text) if text.isdecimal() and len(text) < _LONGEST else text)
-
-        async def spacing(value: str) -> None:
-            await put(log=value == "log")
+        def count(text: str) -> int | str:
+            return int(text) if text.isdecimal() and len(text) < _LONGEST else text
 
         parts = (
-            ("from", "From", now.start, first),
-            ("to", "To", now.stop, last),
-            ("count", "Number of values", str(now.count), count),
+            ("from", "From", now.start, lambda text: put(start=text)),
+            ("to", "To", now.stop, lambda text: put(stop=text)),
+            ("count", "Number of values", str(now.count), lambda text: put(count=count(text))),
         )
         with ui.element("div").classes("range"):
             for name, label, value, typed in parts:
                 self._boxes[f"vary.{now.key}.{name}"] = Box(label, value, f"vary-{place}-{name}", typed)
             kinds = {"linear": "equal steps", "log": "equal ratios"}
-            self._select(f"vary-{place}-spacing", "Spacing", kinds, spacing)
+            self._select(f"vary-{place}-spacing", "Spacing", kinds, lambda value: put(log=value == "log"))
 
     def _select(
         self, name: str, label: str, options: Mapping[str, str], chosen: Callable[[str], Awaitable[None]]
@@ -429,7 +421,7 @@ class MapPart:
 
     def outdated(self, *, old: bool) -> None:
         """Dim the map where the inputs have changed since."""
-        self._card.classes(add="old" if old else "", remove="" if old else "old")
+        page_parts.mark(self._card, "old", on=old)
         if old:
             self._note.text = "The inputs have changed: this is the map of the ones before."
         elif self._view is not None:
@@ -550,11 +542,7 @@ _BUTTON = """
 def _told(view: SweepView) -> str:
     """How many points have which state, and how their contacts are computed."""
     some = (f"{count} {_STATES.get(state, state)}" for state, count in view.counts.items())
-    return f"Points: {', '.join(some)}.{_basis(view)}"
-
-
-def _basis(view: SweepView) -> str:
-    return f" {view.accuracy}" if view.accuracy else ""
+    return f"Points: {', '.join(some)}. {view.accuracy}".rstrip()
 
 
 _PATH = "/sweep"
@@ -583,9 +571,7 @@ def add(work: Work) -> None:
         page = SweepPage(session_of(work, SWEEP if given is None else given))
         with framed("Sweep: what happens over a range?", _PATH):
             page.build(error)
-        client = ui.context.client
-        await client.connected()
-        if not client.is_deleted:
+        if await connected():
             await page.begin()
 
 
@@ -616,8 +602,7 @@ class SweepPage:
     def build(self, error: InputError | None) -> None:
         """Build the form, the buttons and the place of the map."""
         self.toolbar = Toolbar(self.session, _PATH, self.shown_again)
-        if error is not None:
-            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        page_parts.address_error(error)
         with ui.element("div").classes("columns") as self._place:
             self.form = RangesForm(self.session.inputs, None, self.change)
             with ui.element("section").props('aria-label="Sweep"'):
@@ -668,8 +653,7 @@ class SweepPage:
 
     def _take(self, inputs: Inputs) -> None:
         self.session.history.push(inputs)
-        if inputs.linkable:
-            show_address(inputs, _PATH)
+        show_address(inputs, _PATH)
         self.form.set(inputs, self._choices)
         self.map.offer(self._choices.values if self._choices else {}, str(inputs.value("show") or ""))
         self._tell_state()
@@ -702,17 +686,15 @@ class SweepPage:
 
     def _refuse(self, error: Exception) -> None:
         self._allow(valid=False)
-        self.plan.text = "The inputs cannot be run; see what is wrong beside them."
+        self.plan.text = str(error)
         if isinstance(error, InputError):
+            self.plan.text = "The inputs cannot be run; see what is wrong beside them."
             self.form.tell(error)
-        else:
-            self.plan.text = str(error)
 
     async def _show(self, key: str) -> None:
         """Show another result of the points."""
         self.session.history.push(self.session.inputs.changed({"show": key}))
-        if self.session.inputs.linkable:
-            show_address(self.session.inputs, _PATH)
+        show_address(self.session.inputs, _PATH)
         if self._ran is not None:
             await self._read()
 
