@@ -16,7 +16,7 @@ from ehlectric.quantities.units import known_factor, si_unit, split
 
 @dataclass(frozen=True)
 class Shown:
-    """Figure of a contact."""
+    """Figure of an answer about a contact."""
 
     name: str  # name for a file and for tests, such as "film-map"
     title: str  # heading above the figure
@@ -455,7 +455,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Table:
-    """Table of texts."""
+    """Table of texts, with the units of its columns in their heads."""
 
     caption: str
     heads: tuple[str, ...]  # heads of the columns, with units

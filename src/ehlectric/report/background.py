@@ -25,8 +25,8 @@ from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
-from ehlectric.report.limits import Limit, Reference
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
+from ehlectric.report.report_texts import Limit, Reference
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__

@@ -24,9 +24,9 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
-from ehlectric.report.limits import limits_of, references_of
 from ehlectric.report.report_content import UNSOLVED, Block, Part, Report, Section, Text, details_of, lead_of
 from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
+from ehlectric.report.report_texts import limits_of, references_of
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load

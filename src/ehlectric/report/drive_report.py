@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -30,9 +29,9 @@ from ehlectric.quantities.sheets import REMEDIES
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of
 from ehlectric.report.light import light_of
-from ehlectric.report.limits import Limit, Reference, limits_of, references_of
 from ehlectric.report.report_content import UNSOLVED, Block, Part, Section, Table, Text, details_of
 from ehlectric.report.report_facts import BOUNDS, pictures_of, row_tables, unbroken
+from ehlectric.report.report_texts import TEXTS, limits_of, references_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
 
@@ -48,44 +47,6 @@ _GIVEN = "input file"
 _ORIGINS = {"given": _GIVEN}
 _CAPTION = "Values that decide the result"
 _HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
-
-# What the inputs decide, by their keys in a drive file.
-_DECIDES: Mapping[str, str] = MappingProxyType(
-    {
-        "circuit.winding_rotor_capacitance": "bearing voltage, by the capacitive divider",
-        "circuit.rotor_frame_capacitance": "bearing voltage; charge and energy that an arc can take",
-        "circuit.winding_frame_capacitance": "voltage of the winding behind an inductance; nothing without "
-        "one",
-        "circuit.frame_earth_capacitance": "voltage of the frame against earth",
-        "circuit.cable_capacitance": "edges behind an inductance",
-        "circuit.common_mode_inductance": "edges and ringing at the winding",
-        "circuit.common_mode_resistance": "edges and ringing at the winding",
-        "circuit.ground_inductance": "voltage of the frame against earth",
-        "circuit.ground_resistance": "voltage of the frame against earth",
-        "circuit.grounding_ring_resistance": "voltage that is left on the shaft",
-        "breakdown.arc_resistance": "energy, peak current and duration of a discharge",
-        "breakdown.extinction_current": "end of an arc: charge and energy of a discharge",
-        "breakdown.extinction_voltage": "end of an arc: charge and energy of a discharge",
-        "breakdown.recovery_time": "whether the source feeds an arc again",
-        "breakdown.weibull_shape": "scatter of the voltages of discharges, and with it their number",
-        "breakdown.renewal_time": "time between new thresholds, and with it the number of discharges",
-        "breakdown.touch_time": "time for which asperities close a film",
-    }
-)
-
-# The same by the keys of a bearing file; tables are named by their first word.
-_OF_BEARINGS: Mapping[str, str] = MappingProxyType(
-    {
-        "contacts": "how exact films, capacitance and breakdown voltage are",
-        "bearing.film_factor": "film thickness: what heat and starvation leave of it",
-        "discharge.dielectric_strength": "voltage at which films break down, and with it number and energy",
-        "discharge.conductivity": "time for which the films hold a voltage",
-        "bearing.composite_rq": "whether asperities touch",
-        "bearing.contact_resistance": "resistance of touching asperities",
-        "bearing.element_capacitance": "capacitance of ceramic elements",
-        "bearing.radial_clearance": "load of each element: films and capacitance",
-    }
-)
 
 
 def assumption_section(
@@ -106,7 +67,7 @@ def assumption_section(
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
     """Rows of the tables ``circuit`` and ``breakdown``, without an origin where it is that of an input."""
     given = flattened(case.to_dict())
-    for key, decides in _DECIDES.items():
+    for key, decides in TEXTS["decided_by_drive"].items():
         name = key.partition(".")[2]
         if key in given:
             # Resistances of 0 ohm are those of a path that has none.
@@ -126,7 +87,7 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
         key = "breakdown.renewal_time"
         value = " and ".join(dict.fromkeys(amount(float(f"{time:.3g}"), "s") for time in times))
         origin = "time in which oil passes the most loaded contact"
-        yield key, with_units_kept(value), origin, _DECIDES[key]
+        yield key, with_units_kept(value), origin, TEXTS["decided_by_drive"][key]
 
 
 def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
@@ -142,10 +103,10 @@ def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
 def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> Iterator[tuple[str, ...]]:
     """Rows of one bearing, whose keys begin with a name."""
     given = flattened(bearing.to_dict())
-    for key, decides in _OF_BEARINGS.items():
+    for key, decides in TEXTS["decided_by_bearing"].items():
         if key in given:
             yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", decides
-    decides = _OF_BEARINGS["discharge.dielectric_strength"]
+    decides = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
     for key, value in given.items():
         if key.startswith("discharge.weibull."):
             yield f"{name}.{key}", input_text(case, f"{end}.{key}", value), "", decides
@@ -202,142 +163,6 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
 def _decimals(largest: float) -> int:
     """Decimals of numbers up to a largest one, which is at least 1."""
     return max(0, _DIGITS - len(f"{largest:.0f}"))
-
-
-# Limits of bearings that the limits of drives say otherwise.
-_REPLACED = ("contacts of asperities", "circuit", "oil as insulator")
-
-
-def _scatters(case: DriveCase) -> bool:
-    """Whether the thresholds of a bearing scatter."""
-    given = case.breakdown.weibull_shape is not None
-    return given or any(one.discharge is not None and one.discharge.weibull for one in case.bearings)
-
-
-# Limits of drives, in the order of a report.
-DRIVE_LIMITS = (
-    Limit(
-        "arc",
-        "There is no model of the arc or its plasma: a film that breaks down conducts with the given "
-        "resistance until the given current or voltage of extinction, and insulates again after the given "
-        "time. Charges, energies and currents follow from these inputs. Real arcs have a voltage of their "
-        "own and a resistance that changes.",
-    ),
-    Limit(
-        "threshold",
-        "The voltages at which films break down are drawn from Weibull's law, independent of each other, "
-        "anew after each discharge and at random times. Space charge, debris, and oil that discharges have "
-        "changed are left out.",
-        _scatters,
-    ),
-    Limit(
-        "threshold",
-        "The films break down at the same voltage each time; those of oils scatter.",
-        lambda case: not _scatters(case),
-    ),
-    Limit(
-        "damage",
-        "How much currents damage raceways and oil is not computed. Published limits of the current density "
-        "are those of bearing trials, for the largest current over the Hertz areas of all elements.",
-    ),
-    Limit(
-        "circuit of the machine",
-        "The machine is one circuit of lumped capacitances, inductances and resistances. Waves on cable and "
-        "winding, the distribution of the voltage along the winding, the impedance of the shaft, and "
-        "currents that circulate through both bearings are left out.",
-    ),
-    Limit(
-        "driven machine",
-        "Bearings, gears and seals of the driven machine are not in the circuit. A coupling that conducts "
-        "brings the voltage of the shaft to them.",
-    ),
-    Limit(
-        "capacitances of the machine",
-        "Capacitances from the geometry of the machine are those of a smooth rotor and parallel slots. End "
-        "windings and leads are left out; they make the capacitances larger.",
-        lambda case: bool(case.circuit.estimated),
-    ),
-    Limit(
-        "source",
-        "Dead times of the inverter, and the voltage of the middle of the DC link against earth, are left "
-        "out.",
-        lambda case: not case.source.measured,
-    ),
-    Limit(
-        "speed of the source",
-        "The frequency of the source follows the speed as that of a synchronous machine: the slip of an "
-        "induction machine is left out.",
-        lambda case: case.source.pole_pairs is not None,
-    ),
-    Limit(
-        "source",
-        "The measured voltage is imposed, whatever the circuit draws, and repeated where the simulated time "
-        "is longer than the record.",
-        lambda case: case.source.measured,
-    ),
-    Limit(
-        "operation",
-        "Speed, load and temperature are constant, and the films are those of stationary operation. "
-        "Starting, stopping and vibration are left out, and so is the heat of the discharges.",
-    ),
-    Limit(
-        "contacts of asperities",
-        "Where asperities touch, they close the film for random times of the given mean. The voltage at "
-        "which a contact discharges as it opens is left out.",
-        lambda case: any(one.bearing.composite_rq is not None for one in case.bearings),
-    ),
-    Limit(
-        "time",
-        "Bounds of 95 % count the scatter within the simulated time alone. Errors of inputs and models are "
-        "not in them.",
-    ),
-)
-
-
-def drive_limits(case: DriveCase) -> Iterator[Limit]:
-    """Limits that hold for a drive: those of its simulation, and those of its bearings, each once."""
-    yield from (limit for limit in DRIVE_LIMITS if limit.holds(case))
-    bearings = (limit for one in case.bearings for limit in limits_of(one))
-    yield from dict.fromkeys(limit for limit in bearings if limit.topic not in _REPLACED)
-
-
-# Publications behind the simulation of a drive, in the order of a report.
-DRIVE_REFERENCES = (
-    Reference(
-        "space-vector modulation",
-        "Holtz, Proc. IEEE 82 (1994) 1194",
-        "10.1109/5.301684",
-        lambda case: case.source.modulation == "space-vector",
-    ),
-    Reference(
-        "Weibull law of the thresholds",
-        "Weibull, J. Appl. Mech. 18 (1951) 293",
-        "10.1115/1.4010337",
-        _scatters,
-    ),
-    Reference("bounds of the rates", "Garwood, Biometrika 28 (1936) 437", "10.1093/biomet/28.3-4.437"),
-    Reference(
-        "coefficient of slots",
-        "Carter, J. Inst. Electr. Eng. 29 (1901) 925",
-        "",
-        lambda case: bool(case.circuit.estimated),
-    ),
-    Reference(
-        "end windings in capacitances of machines",
-        "Stockbruegger and Ponick, Energies 14 (2021) 174",
-        "10.3390/en14010174",
-        lambda case: bool(case.circuit.estimated),
-    ),
-)
-
-
-def drive_references(case: DriveCase) -> Iterator[Reference]:
-    """Publications behind the simulation of a drive and behind its bearings, each once."""
-    found = [one for one in DRIVE_REFERENCES if one.used(case)]
-    known = {one.doi for one in found if one.doi}
-    yield from found
-    bearings = dict.fromkeys(one for bearing in case.bearings for one in references_of(bearing))
-    yield from (one for one in bearings if one.doi not in known)
 
 
 # Published limits of the current density [A/mm²].
@@ -530,8 +355,8 @@ def drive_part(result: DriveResult) -> Part:
         numbers=tuple(number_tables(summary)),
         pictures=tuple(pictures_of(result, converged=result.converged)),
         further=tuple(_sections(result, summary)),
-        limits=tuple(drive_limits(case)),
-        references=tuple(drive_references(case)),
+        limits=tuple(limits_of(case)),
+        references=tuple(references_of(case)),
         details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
         toml=case.to_toml(),
     )

@@ -16,7 +16,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import ResultWarning, Severity, printable
 from ehlectric.report.light import Light
-from ehlectric.report.limits import Limit, Reference
+from ehlectric.report.report_texts import Limit, Reference
 
 Tone = Literal["plain", "alarm", "code"]
 
@@ -43,30 +43,14 @@ Cell: TypeAlias = str | Link
 
 @dataclass(frozen=True)
 class Table:
-    """Table of a report.
-
-    Attributes
-    ----------
-    caption : str
-        Title of the table.
-    heads : tuple of str
-        Heads of the columns, with units.
-    rows : tuple of tuple
-        Cells of each row: plain texts, or links.
-    numeric : tuple of int
-        Numbers of the columns that are aligned to the right.
-    alarms : tuple of int
-        Numbers of the rows that say that numbers must not be used.
-    shares : tuple of float
-        Share of the width that each column takes; empty where the texts decide.
-    """
+    """Table of a report."""
 
     caption: str
-    heads: tuple[str, ...]
+    heads: tuple[str, ...]  # heads of the columns, with units
     rows: tuple[tuple[Cell, ...], ...]
-    numeric: tuple[int, ...] = ()
-    alarms: tuple[int, ...] = ()
-    shares: tuple[float, ...] = ()
+    numeric: tuple[int, ...] = ()  # numbers of the columns that are aligned to the right
+    alarms: tuple[int, ...] = ()  # numbers of the rows that say that numbers must not be used
+    shares: tuple[float, ...] = ()  # share of the width of each column; empty where the texts decide
 
 
 @dataclass(frozen=True)

@@ -17,15 +17,13 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.report.drive_report import (
     assumption_section,
-    drive_limits,
-    drive_references,
     listed_values,
     swept_values,
     swept_verdict,
 )
-from ehlectric.report.limits import limits_of, references_of
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
 from ehlectric.report.report_facts import SWEPT, cell_table, pictures_of, row_tables, swept_names
+from ehlectric.report.report_texts import limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import Point
@@ -65,8 +63,8 @@ def sweep_part(results: SweepResults) -> Part:
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         pictures=tuple(_pictures(results)),
         further=tuple(_sections(results)),
-        limits=tuple(drive_limits(case) if isinstance(case, DriveCase) else limits_of(case)),
-        references=tuple(drive_references(case) if isinstance(case, DriveCase) else references_of(case)),
+        limits=tuple(limits_of(case)),
+        references=tuple(references_of(case)),
         details=_details(results),
         toml=sweep_toml(results),
         varied=tuple(results.varied),

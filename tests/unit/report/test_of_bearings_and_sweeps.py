@@ -8,10 +8,10 @@ from ehlectric import BearingCase, save, solve
 from ehlectric.cases.case import Case
 from ehlectric.errors import ResultWarning
 from ehlectric.report.build import report_of
-from ehlectric.report.limits import references_of
 from ehlectric.report.pdf import _parted
 from ehlectric.report.report_content import Picture, Table, Text
 from ehlectric.report.report_facts import pictures_of, warning_block
+from ehlectric.report.report_texts import references_of
 from ehlectric.report.sweep_report import sweep_part
 from tests.helpers.bearings import BALLS, OIL, ROLLERS, bearing_case, changed
 from tests.helpers.sweep_models import POTENTIAL, SPEED, breakdown, grid

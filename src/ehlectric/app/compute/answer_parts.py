@@ -1,13 +1,13 @@
-"""Cases of the tables of a page, which name only uploaded files; lines, numbers and warnings as pages tell
-them.
+"""Parts of all answers: cases of the tables of a page, and lines, numbers and warnings as pages show them.
 
-Cases of the tables of a page, which name no file but those that were uploaded in the same session.
-An address or an uploaded file may come from anybody. The readers of cases open the files that a case names,
-so every function of this package makes its case here.
+An address or an uploaded file may come from anybody, and the readers of cases open the files that a case
+names. So every function of this package makes its case here, where a case may name only files that were
+uploaded in the same session.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -163,6 +163,17 @@ def _changed(key: str, value: Any, change: Change) -> Any:
         inner = (key if names else f"{key}.{number}" for number in range(1, len(value) + 1))
         return [_changed(name, item, change) for name, item in zip(inner, value, strict=True)]
     return change(key, value) if isinstance(value, str) and (names or key == _CASE) else value
+
+
+def sentences_of(text: str) -> list[str]:
+    """Sentences of a verdict; numbers such as 1.44 have no space behind their point.
+
+    Examples
+    --------
+    >>> sentences_of("No breakdown expected: margin 1.44. Upper bound: smooth film.")
+    ['No breakdown expected: margin 1.44.', 'Upper bound: smooth film.']
+    """
+    return re.split(r"(?<=[.!?]) (?=[A-Z])", text)
 
 
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:

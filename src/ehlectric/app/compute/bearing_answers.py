@@ -1,10 +1,7 @@
-"""Answers about a bearing: at once from the atlas, whole a moment later, with solved contacts; its numbers
-and verdict.
-"""
+"""Answers about a bearing: at once from the atlas, complete a moment later, and with solved contacts."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +20,7 @@ from ehlectric.app.answers import (
     Number,
     Table,
 )
-from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, told_of
+from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, sentences_of, told_of
 from ehlectric.app.figures.bearing_charts import (
     SPEED_HEADS,
     Around,
@@ -212,9 +209,6 @@ _MEANING: Mapping[str, str] = {
 }
 _NO_VERDICT = "This page cannot say whether the bearing sparks."
 
-# End of a sentence; numbers such as 1.44 have no space behind their point.
-_END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
-
 _OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
 
 
@@ -229,7 +223,7 @@ def judged(verdict: Verdict) -> Judged:
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
-    first, *others = _END.split(verdict.text)
+    first, *others = sentences_of(verdict.text)
     lead, _, rest = first.partition(": ")
     assumptions = [text for text in others if text.startswith("Upper bound")]
     light = light_of(verdict.level, verdict.text)

@@ -1,6 +1,4 @@
-"""Answers about one contact: at once by formula, solved as the command solves it, and with moving
-roughness.
-"""
+"""Answers about one contact: at once by formula, and solved as the command solves it."""
 
 from __future__ import annotations
 
@@ -32,8 +30,9 @@ _QUICK_ERROR = 1e-3
 # Part by which a film of a formula may be off, as the command says.
 _FORMULA = 0.4
 
-# Formula whose films an answer shows large, by geometry: the one of the breakdown voltage by formula.
-_SHOWN_FORMULA = {"line": "pan_hamrock", "point": "chittenden"}
+# Formula by geometry whose films an answer shows large and compares with heights of roughness: the one of the
+# breakdown voltage by formula.
+FORMULA_BY_GEOMETRY = {"line": "pan_hamrock", "point": "chittenden"}
 
 
 def contact_case(table: Mapping[str, Any], folder: str) -> Case:
@@ -56,7 +55,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     case = contact_case(table, folder)
     meaning = check(case)
     level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
-    formula = _SHOWN_FORMULA[case.contact.geometry]
+    formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
     keys = [key.replace("*", formula) for key in CHECK_CARDS]
     numbers, others = with_warnings(cards(meaning.rows, keys), told_of(meaning.warnings))
     return ContactCheck(

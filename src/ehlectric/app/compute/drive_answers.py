@@ -1,17 +1,14 @@
-"""Answers about drives: at once by the capacitive divider, and simulated over time; numbers, verdicts and
-sweeps.
-"""
+"""Answers about a drive: at once by the capacitive divider, and simulated over time."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
-from ehlectric.app.compute.answer_parts import card, drive_of, lines_of, told_of
+from ehlectric.app.compute.answer_parts import card, drive_of, lines_of, sentences_of, told_of
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
@@ -151,9 +148,6 @@ _AFTER: Mapping[str, str] = {
 }
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
 
-# End of a sentence; numbers such as 1.44 have no space behind their point.
-_END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
-
 # Beginnings of sentences on what is assumed.
 _ASSUMED = ("Upper bound", "Dielectric strength", "The table of dielectric", "The Weibull law of")
 
@@ -167,13 +161,13 @@ def judged_before(verdict: Verdict) -> Judged:
     >>> parts.lead, parts.numbers, parts.reasons
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
-    first, *others = _END.split(verdict.text)
+    first, *others = sentences_of(verdict.text)
     return _judged(verdict, _BEFORE, first, others, _NOT_SIMULATED)
 
 
 def judged_after(verdict: Verdict) -> Judged:
     """Verdict on a simulated drive, which is that of its report."""
-    first, *others = _END.split(verdict.text)
+    first, *others = sentences_of(verdict.text)
     assumed = [text for text in others if text.startswith(_ASSUMED)]
     reasons = [text for text in others if text not in assumed]
     return _judged(verdict, _AFTER, first, reasons, " ".join(assumed))

@@ -17,7 +17,6 @@ for name in (
     "motion_answers",
     "surface_answers",
     "sweep_answers",
-    "sweep_answers",
     "page_files",
 ):
     import_module(f"ehlectric.app.compute.{name}")

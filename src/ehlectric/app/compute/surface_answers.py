@@ -13,6 +13,7 @@ import numpy as np
 
 from ehlectric.app.answers import StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.compute.answer_parts import told_of, with_own_files
+from ehlectric.app.compute.contact_answers import FORMULA_BY_GEOMETRY
 from ehlectric.app.figures.surface_charts import line_figure, map_figure, profile_figure
 from ehlectric.app.page_warnings import Told
 from ehlectric.arrays import Array
@@ -101,9 +102,6 @@ def _length(length: float) -> str:
 # Memory that the reading and the processing of a surface may take beyond that of the process [bytes].
 _MEMORY = 3e9
 
-# Formula of the film with which heights are compared, by geometry.
-_FORMULA = {"line": "pan_hamrock", "point": "chittenden"}
-
 # Points of an exact shape that are drawn, along a line and along the sides of a map.
 _LINE, _SIDE = 2001, 161
 
@@ -159,7 +157,9 @@ class _Contact:
         spacings = self.kind.spacings(self.case, self.conditions)
         found = self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
-        thin = too_rough(table, rough, formulas_of(self.conditions)[_FORMULA[self.case.contact.geometry]])
+        thin = too_rough(
+            table, rough, formulas_of(self.conditions)[FORMULA_BY_GEOMETRY[self.case.contact.geometry]]
+        )
         told = tuple(plainly(one, table, rough, self.domain) for one in told_of(found))
         return told if thin is None else (thin, *told)
 

@@ -1,6 +1,4 @@
-"""Sweeps of the pages: what may vary, their size, their run, and their state while points are being
-solved.
-"""
+"""Sweeps of the pages: inputs that may vary, size, run, and state while points are being solved."""
 
 from __future__ import annotations
 
@@ -324,14 +322,19 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
     tables are no valid case.
     """
     case = run_case_of(table)
-    kind = next((name for name, one in _KINDS.items() if isinstance(case, one)), "contact")
+    kind = _kind_of_case(case)
     keys = dict.fromkeys(filter(None, (ranked_value(case), breakdown_of(case).value, *_RESULTS[kind])))
     return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
 
 
-# Classes of cases, and pages, by kind; a contact has another one.
-_KINDS = {"bearing": BearingCase, "drive": DriveCase}
+# Paths of pages by kind of case.
 _PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact"}
+
+
+def _kind_of_case(case: SweptCase) -> str:
+    if isinstance(case, DriveCase):
+        return "drive"
+    return "bearing" if isinstance(case, BearingCase) else "contact"
 
 
 def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
@@ -482,12 +485,10 @@ def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
         raise InputError("the sweep has been replaced by another one; run it again")
     if not 0 <= number < len(results.points):
         raise InputError("number", got=number, takes=f"from 0 to {len(results.points) - 1}")
-    kind = next((name for name, one in _KINDS.items() if isinstance(results.case, one)), "contact")
-    path = _PAGES[kind]
     inputs, vary = results.points[number].inputs, table.get("vary", {})
     units = {key: _written_unit(vary, key) for key in inputs}
     found = point_table(results.case, table["case"], inputs, units)
-    return SweepPoint(number, path, Inputs(found).address())
+    return SweepPoint(number, _PAGES[_kind_of_case(results.case)], Inputs(found).address())
 
 
 def point_table(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.charts import Plot, axis, log_ticks, plot, stack
+from ehlectric.app.figures.charts import Plot, axis, log_ticks, plot, scatter, stack
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
 from ehlectric.cases.defaults import OF_CONTACTS
@@ -17,6 +17,40 @@ from ehlectric.figures.breakdown_over_speed import breakdown_panel, capacitance_
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
 from ehlectric.quantities.units import rpm, rpm_text
+
+# Lambda ratios below which surfaces touch, and below which they touch at times.
+_RATIOS = (1.0, 3.0)
+
+# A circle of a lambda ratio is left out where the smallest film is above this many times its thickness.
+_FAR = 4.0
+
+# Height of a figure around the shaft [px].
+_HEIGHT = 420
+
+# Colour, width of the line and marker of each ring: the inner one is drawn over the wider line of the outer.
+_LOOKS: Mapping[str, tuple[str, float, str]] = {
+    "outer": (AMBER, 4.0, "square"),
+    "inner": (BLUE, 2.0, "circle"),
+}
+
+# Layout of a figure over the speed: its legend of long names stands below it.
+_LAYOUT: dict[str, Any] = {
+    "height": 440,
+    "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
+    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top"},
+}
+
+# Heads of the table over the speed.
+SPEED_HEADS = (
+    "speed [rpm]",
+    "λ",
+    "C, air [pF]",
+    "C, oil [pF]",
+    "first breakdown [V]",
+    "shaft voltage [V]",
+    "margin",
+    "lubrication",
+)
 
 
 def shown_over(values: list[float]) -> tuple[float, float]:
@@ -28,42 +62,23 @@ def polar_layout(ends: tuple[float, float], *, radial: bool = True) -> Plot:
     """Layout of a polar figure with the radial load at the bottom; logarithmic unless it begins at 0."""
     log = ends[0] > 0.0
     limits = [math.log10(end) for end in ends] if log else list(ends)
-    around = axis(rotation=270, direction="counterclockwise", tickmode="array", automargin=False)
+    around = axis(rotation=270, direction="counterclockwise", tickmode="array")
     around |= {
         "tickvals": list(range(0, 360, 45)),
         "ticktext": ["0° (load)" if radial else "0°", *(f"{angle}°" for angle in range(45, 360, 45))],
     }
-    out = axis(range=limits, angle=90, tickangle=90, nticks=5)
+    out = axis(range=limits, angle=90, tickangle=90, nticks=5) | log_ticks(log=log)
+    # Polar axes lack this key.
+    del around["automargin"], out["automargin"]
     return {
         "margin": {"l": 40, "r": 40, "t": 30, "b": 40},
         "legend": {"orientation": "h", "x": 0.5, "xanchor": "center", "y": -0.12, "yanchor": "top"},
         "polar": {
             "bgcolor": "rgba(0,0,0,0)",
-            "angularaxis": _without(around, "automargin"),
-            "radialaxis": _without(out | log_ticks(log=log), "automargin"),
+            "angularaxis": around,
+            "radialaxis": out,
         },
     }
-
-
-def _without(table: Plot, key: str) -> Plot:
-    """Axis without a key, which polar axes lack."""
-    return {name: value for name, value in table.items() if name != key}
-
-
-# Lambda ratios below which surfaces touch, and below which they touch at times.
-_RATIOS = (1.0, 3.0)
-
-# A circle of a lambda ratio is left out where the smallest film is above this many times its thickness.
-_FAR = 4.0
-
-# Height of a figure [px].
-_HEIGHT = 420
-
-# Colour, width of the line and marker of each ring: the inner one is drawn over the wider line of the outer.
-_LOOKS: Mapping[str, tuple[str, float, str]] = {
-    "outer": (AMBER, 4.0, "square"),
-    "inner": (BLUE, 2.0, "circle"),
-}
 
 
 @dataclass(frozen=True)
@@ -80,16 +95,12 @@ class Around:
 def load_figure(
     rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around], *, radial: bool = True
 ) -> Plot:
-    """Loads of the contacts with both rings around the shaft. Returns figure of Plotly, in which the radial
-    load on the inner ring points down.
-    """
+    """Figure of the loads of the contacts with both rings; the radial load on the inner ring points down."""
     data = []
     for name in _LOOKS:
-        ring = around[name]
-        data.append(_line(name, ring.angle, list(ring.load)))
         marks = [row for row in rows if row["ring"] == name]
-        values = [row["load"] for row in marks]
-        data.append(_marks(name, marks, values, "load", "N"))
+        data.append(_line(name, around[name].angle, around[name].load))
+        data.append(_marks(name, marks, [row["load"] for row in marks], "load", "N"))
     largest = max(max(ring.load) for ring in around.values())
     return plot(data, height=_HEIGHT, **polar_layout((0.0, 1.08 * largest), radial=radial))
 
@@ -101,9 +112,10 @@ def film_figure(
     *,
     radial: bool = True,
 ) -> Plot:
-    """Minimum films of the loaded contacts with both rings around the shaft. ``roughness``, combined
-    root-mean-square height of both surfaces [m], for the circles of lambda ratios. Returns figure of Plotly;
-    contacts without load have a gap instead of a film, and are left out.
+    """Figure of the minimum films of the loaded contacts with both rings around the shaft.
+
+    The circles of lambda ratios are those of the combined root-mean-square roughness [m]. Contacts without
+    load have a gap instead of a film, and are left out.
     """
     films = [
         film
@@ -116,7 +128,7 @@ def film_figure(
     data = [_circle(ratio, 1e6 * ratio * roughness) for ratio in ratios]
     for name in _LOOKS:
         ring = around[name]
-        values = [1e6 * film if on else None for film, on in zip(ring.film, ring.loaded, strict=True)]
+        values = np.where(ring.loaded, 1e6 * np.array(ring.film), np.nan).tolist()
         data.append(_line(name, ring.angle, values))
         marks = [row for row in rows if row["ring"] == name and row["solved"]]
         data.append(_marks(name, marks, [1e6 * row["minimum_thickness"] for row in marks], "h_min", "µm"))
@@ -124,21 +136,16 @@ def film_figure(
     return plot(data, height=_HEIGHT, **layout)
 
 
-def _line(name: str, angle: Sequence[float], values: list[float | None] | list[float]) -> Plot:
+def _line(name: str, angle: Sequence[float], values: Sequence[float]) -> Plot:
+    """Closed line of a ring around the shaft."""
     color, width, _ = _LOOKS[name]
     degrees = [math.degrees(one) for one in angle]
-    return {
-        "type": "scatterpolar",
-        "mode": "lines",
-        "theta": [*degrees, degrees[0] + 360.0],
-        "r": [*values, values[0]],
-        "line": {"color": color, "width": width},
-        "hoverinfo": "skip",
-        "showlegend": False,
-    }
+    look: Plot = {"line": {"color": color, "width": width}, "showlegend": False}
+    return scatter([*degrees, degrees[0] + 360.0], [*values, values[0]], polar=True, **look)
 
 
 def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], symbol: str, unit: str) -> Plot:
+    """Marks of the contacts of a ring, with the cage at its first position."""
     color, width, marker = _LOOKS[name]
     return {
         "type": "scatterpolar",
@@ -155,24 +162,16 @@ def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], sy
 
 
 def _circle(ratio: float, radius: float) -> Plot:
-    words = "surfaces touch inside" if ratio == _RATIOS[0] else "surfaces may touch inside"
-    return {
-        "type": "scatterpolar",
-        "mode": "lines",
-        "theta": list(range(0, 361, 5)),
-        "r": [radius] * 73,
-        "line": {"color": MIDDLE_GREY, "width": 1.5, "dash": "dot" if ratio == _RATIOS[0] else "dash"},
-        "name": f"λ = {ratio:g}: {words}",
-        "hovertemplate": f"λ = {ratio:g}<br>h = {radius:.4g} µm<extra></extra>",
-    }
-
-
-# Layout of a figure: its legend of long names stands below it.
-_LAYOUT: dict[str, Any] = {
-    "height": 440,
-    "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
-    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top"},
-}
+    """Circle of a lambda ratio, with its film thickness [µm]."""
+    words, dash = ("touch", "dot") if ratio == _RATIOS[0] else ("may touch", "dash")
+    return scatter(
+        range(0, 361, 5),
+        [radius] * 73,
+        hover=f"λ = {ratio:g}<br>h = {radius:.4g} µm",
+        polar=True,
+        line={"color": MIDDLE_GREY, "width": 1.5, "dash": dash},
+        name=f"λ = {ratio:g}: surfaces {words} inside",
+    )
 
 
 @dataclass(frozen=True)
@@ -241,15 +240,3 @@ def _state(lambda_ratio: float, quick: str) -> str:
     if lambda_ratio < CONDUCTING:
         return "touching" if quick == "touching" else "conducting"
     return "partial film" if lambda_ratio < PARTIAL else "full film"
-
-
-SPEED_HEADS = (
-    "speed [rpm]",
-    "λ",
-    "C, air [pF]",
-    "C, oil [pF]",
-    "first breakdown [V]",
-    "shaft voltage [V]",
-    "margin",
-    "lubrication",
-)

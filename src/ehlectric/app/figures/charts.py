@@ -11,24 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
+from ehlectric.figures.data import Along, Area, Curve, Panel
 from ehlectric.quantities.palette import MIDDLE_GREY, faint
 
 # Maps of colours: film, pressure and field. Plotly has no Plasma of its own.
 FILM_COLOURS, PRESSURE_COLOURS = "Viridis", "Cividis"
-_PLASMA = [
-    "#0d0887",
-    "#46039f",
-    "#7201a8",
-    "#9c179e",
-    "#bd3786",
-    "#d8576b",
-    "#ed7953",
-    "#fb9f3a",
-    "#fdca26",
-    "#f0f921",
-]
-FIELD_COLOURS = [[round(k / 9.0, 4), colour] for k, colour in enumerate(_PLASMA)]
+_PLASMA = "#0d0887 #46039f #7201a8 #9c179e #bd3786 #d8576b #ed7953 #fb9f3a #fdca26 #f0f921"
+FIELD_COLOURS = [[round(k / 9.0, 4), colour] for k, colour in enumerate(_PLASMA.split())]
 
 # Lines of the grid and of axes: seen on white and on black.
 _GRID, _LINE = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.7)"
@@ -40,14 +29,36 @@ INK = "#808080"
 # Text across a figure of a film that did not converge.
 NO_SOLUTION = "NOT CONVERGED<br>do not use these values"
 
+# Largest number of pixels along a side of a map that a page receives.
+MOST_PIXELS = 160
+
+# Height of a panel, and gap between panels as a part of the height of the figure [px].
+_PANEL, _GAP = 190, 0.05
+
+# Number of the first of the hidden axes from 0 to 1 over each panel: behind those of the panels.
+_HIDDEN = 11
+
+# Pixels of a line that is a point wide, and largest number of intervals of a curve whose extremes are kept.
+_PIXELS, _INTERVALS = 5.0 / 3.0, 1500
+
+# Margins of figures in boxes [px].
+NARROW = {"l": 8, "r": 8, "t": 8, "b": 8}
+
+_CONFIG: dict[str, Any] = {
+    "displaylogo": False,
+    "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
+    "toImageButtonOptions": {"format": "svg", "filename": "ehlectric"},
+}
+
 Plot = dict[str, Any]
 Indices = NDArray[np.intp]
 
 
 def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = True, **layout: Any) -> Plot:
-    """Figure of Plotly with the look of the app. ``height`` [px]; ``converged``, whether the result
-    converged; if not, words across the figure say so. Returns data, layout and config; texts have no colours:
-    the styles of the page give them, in light and dark.
+    """Figure of Plotly with the look of the app: data, layout and config. ``height`` is in pixels.
+
+    Where the result did not converge, words across the figure say so. Texts have no colours: the styles of
+    the page set them, in light and dark.
     """
     whole: Plot = {
         "height": height,
@@ -62,15 +73,10 @@ def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = Tr
         **layout,
     }
     if not converged:
-        whole["annotations"] = [*whole.get("annotations", ()), _across(NO_SOLUTION)]
+        middle = {"xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5, "showarrow": False, "textangle": -12}
+        text = {"text": NO_SOLUTION, "font": {"size": 26}, "opacity": 0.85}
+        whole["annotations"] = [*whole.get("annotations", ()), middle | text]
     return {"data": [dict(trace) for trace in data], "layout": whole, "config": _CONFIG}
-
-
-_CONFIG: Plot = {
-    "displaylogo": False,
-    "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
-    "toImageButtonOptions": {"format": "svg", "filename": "ehlectric"},
-}
 
 
 def axis(title: str = "", **more: Any) -> Plot:
@@ -95,6 +101,44 @@ def vertical(at: float, **more: Any) -> Plot:
     return {"type": "line", "x0": at, "x1": at, "yref": "paper", "y0": 0.0, "y1": 1.0, "line": line} | more
 
 
+def scatter(
+    x: Any,
+    y: Any,
+    *,
+    digits: tuple[int, int] = (7, 7),
+    hover: str = "",
+    label: str = "",
+    polar: bool = False,
+    **more: Any,
+) -> Plot:
+    """Trace over positions: a line where it has the key ``line``, else markers.
+
+    ``digits`` are those of x and y, ``hover`` is the text at the pointer with a ``label`` next to it, and
+    ``more`` are further keys. The positions of a polar trace are angles [deg] and radii.
+    """
+    first, second = ("theta", "r") if polar else ("x", "y")
+    return {
+        "type": "scatterpolar" if polar else "scatter",
+        "mode": "lines" if "line" in more else "markers",
+        first: values(x, digits[0]),
+        second: values(y, digits[1]),
+        **({"hovertemplate": f"{hover}<extra>{label}</extra>"} if hover else {"hoverinfo": "skip"}),
+        **more,
+    }
+
+
+def axis_name(number: int, stem: str = "y") -> str:
+    """Name of the y axis of a panel, counted from 0; Plotly numbers axes from the second on."""
+    return f"{stem}{number + 1}" if number else stem
+
+
+def domains(count: int) -> list[list[float]]:
+    """Ends of panels one above the other, the highest first, as parts of the height of a figure."""
+    share = (1.0 - _GAP * (count - 1)) / count
+    tops = (1.0 - number * (share + _GAP) for number in range(count))
+    return [[max(0.0, top - share), top] for top in tops]
+
+
 def values(array: Any, digits: int = 7) -> list[Any]:
     """Numbers of an array as nested lists, with a number of digits; None where there is none.
 
@@ -112,14 +156,15 @@ def values(array: Any, digits: int = 7) -> list[Any]:
     if not finite.all():
         whole = rounded.astype(object)
         whole[~finite] = None
-    found: list[Any] = whole.tolist()
-    return found
+    listed: list[Any] = whole.tolist()
+    return listed
 
 
 def thinned(curves: Sequence[Array], most: int) -> Indices:
-    """Indices of nodes along a line, of which every curve keeps its smallest and its largest values.
-    ``curves``, values over the same nodes, shape (n,). Returns increasing indices, with both ends; all of
-    them where they are few.
+    """Increasing indices of nodes along a line, of which every curve keeps its smallest and largest values.
+
+    The curves are values over the same nodes, shape (n,). Both ends are kept, and all nodes where they are
+    few.
 
     Examples
     --------
@@ -155,21 +200,11 @@ def kept_nodes(number: int, most: int, also: Iterable[int] = ()) -> Indices:
     return np.unique(np.concatenate([even, np.array(further, dtype=int)]))
 
 
-def _across(text: str) -> Plot:
-    place = {"xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5, "showarrow": False}
-    return place | {"text": text, "font": {"size": 26}, "opacity": 0.85, "textangle": -12}
-
-
-# Largest number of pixels along a side of a map that a page receives.
-MOST_PIXELS = 160
-
-
 def coarser(heights: Array, most: int = MOST_PIXELS) -> tuple[Array, tuple[int, int]]:
     """Map of fewer pixels, each with the value of its block that is farthest from the mean of the map.
 
-    ``heights``, map, with NaN where it has no value, shape (nx, ny). Returns pixels, shape (mx, my); the
-    largest and the smallest value of the map are among them; points along the sides of a block; those at the
-    far ends may be smaller.
+    The map has NaN where it has no value, shape (nx, ny). The pixels, shape (mx, my), contain its largest and
+    its smallest value; with them come the points along the sides of a block.
 
     Examples
     --------
@@ -192,17 +227,6 @@ def coarser(heights: Array, most: int = MOST_PIXELS) -> tuple[Array, tuple[int, 
     return pixels, (block[0], block[1])
 
 
-# Height of a panel, and gap between panels as a part of the height of the figure [px].
-_PANEL, _GAP = 190, 0.05
-
-# Text before the signs of the axes; Plotly numbers axes from the second on. Behind them, those of the hidden
-# axes from 0 to 1 over each panel.
-_AXES, _HIDDEN = ("y", "y2", "y3", "y4"), ("y11", "y12", "y13", "y14")
-
-# Pixels of a line that is a point wide, and largest number of intervals of a curve whose extremes are kept.
-_PIXELS, _INTERVALS = 5.0 / 3.0, 1500
-
-
 def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **more: Any) -> Plot:
     """Figure with at most four panels, in which the pointer shows the values of all of them at one position.
 
@@ -212,7 +236,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
     layout: dict[str, Any] = {
         "xaxis": axis(
             f"{along.name} [{along.unit}]",
-            anchor=_AXES[len(panels) - 1],
+            anchor=axis_name(len(panels) - 1),
             unifiedhovertitle={"text": f"{along.name} = %{{x:.5g}} {along.unit}"},
             **({"range": list(along.window)} if along.window else {}),
             **log_ticks(log=along.log),
@@ -223,52 +247,58 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
         "shapes": [vertical(edge, layer="below") for edge in along.edges],
         "height": _PANEL * len(panels) + 110,
     }
-    share = (1.0 - _GAP * (len(panels) - 1)) / len(panels)
     data: list[Plot] = []
-    for number, panel in enumerate(panels):
-        top, name, hidden = 1.0 - number * (share + _GAP), _AXES[number], _HIDDEN[number]
-        domain = {"domain": [max(0.0, top - share), top], "anchor": "x"}
+    for number, (panel, ends_of_panel) in enumerate(zip(panels, domains(len(panels)), strict=True)):
+        name, hidden = axis_name(number), f"y{_HIDDEN + number}"
+        domain = {"domain": ends_of_panel, "anchor": "x"}
         ends = {} if panel.log else {"range": [panel.bottom, panel.top]}
         title = f"{panel.title}{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]"
         layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **log_ticks(log=panel.log))
         for area in panel.areas:
             data += _shaded(area, name, hidden)
         data += [_trace(curve, panel, name, converged=converged) for curve in panel.curves]
-        data += [_upright(line, hidden) for line in panel.uprights]
+        data += [
+            scatter(
+                [line.at] * 2,
+                [0.0, 1.0],
+                yaxis=hidden,
+                name=line.name,
+                line={"color": line.colour, "width": 2.0, "dash": line.dash},
+            )
+            for line in panel.uprights
+        ]
         if panel.areas or panel.uprights:
             whole = {"overlaying": name, "range": [0.0, 1.0], "visible": False, "fixedrange": True}
             layout["yaxis" + hidden[1:]] = whole | domain
     return plot(data, converged=converged, **layout | more)
 
 
-def _trace(curve: Curve, panel: Panel, axis_name: str, *, converged: bool) -> Plot:
+def _trace(curve: Curve, panel: Panel, yaxis: str, *, converged: bool) -> Plot:
     colour = curve.colour if converged else MIDDLE_GREY
     kept = thinned([curve.y], _INTERVALS)
-    trace: Plot = {
-        "type": "scatter",
-        "x": values(curve.x[kept]),
-        "y": values(curve.y[kept]),
-        "yaxis": axis_name,
-        "name": curve.name,
-        "showlegend": bool(curve.name),
-    }
     if curve.marker:
         marker: Plot = {"color": colour, "size": 6}
         if curve.marker == "ring":
             marker = {"color": "rgba(0,0,0,0)", "size": 9, "line": {"color": colour, "width": 2}}
         if curve.marker == "star":
             marker |= {"symbol": "star", "size": 15, "line": {"color": "white", "width": 1}}
-        trace |= {"mode": "markers", "marker": marker}
+        look: Plot = {"marker": marker}
     else:
-        line = {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width}
-        trace |= {"mode": "lines", "line": line}
-    # The name of a single mark has its value.
-    if not curve.name or curve.x.size == 1:
-        return trace | {"hoverinfo": "skip"}
-    return trace | {"hovertemplate": f"%{{y:.4g}} {panel.unit}<extra>{curve.name}</extra>"}
+        look = {"line": {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width}}
+    return scatter(
+        curve.x[kept],
+        curve.y[kept],
+        # The name of a single mark has its value.
+        hover=f"%{{y:.4g}} {panel.unit}" if curve.name and curve.x.size > 1 else "",
+        label=curve.name,
+        yaxis=yaxis,
+        name=curve.name,
+        showlegend=bool(curve.name),
+        **look,
+    )
 
 
-def _shaded(area: Area, axis_name: str, hidden: str) -> Iterator[Plot]:
+def _shaded(area: Area, yaxis: str, hidden: str) -> Iterator[Plot]:
     """Outlines of the spans of an area, filled; the first one is in the legend."""
     look: Plot = {"fillcolor": faint(area.colour, area.opacity)}
     if area.hatched:
@@ -279,19 +309,16 @@ def _shaded(area: Area, axis_name: str, hidden: str) -> Iterator[Plot]:
         low, high = (np.zeros_like(x), np.ones_like(x)) if area.ends is None else area.ends
         if area.ends is not None:
             low, high = low[span], high[span]
-        yield {
-            "type": "scatter",
-            "mode": "lines",
-            "x": values(_around(x, x)),
-            "y": values(_around(low, high)),
-            "yaxis": hidden if area.ends is None else axis_name,
-            "fill": "toself",
-            "line": {"width": 0},
-            "hoverinfo": "skip",
-            "name": area.name,
-            "showlegend": bool(area.name) and k == 0,
+        yield scatter(
+            _around(x, x),
+            _around(low, high),
+            yaxis=hidden if area.ends is None else yaxis,
+            fill="toself",
+            line={"width": 0},
+            name=area.name,
+            showlegend=bool(area.name) and k == 0,
             **look,
-        }
+        )
 
 
 def _spans(within: Mask) -> Iterator[slice]:
@@ -303,19 +330,6 @@ def _spans(within: Mask) -> Iterator[slice]:
 
 def _around(low: Array, high: Array) -> Array:
     return np.concatenate([low, high[::-1], low[:1]])
-
-
-def _upright(line: Upright, hidden: str) -> Plot:
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "x": values([line.at] * 2),
-        "y": [0.0, 1.0],
-        "yaxis": hidden,
-        "name": line.name,
-        "line": {"color": line.colour, "width": 2.0, "dash": line.dash},
-        "hoverinfo": "skip",
-    }
 
 
 def names_of(panels: Sequence[Panel]) -> Iterator[str]:

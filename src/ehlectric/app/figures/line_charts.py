@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ehlectric.app.answers import Shown
-from ehlectric.app.figures.charts import FIELD_COLOURS, Indices, names_of, plot, stack, thinned, values
+from ehlectric.app.figures.charts import (
+    FIELD_COLOURS,
+    Indices,
+    Plot,
+    kept_nodes,
+    names_of,
+    plot,
+    scatter,
+    stack,
+    thinned,
+    values,
+)
 from ehlectric.app.figures.charts import axis as plot_axis
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
@@ -84,32 +93,25 @@ def spot_position(result: PointResult) -> tuple[float, float]:
     return float(film.x[i]), float(film.y[j])
 
 
-def spot_marks(result: PointResult, factor: float, *, turned: bool) -> list[dict[str, Any]]:
+def spot_marks(result: PointResult, factor: float, *, turned: bool) -> list[Plot]:
     """Marks at the nodes of a map at which the surfaces touch; at most 2000, spread evenly."""
     if not touches(result):
         return []
     i, j = np.nonzero(result.film.contact)
-    kept: NDArray[np.intp] = np.unique(np.linspace(0, i.size - 1, min(i.size, _MARKS)).astype(np.intp))
-    x, y = (
-        np.round(factor * axis[at[kept]], 6).tolist()
-        for axis, at in zip(result.film.axes, (i, j), strict=True)
-    )
+    kept = kept_nodes(i.size, _MARKS)
+    x, y = (factor * axis[at[kept]] for axis, at in zip(result.film.axes, (i, j), strict=True))
     marker = {"symbol": "square", "size": 4, "color": ORANGE}
-    return [
-        {
-            "type": "scatter",
-            "mode": "markers",
-            "x": y if turned else x,
-            "y": x if turned else y,
-            "marker": marker,
-            "name": SPOTS,
-            "showlegend": True,
-            "hoverinfo": "skip",
-        }
-    ]
+    drawn = (y, x) if turned else (x, y)
+    return [scatter(*drawn, marker=marker, name=SPOTS, showlegend=True)]
 
 
-def told_of_spots(result: Result | PointResult) -> str:
+def mark(x: float, y: float, name: str) -> Plot:
+    """Cross at the place of an extreme, whose value is in its name."""
+    marker = {"symbol": "x-thin", "size": 11, "line": {"color": ORANGE, "width": 3}}
+    return scatter([x], [y], marker=marker, name=name, showlegend=True)
+
+
+def spots_text(result: Result | PointResult) -> str:
     """Sentence below a figure about spots; empty where the surfaces do not touch."""
     if not touches(result):
         return ""
@@ -151,7 +153,7 @@ def _profiles(result: Result) -> Shown:
     told = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
         f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
-        told_of_spots(result),
+        spots_text(result),
         BEYOND if result.converged and touches(result) else "",
     )
     return Shown(
@@ -190,20 +192,21 @@ def _section(result: Result) -> Shown:
         f"field %{{z:.4g}} {strength}<extra></extra>",
         "hoverongaps": False,
     }
-    marked = {"x": [to_x * float(field.x[k])], "y": [to_z * float(field.y[k, j])]}
     name = f"maximum, {to_e * field.max_strength:.4g} {strength}"
-    traces = [heat, *_bodies(x, walls), _potentials(result, kept, to_x, to_z), _cross(marked, name)]
-    layout: dict[str, Any] = {
-        "xaxis": plot_axis(f"x [{unit}]"),
-        "yaxis": plot_axis(f"height [{height}]", range=[float(z[0]), float(z[-1])]),
-        "hovermode": "closest",
-    }
+    cross = mark(to_x * field.x[k], to_z * field.y[k, j], name)
+    traces = [heat, *_bodies(x, walls), _potentials(result, kept, to_x, to_z), cross]
     return Shown(
         "section",
         "Field in the film",
         f"Map of the field strength in {strength} in the film, over x in {unit} and height in {height}. "
         f"{main_numbers(result)}",
-        plot(traces, height=420, **layout),
+        plot(
+            traces,
+            height=420,
+            xaxis=plot_axis(f"x [{unit}]"),
+            yaxis=plot_axis(f"height [{height}]", range=[float(z[0]), float(z[-1])]),
+            hovermode="closest",
+        ),
         f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
         f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own."
         + (f" {BEYOND}" if touches(result) else ""),
@@ -220,26 +223,23 @@ def _rows(z: Array, walls: Array, strength: Array) -> Array:
     return rows
 
 
-def _bodies(x: Array, walls: Array) -> Iterator[dict[str, Any]]:
+def _bodies(x: Array, walls: Array) -> Iterator[Plot]:
     """Filled bodies below and above the film."""
     low, high = float(walls.min()), float(walls.max())
     far = high - low
     for name, wall, end in (("surface 1", walls[:, 0], low - far), ("surface 2", walls[:, -1], high + far)):
-        yield {
-            "type": "scatter",
-            "mode": "lines",
-            "x": values([x[0], *x, x[-1]]),
-            "y": values([end, *wall, end]),
-            "fill": "toself",
-            "fillcolor": "#a8afb8",
-            "line": {"color": "#59636e", "width": 1},
-            "name": name,
-            "hoverinfo": "skip",
-            "showlegend": False,
-        }
+        yield scatter(
+            [x[0], *x, x[-1]],
+            [end, *wall, end],
+            fill="toself",
+            fillcolor="#a8afb8",
+            line={"color": "#59636e", "width": 1},
+            name=name,
+            showlegend=False,
+        )
 
 
-def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> dict[str, Any]:
+def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> Plot:
     """Lines of equal potential, one after another in one trace."""
     field, electric = result.field, result.case.electric
     levels = np.linspace(electric.potential_1, electric.potential_2, _POTENTIALS + 2)[1:-1]
@@ -249,19 +249,12 @@ def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> dict
     y = np.concatenate([heights, gap]).T.ravel()
     x = np.tile(np.append(to_x * field.x[kept], np.nan), _POTENTIALS)
     step = abs(float(levels[1] - levels[0]))
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "x": values(x, 5),
-        "y": values(y, 4),
+    return scatter(
+        x,
+        y,
+        digits=(5, 4),
         # Seen on the colours of the field, and in the legend on a light and on a dark page.
-        "line": {"color": "#1098ad", "width": 1},
-        "name": f"equal potential, every {step:.3g} V",
-        "hoverinfo": "skip",
-        "visible": "legendonly",
-    }
-
-
-def _cross(at: dict[str, list[float]], name: str) -> dict[str, Any]:
-    marker = {"symbol": "x-thin", "size": 11, "line": {"color": ORANGE, "width": 3}}
-    return {"type": "scatter", "mode": "markers", **at, "marker": marker, "name": name, "hoverinfo": "skip"}
+        line={"color": "#1098ad", "width": 1},
+        name=f"equal potential, every {step:.3g} V",
+        visible="legendonly",
+    )

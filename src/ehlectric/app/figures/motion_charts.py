@@ -4,12 +4,25 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.charts import Plot, kept_nodes, plot, thinned
+from ehlectric.app.figures.charts import (
+    FILM_COLOURS,
+    NARROW,
+    Plot,
+    axis_name,
+    domains,
+    kept_nodes,
+    plot,
+    scatter,
+    thinned,
+    vertical,
+)
 from ehlectric.app.figures.charts import axis as plot_axis
 from ehlectric.app.figures.charts import values as listed
+from ehlectric.app.figures.line_charts import BEFORE, BEHIND
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.motion.motion_touching import TouchHistory
@@ -24,8 +37,18 @@ _PIECES = 1000
 # Largest number of pieces of the recorded instants.
 _MOST_DOTS = 150
 
-# Height of a panel and of what surrounds them [px].
-_PANEL, _REST = 130, 60
+# Largest number of instants and of nodes along a line that a page receives, and bounds of the size of all
+# instants: numbers, of some characters each.
+MOST_INSTANTS, MOST_INSTANTS_OF_MAPS, _MOST_NODES = 201, 101, 600
+_LINE_NUMBERS, _MAP_NUMBERS = 280_000, 320_000
+
+# Range of a map around the ellipse of Hertz [semi-axes].
+_AROUND = 1.5
+
+# Height of a panel of the history, of what surrounds the panels, and of both kinds of movies [px].
+_PANEL, _REST, _LINE_HEIGHT, _MAP_HEIGHT = 130, 60, 520, 460
+
+Unit = tuple[float, str]
 
 
 def history(run: MotionRun) -> Plot:
@@ -40,6 +63,7 @@ def history(run: MotionRun) -> Plot:
     voltages, field = breakdown_voltages(run), run.field_history
     time, film = factor * run.values("time"), run.values("minimum_thickness")
     recorded = factor * run.frame_time, run.values("max_strength")
+    # Name, colour, unit, values at every time step, and values at the recorded instants.
     lines = [
         ("minimum film", BLUE, of["film"], film, None),
         ("maximum field", ORANGE, of["field"], field.strength, recorded[1]),
@@ -53,77 +77,50 @@ def history(run: MotionRun) -> Plot:
         lines.append(("load share of asperities", AMBER, (100.0, "%"), touching.load_share, None))
     traces, titles = [], []
     for number, (name, colour, suited, values, solved) in enumerate(lines):
-        look = {"yaxis": axis_name(number)}
-        traces.append(look | _over_time(name, colour, suited, time, values, unit))
+        drawn = _over_time(name, suited, (time, values), unit, line={"color": colour, "width": 1.5})
+        traces.append(drawn | {"yaxis": axis_name(number)})
         if solved is not None:
-            traces.append(look | _dots(name, colour, suited, recorded[0], solved, unit))
+            dots = _over_time(name, suited, (recorded[0], solved), unit, marker={"color": colour, "size": 5})
+            traces.append(dots | {"yaxis": axis_name(number)})
         titles.append(f"{name}<br>[{suited[1]}]")
     halved = np.flatnonzero(run.values("halvings"))
     if halved.size:
-        traces.append(_halved(time[halved], of["film"][0] * film[halved], unit))
+        kept = halved[thinned([film[halved]], _PIECES)]
+        traces.append(
+            scatter(
+                time[kept],
+                of["film"][0] * film[kept],
+                digits=(6, 5),
+                hover=f"time step halved, t = %{{x:.4g}} {unit}",
+                name="time step not converged at once, and halved",
+                marker={"color": MIDDLE_GREY, "symbol": "x", "size": 7},
+            )
+        )
     return plot(
         traces,
         height=_PANEL * len(lines) + _REST,
-        margin=MARGIN,
-        shapes=[_present(0.0), *_stationary(run, of)],
+        margin=NARROW,
+        shapes=[vertical(0.0, line={"color": AMBER, "width": 2}), *_stationary(run, of)],
         showlegend=bool(halved.size),
         hovermode="closest",
-        **stacked(titles, f"time [{unit}]"),
+        **_stacked(titles, f"time [{unit}]"),
     )
 
 
-def _dots(name: str, colour: str, unit: Unit, time: Array, values: Array, of_time: str) -> Plot:
-    chosen = thinned([values], _MOST_DOTS)
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": f"{name}, recorded",
-        "x": listed(time[chosen], 6),
-        "y": listed(unit[0] * values[chosen], 5),
-        "marker": {"color": colour, "size": 5},
-        "hovertemplate": f"{name} %{{y:.4g}} {unit[1]}, solved<br>t = %{{x:.4g}} {of_time}<extra></extra>",
-        "showlegend": False,
-    }
-
-
-def _over_time(name: str, colour: str, unit: Unit, time: Array, values: Array, of_time: str) -> Plot:
-    chosen = thinned([values], _PIECES)
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "name": name,
-        "x": listed(time[chosen], 6),
-        "y": listed(unit[0] * values[chosen], 5),
-        "line": {"color": colour, "width": 1.5},
-        "hovertemplate": f"{name} %{{y:.4g}} {unit[1]}<br>t = %{{x:.4g}} {of_time}<extra></extra>",
-        "showlegend": False,
-    }
-
-
-def _halved(time: Array, film: Array, unit: str) -> Plot:
-    chosen = thinned([film], _PIECES)
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": "time step not converged at once, and halved",
-        "x": listed(time[chosen], 6),
-        "y": listed(film[chosen], 5),
-        "marker": {"color": MIDDLE_GREY, "symbol": "x", "size": 7},
-        "hovertemplate": f"time step halved, t = %{{x:.4g}} {unit}<extra></extra>",
-    }
-
-
-def _present(time: float) -> Plot:
-    """Line of the present time over all panels."""
-    return {
-        "type": "line",
-        "x0": time,
-        "x1": time,
-        "y0": 0,
-        "y1": 1,
-        "yref": "paper",
-        "line": {"color": AMBER, "width": 2},
-    }
+def _over_time(name: str, unit: Unit, curve: tuple[Array, Array], of_time: str, **look: Any) -> Plot:
+    """Line over time, or dots at the recorded instants, at which the field was solved."""
+    dots = "marker" in look
+    chosen = thinned(curve[1:], _MOST_DOTS if dots else _PIECES)
+    solved = ", solved" if dots else ""
+    return scatter(
+        curve[0][chosen],
+        unit[0] * curve[1][chosen],
+        digits=(6, 5),
+        hover=f"{name} %{{y:.4g}} {unit[1]}{solved}<br>t = %{{x:.4g}} {of_time}",
+        name=f"{name}, recorded" if dots else name,
+        showlegend=False,
+        **look,
+    )
 
 
 def _stationary(run: MotionRun, of: Mapping[str, Unit]) -> list[Plot]:
@@ -131,41 +128,15 @@ def _stationary(run: MotionRun, of: Mapping[str, Unit]) -> list[Plot]:
     still = json.loads(run.dataset.attrs["stationary"])
     if still is None:
         return []
-    values = (
-        ("y", of["film"][0] * still["minimum_thickness"]),
-        ("y2", of["field"][0] * still["max_strength"]),
-    )
+    look = {"color": MIDDLE_GREY, "width": 1, "dash": "dash"}
+    values = {
+        "y": of["film"][0] * still["minimum_thickness"],
+        "y2": of["field"][0] * still["max_strength"],
+    }
     return [
-        {
-            "type": "line",
-            "x0": 0,
-            "x1": 1,
-            "xref": "paper",
-            "y0": value,
-            "y1": value,
-            "yref": axis,
-            "line": {"color": MIDDLE_GREY, "width": 1, "dash": "dash"},
-        }
-        for axis, value in values
+        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": axis, "y0": at, "y1": at, "line": look}
+        for axis, at in values.items()
     ]
-
-
-# Largest number of instants and of nodes along a line that a page receives, and bounds of the size of all
-# instants: numbers, of some characters each.
-MOST_INSTANTS, MOST_INSTANTS_OF_MAPS, _MOST_NODES = 201, 101, 600
-_LINE_NUMBERS, _MAP_NUMBERS = 280_000, 320_000
-
-# Range of x of a line contact [half-widths], as in the figures of the command.
-_BEFORE, _BEHIND = -2.0, 1.5
-
-# Range of a map around the ellipse of Hertz [semi-axes].
-_AROUND = 1.5
-
-# Heights of the figures and their margins [px].
-_LINE_HEIGHT, _MAP_HEIGHT = 520, 460
-MARGIN = {"l": 8, "r": 8, "t": 8, "b": 8}
-
-Unit = tuple[float, str]
 
 
 def instants(run: MotionRun) -> IntArray:
@@ -177,8 +148,8 @@ def instants(run: MotionRun) -> IntArray:
 
 def least_films(run: MotionRun) -> Array:
     """Minimum film thickness at the recorded instants, shape (frames,) [m]."""
-    found: Array = run.values("minimum_thickness")[_steps(run)]
-    return found
+    films: Array = run.values("minimum_thickness")[_steps(run)]
+    return films
 
 
 def units(run: MotionRun) -> dict[str, Unit]:
@@ -197,16 +168,16 @@ def texts(run: MotionRun, chosen: IntArray) -> list[str]:
     """Sentence about every chosen instant: its time, minimum film, maximum field and breakdown voltage."""
     of, voltages = units(run), breakdown_voltages(run)
     films, fields = least_films(run), run.values("max_strength")
-    found = []
+    sentences = []
     for frame in chosen.tolist():
         parts = [
-            f"minimum film {_told(films[frame], of['film'])}",
-            f"maximum field {_told(fields[frame], of['field'])}",
+            f"minimum film {_amount(films[frame], of['film'])}",
+            f"maximum field {_amount(fields[frame], of['field'])}",
         ]
         if voltages is not None:
             parts.append(f"breakdown voltage {voltages[frame]:.4g} V")
-        found.append(f"t = {_told(run.frame_time[frame], of['time'])}: {', '.join(parts)}")
-    return found
+        sentences.append(f"t = {_amount(run.frame_time[frame], of['time'])}: {', '.join(parts)}")
+    return sentences
 
 
 def movie(run: MotionRun, chosen: IntArray) -> Plot:
@@ -220,29 +191,19 @@ def movie(run: MotionRun, chosen: IntArray) -> Plot:
     return make(run, chosen, units(run))
 
 
-def axis_name(number: int, stem: str = "y") -> str:
-    """Name of the y axis of a panel, counted from 0."""
-    return f"{stem}{number + 1}" if number else stem
-
-
 def _steps(run: MotionRun) -> Array:
     return np.asarray(run.values("frame_step"), dtype=int)
 
 
-def _told(value: float, unit: Unit) -> str:
+def _amount(value: float, unit: Unit) -> str:
     return f"{unit[0] * value:.4g} {unit[1]}"
 
 
-def stacked(titles: Sequence[str], along: str) -> Plot:
+def _stacked(titles: Sequence[str], along: str) -> Plot:
     """Axes of panels one above the other with the same x axis, as keys of a layout."""
-    gap, count = 0.05, len(titles)
-    each = (1.0 - gap * (count - 1)) / count
-    layout = {"xaxis": plot_axis(along, anchor=axis_name(count - 1), zeroline=False)}
-    for number, title in enumerate(titles):
-        top = 1.0 - number * (each + gap)
-        layout[axis_name(number, "yaxis")] = plot_axis(
-            title, domain=[max(0.0, top - each), top], zeroline=False
-        )
+    layout = {"xaxis": plot_axis(along, anchor=axis_name(len(titles) - 1), zeroline=False)}
+    for number, (title, domain) in enumerate(zip(titles, domains(len(titles)), strict=True)):
+        layout[axis_name(number, "yaxis")] = plot_axis(title, domain=domain, zeroline=False)
     return layout
 
 
@@ -250,7 +211,7 @@ def nodes_shown(run: MotionRun, frames: int) -> tuple[IntArray, ...]:
     """Indices of the nodes that the movie shows, along each axis."""
     axes = [run.values(axis) for axis in run.kind.axes]
     if len(axes) == 1:
-        at = np.flatnonzero((run.x >= _BEFORE) & (run.x <= _BEHIND))
+        at = np.flatnonzero((run.x >= BEFORE) & (run.x <= BEHIND))
         most = min(_MOST_NODES, _LINE_NUMBERS // (3 * frames))
         return (at[:: -(-at.size // most)],)
     conditions = run.conditions
@@ -266,7 +227,7 @@ def nodes_shown(run: MotionRun, frames: int) -> tuple[IntArray, ...]:
 def _line_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plot:
     (nodes,) = nodes_shown(run, chosen.size)
     along, length = of["place"]
-    x = listed(along * run.values("x")[nodes], 5)
+    x = along * run.values("x")[nodes]
     panels = (
         ("thickness", "film", "film thickness h", BLUE),
         ("pressure", "pressure", "pressure p", GREEN),
@@ -274,60 +235,69 @@ def _line_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plo
     )
     values = [of[unit][0] * run.values(name)[chosen][:, nodes] for name, unit, _, _ in panels]
     traces = [
-        {
-            "type": "scatter",
-            "mode": "lines",
-            "name": label,
-            "x": x,
-            "y": listed(rows[0], 4),
-            "yaxis": axis_name(number),
-            "line": {"color": colour, "width": 1.5},
-            "hovertemplate": f"{label} = %{{y}} {of[unit][1]}<br>x = %{{x}} {length}<extra></extra>",
-        }
+        scatter(
+            x,
+            rows[0],
+            digits=(5, 4),
+            hover=f"{label} = %{{y}} {of[unit][1]}<br>x = %{{x}} {length}",
+            name=label,
+            yaxis=axis_name(number),
+            line={"color": colour, "width": 1.5},
+        )
         for number, ((_, unit, label, colour), rows) in enumerate(zip(panels, values, strict=True))
     ]
-    marks = [_mark("minimum film", "y", BLUE, "triangle-up"), _mark("maximum field", "y3", ORANGE, "diamond")]
+    marks = _marks(BLUE, "#ffffff", " %{y:.4g}")
+    marks[1]["yaxis"] = "y3"
     places = [_marked(run, frame, of) for frame in chosen.tolist()]
-    frames = [
-        {
-            "name": str(number),
-            "data": [*({"y": listed(rows[number], 4)} for rows in values), *places[number]],
-            "traces": [0, 1, 2, 3, 4],
-        }
-        for number in range(chosen.size)
-    ]
+    frames = _frames([[{"y": listed(row, 4)} for row in rows] for rows in zip(*values, strict=True)], places)
     titles = [f"{label}<br>[{of[unit][1]}]" for _, unit, label, _ in panels]
-    layout = stacked(titles, f"x along entrainment [{length}]")
+    layout = _stacked(titles, f"x along entrainment [{length}]")
     inside = np.abs(run.x[nodes]) <= 1.0
     for number, rows in enumerate(values):
         most = float(np.nanmax(rows[:, inside] if np.any(inside) else rows))
         layout[axis_name(number, "yaxis")]["range"] = [0.0, 1.15 * most]
     data = [*traces, *(mark | place for mark, place in zip(marks, places[0], strict=True))]
-    drawn = plot(data, height=_LINE_HEIGHT, margin=MARGIN, showlegend=False, **layout)
+    drawn = plot(data, height=_LINE_HEIGHT, margin=NARROW, showlegend=False, **layout)
     return drawn | {"frames": frames}
 
 
-def _mark(name: str, axis: str, colour: str, symbol: str) -> Plot:
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": name,
-        "yaxis": axis,
-        "marker": {"color": colour, "size": 9, "symbol": symbol, "line": {"color": "#ffffff", "width": 1}},
-        "hovertemplate": f"{name} %{{y:.4g}}<extra></extra>",
-    }
+def _frames(pictures: Sequence[list[Plot]], places: Sequence[list[Plot]]) -> list[Plot]:
+    """Frames of a movie: what changes of its traces, and the places of its marks, at each instant."""
+    frames = [[*picture, *at] for picture, at in zip(pictures, places, strict=True)]
+    return [
+        {"name": str(number), "data": data, "traces": list(range(len(data)))}
+        for number, data in enumerate(frames)
+    ]
+
+
+def _marks(colour: str, edge: str, value: str = "") -> list[Plot]:
+    """Marks of the minimum film, of a colour, and of the maximum field, without their places."""
+    looks = (("minimum film", colour, "triangle-up"), ("maximum field", ORANGE, "diamond"))
+    return [
+        {
+            "type": "scatter",
+            "mode": "markers",
+            "name": name,
+            "yaxis": "y",
+            "marker": {"color": fill, "size": 9, "symbol": symbol, "line": {"color": edge, "width": 1}},
+            "hovertemplate": f"{name}{value}<extra></extra>",
+        }
+        for name, fill, symbol in looks
+    ]
 
 
 def _marked(run: MotionRun, frame: int, of: Mapping[str, Unit]) -> list[Plot]:
-    """Places of the minimum film and of the maximum field at an instant, exact."""
-    along, step = of["place"][0], int(_steps(run)[frame])
-    thin, strong = run.values("minimum_x")[step], run.values("max_strength_x")[frame]
-    return [
-        {"x": listed(np.array([along * thin]), 5),
-         "y": listed(np.array([of["film"][0] * least_films(run)[frame]]), 5)},
-        {"x": listed(np.array([along * strong]), 5),
-         "y": listed(np.array([of["field"][0] * run.values("max_strength")[frame]]), 5)},
-    ]  # fmt: skip
+    """Exact places of the minimum film and of the maximum field at an instant."""
+    along = of["place"][0]
+    extremes = (
+        ("minimum", int(_steps(run)[frame]), of["film"][0] * least_films(run)[frame]),
+        ("max_strength", frame, of["field"][0] * run.values("max_strength")[frame]),
+    )
+    places = []
+    for name, at, value in extremes:
+        numbers = {axis: along * run.values(f"{name}_{axis}")[at] for axis in run.kind.axes}
+        places.append({axis: listed([number], 5) for axis, number in ({"y": value} | numbers).items()})
+    return places
 
 
 def _map_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plot:
@@ -347,44 +317,22 @@ def _map_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plot
         "z": listed(films[0].T, 3),
         "zmin": float(np.min(films)),
         "zmax": float(np.percentile(inside, 95.0)),
-        "colorscale": "Viridis",
+        "colorscale": FILM_COLOURS,
         "colorbar": {"title": {"text": f"film thickness h [{unit}]", "side": "right"}, "thickness": 12},
         "hovertemplate": f"h = %{{z}} {unit}<br>x = %{{x}} {length}<br>y = %{{y}} {length}<extra></extra>",
     }
-    marks = [
-        _mark("minimum film", "y", "#ffffff", "triangle-up"),
-        _mark("maximum field", "y", ORANGE, "diamond"),
-    ]
-    for mark in marks:
-        mark["marker"]["line"] = {"color": "#000000", "width": 1}
-        mark["hovertemplate"] = f"{mark['name']}<extra></extra>"
-    places = [_marked_in_plane(run, frame, along) for frame in chosen.tolist()]
-    frames = [
-        {
-            "name": str(number),
-            "data": [{"z": listed(film.T, 3)}, *places[number]],
-            "traces": [0, 1, 2],
-        }
-        for number, film in enumerate(films)
-    ]
+    marks = _marks("#ffffff", "#000000")
+    places = [_marked(run, frame, of) for frame in chosen.tolist()]
+    frames = _frames([[{"z": listed(film.T, 3)}] for film in films], places)
     circle = {"type": "circle", "x0": -a, "x1": a, "y0": -b, "y1": b}
     data = [trace, *(mark | place for mark, place in zip(marks, places[0], strict=True))]
     drawn = plot(
         data,
         height=_MAP_HEIGHT,
-        margin=MARGIN,
+        margin=NARROW,
         showlegend=False,
         xaxis=plot_axis(f"x along entrainment [{length}]", constrain="domain", zeroline=False),
         yaxis=plot_axis(f"y [{length}]", constrain="domain", zeroline=False, scaleanchor="x"),
         shapes=[circle | {"line": {"color": "#ffffff", "width": 1, "dash": "dot"}}],
     )
     return drawn | {"frames": frames}
-
-
-def _marked_in_plane(run: MotionRun, frame: int, along: float) -> list[Plot]:
-    step = int(_steps(run)[frame])
-    places = (("minimum", step), ("max_strength", frame))
-    return [
-        {axis: listed(np.array([along * run.values(f"{name}_{axis}")[at]]), 5) for axis in "xy"}
-        for name, at in places
-    ]

@@ -1,6 +1,4 @@
-"""Figures of a point contact: maps of film, pressure and field, cuts, and the film as a surface, for a
-page.
-"""
+"""Figures of a point contact for a page: maps and cuts of film, pressure and field, and a surface."""
 
 from __future__ import annotations
 
@@ -33,9 +31,10 @@ from ehlectric.app.figures.line_charts import (
     Lengths,
     is_turned,
     main_numbers,
+    mark,
     spot_marks,
     spot_position,
-    told_of_spots,
+    spots_text,
 )
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult
@@ -53,8 +52,11 @@ from ehlectric.figures.data import Along
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 
-# Largest number of nodes along an axis of the surface.
-_MOST = 129
+# Largest number of nodes along an axis of the surface, and of a map.
+_MOST, _MAP = 129, 141
+
+# Part of the dry contact [%] whose film is above the end of the colours.
+_THICKER = 2.0
 
 
 def film_surface(result: PointResult) -> Shown:
@@ -67,15 +69,13 @@ def film_surface(result: PointResult) -> Shown:
     kept = [kept_nodes(size, _MOST, [int(one[k]) for one in extremes]) for k, size in enumerate(gap.shape)]
     x, y = lengths.factor * field.x[kept[0]], lengths.factor * field.y[kept[1]]
     height, colour = to_h * gap[np.ix_(*kept)].T, to_e * most[np.ix_(*kept)].T
-    inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
-    low = to_e * float(np.min(most[inside])) if inside.any() else 0.0
     surface = {
         "type": "surface",
         "x": values(x),
         "y": values(y),
         "z": values(height, 6),
         "surfacecolor": values(colour, 6),
-        "cmin": low,
+        "cmin": to_e * _least_field(result),
         "cmax": to_e * field_scale(result),
         "colorscale": FIELD_COLOURS,
         "colorbar": {"title": {"text": f"field<br>{unit}"}, "thickness": 12, "len": 0.7},
@@ -83,35 +83,40 @@ def film_surface(result: PointResult) -> Shown:
         f"film %{{z:.4g}} {film_unit}<br>field %{{surfacecolor:.4g}} {unit}<extra></extra>",
         "lighting": {"ambient": 0.75, "diffuse": 0.5, "specular": 0.1},
     }
-    thinner = gap.size > height.size
-    nodes = f"{gap.shape[0]} x {gap.shape[1]}"
-    told = f"{height.shape[1]} x {height.shape[0]} of {nodes} nodes" if thinner else f"all {nodes} nodes"
-    marks = _points(result, lengths, to_h, to_e)
+    nodes = f"{gap.shape[0]} x {gap.shape[1]} nodes"
+    some = f"{height.shape[1]} x {height.shape[0]} of" if gap.size > height.size else "all"
     return Shown(
         "surface",
         "Film thickness, coloured by the field",
         f"Surface of the film thickness in {film_unit}, coloured by the maximum field in {unit}. "
         f"It can be rotated. {main_numbers(result)}",
-        plot([surface, *marks], height=470, **_scene(result, lengths, film_unit)),
-        f"Drag to rotate, scroll to come nearer. Drawn: {told} of the field, with those of the smallest film "
-        "and of the largest field; each value is a node's own.",
+        plot([surface, *_pins(result, lengths)], height=470, **_scene(result, lengths, film_unit)),
+        f"Drag to rotate, scroll to come nearer. Drawn: {some} {nodes} of the field, with those of the "
+        "smallest film and of the largest field; each value is a node's own.",
     )
 
 
-def _points(result: PointResult, lengths: Lengths, to_h: float, to_e: float) -> list[dict[str, Any]]:
+def _least_field(result: PointResult) -> float:
+    """Smallest field of the dry contact, at its largest across the film [V/m]."""
+    field = result.field
+    inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
+    return float(np.min(np.max(field.strength, axis=-1)[inside])) if inside.any() else 0.0
+
+
+def _pins(result: PointResult, lengths: Lengths) -> list[Plot]:
     """Pins at the minimum film and at the maximum field: the surface does not bury their heads.
 
     They have different lengths, as both may be at the same place.
     """
     film, field = result.film, result.field
-    units = unit_for(film_scale(result), "m")[1], unit_for(field_scale(result), "V/m")[1]
+    (to_h, height), (to_e, strength) = unit_for(film_scale(result), "m"), unit_for(field_scale(result), "V/m")
     gap = field.z[:, :, -1] - field.z[:, :, 0]
     i, j = np.unravel_index(np.argmax(np.max(field.strength, axis=-1)), gap.shape)
     least = (*film.minimum_position, film.minimum_thickness)
     largest = (float(field.x[i]), float(field.y[j]), float(gap[i, j]))
     names = (
-        f"minimum film, {to_h * film.minimum_thickness:.4g} {units[0]}",
-        f"maximum field, {to_e * field.max_strength:.4g} {units[1]}",
+        f"minimum film, {to_h * film.minimum_thickness:.4g} {height}",
+        f"maximum field, {to_e * field.max_strength:.4g} {strength}",
     )
     looks = (("#00a0ff", "circle"), ("#00b386", "diamond"))
     return [
@@ -164,9 +169,7 @@ def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
 
 
 def point_cuts(result: PointResult, x: float, y: float) -> tuple[Shown, ...]:
-    """Cuts along and across entrainment through the nodes nearest to a point. ``x`` and ``y`` [m]. Returns
-    pressure, film and field along x, and along y.
-    """
+    """Pressure, film and field along x and along y through the nodes nearest to a point (x, y) [m]."""
     return tuple(_cut(result, along, y if along == "x" else x) for along in ("x", "y"))
 
 
@@ -180,21 +183,18 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
     edge = _edge(semi, place / conditions.semi_axes[1 if first else 0])
     window = (BEFORE * semi, BEHIND * semi) if first else (-1.5 * semi, 1.5 * semi)
     window = max(window[0], float(line.x[0])), min(window[1], float(line.x[-1]))
-    fixed_name, shown = ("y" if first else "x"), lengths.factor * place
-    title = f"Cut along {along} at {fixed_name} = {shown:.4g} {lengths.unit}"
+    title = f"Cut along {along} at {'y' if first else 'x'} = {lengths.factor * place:.4g} {lengths.unit}"
+    if edge is None:
+        caption = "This cut is outside of the dry contact."
+    else:
+        caption = f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {lengths.unit}."
     return Shown(
         f"cut-{along}",
         title,
         f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
         stack(Along(along, lengths.unit, window, () if edge is None else (-edge, edge)), panels),
-        " ".join(filter(None, [_told_of_edge(edge, along, lengths.unit), BEYOND if touches(result) else ""])),
+        f"{caption} {BEYOND}" if touches(result) else caption,
     )
-
-
-def _told_of_edge(edge: float | None, along: str, unit: str) -> str:
-    if edge is None:
-        return "This cut is outside of the dry contact."
-    return f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {unit}."
 
 
 def _edge(semi: float, off: float) -> float | None:
@@ -202,29 +202,19 @@ def _edge(semi: float, off: float) -> float | None:
     return semi * math.sqrt(1.0 - off**2) if abs(off) < 1.0 else None
 
 
-# Largest number of nodes along an axis of a map.
-_MAP = 141
-
-# Part of the dry contact [%] whose film is above the end of the colours.
-_THICKER = 2.0
-
-
 def reach_of(result: PointResult) -> Reach:
     """Range of the points through which the contact can be cut, with the minimum film as the first."""
     lengths, field = Lengths.of(result), result.field
-    ends = [tuple(lengths.factor * float(axis[end]) for end in (0, -1)) for axis in (field.x, field.y)]
+    ends = [
+        (lengths.factor * float(nodes[0]), lengths.factor * float(nodes[-1])) for nodes in (field.x, field.y)
+    ]
     x, y = (lengths.factor * at for at in spot_position(result))
-    turned, first = (
-        is_turned(result),
-        "the spot of the highest pressure" if touches(result) else "the smallest film",
-    )
-    return Reach((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]), (x, y), lengths.unit, turned, first)
+    first = "the spot of the highest pressure" if touches(result) else "the smallest film"
+    return Reach(ends[0], ends[1], (x, y), lengths.unit, is_turned(result), first)
 
 
 def point_figures(result: PointResult) -> tuple[Shown, ...]:
-    """Figures of a point contact. Returns maps of film, pressure and field, and the film as a surface
-    coloured by the field.
-    """
+    """Maps of film, pressure and field of a point contact, and its film as a surface."""
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):
         return ()
@@ -234,18 +224,19 @@ def point_figures(result: PointResult) -> tuple[Shown, ...]:
 
 @dataclass(frozen=True)
 class _Map:
+    """Map over x and y: values with their unit, the ends of its colours, and its marked extreme."""
+
     name: str
     title: str
-    unit: str
-    x: Array
-    y: Array
+    axes: tuple[Array, Array]
     values: Array
+    unit: str
     limits: tuple[float, float]
     colours: Any
+    mark: tuple[float, float]
     # Legend of the marked extreme; empty for a map of spots, which are marked in its place.
     marked: str
-    mark: tuple[float, float]
-    caption: str
+    caption: str = ""
 
 
 def _film_map(result: PointResult) -> Shown:
@@ -254,21 +245,19 @@ def _film_map(result: PointResult) -> Shown:
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
     least = factor * film.minimum_thickness
-    x, y = film.minimum_position
     return _drawn(
         result,
         _Map(
             "film-map",
             "Film thickness",
-            unit,
-            film.x,
-            film.y,
+            (film.x, film.y),
             factor * film.thickness,
+            unit,
             (least, max(highest, 1.001 * least)),
             FILM_COLOURS,
+            film.minimum_position,
             "" if touches(result) else f"minimum film, {least:.4g} {unit}",
-            (x, y),
-            f"Film above {highest:.3g} {unit} has the last colour. {told_of_spots(result)}".strip(),
+            f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
         ),
     )
 
@@ -278,21 +267,18 @@ def _pressure_map(result: PointResult) -> Shown:
     factor, unit = unit_for(film.max_pressure, "Pa")
     i, j = np.unravel_index(np.argmax(film.pressure), film.pressure.shape)
     most = factor * film.max_pressure
-    name, mark = f"maximum pressure, {most:.4g} {unit}", (float(film.x[i]), float(film.y[j]))
     return _drawn(
         result,
         _Map(
             "pressure-map",
             "Pressure",
-            unit,
-            film.x,
-            film.y,
+            (film.x, film.y),
             factor * film.pressure,
+            unit,
             (0.0, most),
             PRESSURE_COLOURS,
-            name,
-            mark,
-            "",
+            (float(film.x[i]), float(film.y[j])),
+            f"maximum pressure, {most:.4g} {unit}",
         ),
     )
 
@@ -301,23 +287,19 @@ def _field_map(result: PointResult) -> Shown:
     field = result.field
     scale = field_scale(result)
     factor, unit = unit_for(scale, "V/m")
-    most = np.max(field.strength, axis=-1)
-    inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
-    low = factor * float(np.min(most[inside])) if inside.any() else 0.0
-    x, y = field.max_strength_position
+    low = factor * _least_field(result)
     return _drawn(
         result,
         _Map(
             "field-map",
             "Maximum field across the film",
+            (field.x, field.y),
+            factor * np.max(field.strength, axis=-1),
             unit,
-            field.x,
-            field.y,
-            factor * most,
             (low, factor * scale),
             FIELD_COLOURS,
+            field.max_strength_position,
             "" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
-            (x, y),
             f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
             + (f" {BEYOND}" if touches(result) else ""),
         ),
@@ -327,8 +309,8 @@ def _field_map(result: PointResult) -> Shown:
 def _drawn(result: PointResult, what: _Map) -> Shown:
     """Map with lines of equal values, the edge of the dry contact, its extreme and the lines of the cuts."""
     lengths, turned = Lengths.of(result), is_turned(result)
-    kept = [_window(result, axis_, k, what) for k, axis_ in enumerate((what.x, what.y))]
-    x, y = (lengths.factor * axis_[one] for axis_, one in zip((what.x, what.y), kept, strict=True))
+    kept = [_window(result, axis_, k, what.mark[k]) for k, axis_ in enumerate(what.axes)]
+    x, y = (lengths.factor * axis_[one] for axis_, one in zip(what.axes, kept, strict=True))
     inside = what.values[np.ix_(*kept)]
     low, high = what.limits
     across, down, drawn = (y, x, inside) if turned else (x, y, inside.T)
@@ -350,10 +332,8 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
         f"<br>{what.title.lower()} %{{z:.4g}} {what.unit}<extra></extra>",
     }
     name = what.marked
-    marked = {"x": [float(across_at)], "y": [float(down_at)], "name": name, "hoverinfo": "skip"}
-    marker = {"symbol": "x-thin", "size": 11, "line": {"color": ORANGE, "width": 3}}
-    mark = {"type": "scatter", "mode": "markers", "marker": marker, "showlegend": True, **marked}
-    marks = [*spot_marks(result, lengths.factor, turned=turned), *([mark] if name else [])]
+    cross = [mark(across_at, down_at, name)] if name else []
+    marks = [*spot_marks(result, lengths.factor, turned=turned), *cross]
     figure = plot(
         [trace, *marks] if result.converged else [trace],
         height=_height(across, down),
@@ -361,6 +341,7 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
         shapes=_shapes(result, lengths),
         **_plane(result, names, lengths, (across, down)),
     )
+    entrainment = f"Oil enters from {'above' if turned else 'the left'}."
     extreme = name or f"{SPOTS} at the marked nodes"
     said = f": {extreme}. A click, or the sliders below, choose the point of the cuts."
     if not result.converged:
@@ -370,7 +351,7 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
         what.title,
         f"Map of the {what.title.lower()} in {what.unit} over x and y in {lengths.unit}{said}",
         figure,
-        " ".join(filter(None, ["Dashed: edge of the dry contact.", what.caption, _entrainment(result)])),
+        " ".join(filter(None, ["Dashed: edge of the dry contact.", what.caption, entrainment])),
     )
 
 
@@ -404,18 +385,14 @@ def _height(across: Array, down: Array) -> int:
     return int(min(420.0, 150.0 + 280.0 * shape))
 
 
-def _entrainment(result: PointResult) -> str:
-    return "Oil enters from above." if is_turned(result) else "Oil enters from the left."
-
-
-def _window(result: PointResult, nodes: Array, number: int, what: _Map) -> Indices:
+def _window(result: PointResult, nodes: Array, number: int, mark_at: float) -> Indices:
     """Indices of the nodes of an axis that a map has, with the row of the marked extreme."""
     conditions = result.conditions
     b, ratio = conditions.semi_axis_x, conditions.ratio
     side = ratio + 0.6 * float(np.sqrt(ratio))
     low, high = (BEFORE, BEHIND) if number == 0 else (-side, side)
     first, last = np.searchsorted(nodes, [low * b, high * b * (1.0 + 1e-9)])
-    extreme = int(np.argmin(np.abs(nodes - what.mark[number])))
+    extreme = int(np.argmin(np.abs(nodes - mark_at)))
     first, last = min(int(first), extreme), max(int(last), extreme + 1)
     return first + kept_nodes(last - first, _MAP, [extreme - first])
 
@@ -428,7 +405,7 @@ def _levels(low: float, high: float) -> dict[str, float]:
     return {"start": step * float(np.ceil(low / step)), "end": high, "size": step}
 
 
-def _shapes(result: PointResult, lengths: Lengths) -> list[dict[str, Any]]:
+def _shapes(result: PointResult, lengths: Lengths) -> list[Plot]:
     """Edge of the dry contact, and the lines of the cuts, the third and the fourth."""
     b, a = (lengths.factor * length for length in result.conditions.semi_axes)
     at = [lengths.factor * place for place in spot_position(result)]

@@ -1,0 +1,155 @@
+"""Limits of the models behind a result and the literature behind its equations, of ``report_texts.toml``.
+
+The file has the texts, and the names of the conditions under which they hold; this module has the conditions.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any, TypeVar
+
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.drive_case import DriveCase, SweptCase
+
+TEXTS: dict[str, Any] = tomllib.loads(
+    resources.files("ehlectric.report").joinpath("report_texts.toml").read_text(encoding="utf-8")
+)
+
+# Limits of bearings that the limits of drives say otherwise.
+_REPLACED = ("contacts of asperities", "circuit", "oil as insulator")
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Effect that a model neglects, and which way it moves the numbers."""
+
+    topic: str
+    text: str
+    when: tuple[str, ...] = ()  # conditions under which it holds
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Publication behind an equation."""
+
+    topic: str
+    citation: str  # authors, journal and year
+    doi: str = ""  # empty where it has none, as a standard
+    when: tuple[str, ...] = ()  # conditions under which the equation is used
+
+
+T = TypeVar("T", Limit, Reference)
+
+
+def _of_file(entry: type[T], name: str) -> tuple[T, ...]:
+    """Entries of the file of one kind, in the order of a report."""
+    return tuple(entry(**fields | {"when": tuple(fields.get("when", ()))}) for fields in TEXTS[name])
+
+
+LIMITS, DRIVE_LIMITS = _of_file(Limit, "limits"), _of_file(Limit, "drive_limits")
+REFERENCES, DRIVE_REFERENCES = _of_file(Reference, "references"), _of_file(Reference, "drive_references")
+
+
+def limits_of(case: SweptCase) -> Iterator[Limit]:
+    """Limits that hold for a case; those of a drive are followed by those of its bearings, each once."""
+    if not isinstance(case, DriveCase):
+        yield from _holding(LIMITS, case)
+        return
+    yield from _holding(DRIVE_LIMITS, case)
+    bearings = dict.fromkeys(limit for one in case.bearings for limit in limits_of(one))
+    yield from (limit for limit in bearings if limit.topic not in _REPLACED)
+
+
+def references_of(case: SweptCase) -> Iterator[Reference]:
+    """Publications behind the equations of a case; of a drive, those of its bearings follow, each once."""
+    if not isinstance(case, DriveCase):
+        yield from _holding(REFERENCES, case)
+        return
+    simulation = list(_holding(DRIVE_REFERENCES, case))
+    known = {one.doi for one in simulation if one.doi}
+    yield from simulation
+    bearings = dict.fromkeys(one for bearing in case.bearings for one in references_of(bearing))
+    yield from (one for one in bearings if one.doi not in known)
+
+
+def conditions_of(case: SweptCase) -> dict[str, bool]:
+    """Conditions of the file by name, and whether each of them holds for a case."""
+    if isinstance(case, DriveCase):
+        return _of_drive(case)
+    own = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
+    oil, discharge = case.lubricant, case.discharge
+    laws = (oil.viscosity_law, oil.density_law, oil.permittivity_law)
+    return own | {
+        "strength": discharge is not None and discharge.has_strength,
+        "weibull": discharge is not None and discharge.weibull is not None,
+        # The viscosity over temperature follows from two kinematic viscosities.
+        "data sheet": oil.over_temperature and oil.atmospheric_law is None,
+        **{f"law {law}": True for law in laws},
+        "law roelands": "roelands" in (oil.viscosity_law, oil.atmospheric_law),
+    }
+
+
+def _holding(entries: tuple[T, ...], case: SweptCase) -> Iterator[T]:
+    """Entries whose conditions all hold for a case."""
+    holds = conditions_of(case)
+    for entry in entries:
+        names = ((name.removeprefix("not "), not name.startswith("not ")) for name in entry.when)
+        if all(holds.get(name, False) is wanted for name, wanted in names):
+            yield entry
+
+
+def _of_contact(case: Case) -> dict[str, bool]:
+    film = case.film
+    heated = film is not None and film.thermal
+    rheology = "newtonian" if film is None else film.rheology
+    return {
+        "contact": True,
+        "point": case.contact.geometry == "point",
+        "flooded": case.inlet is None,
+        "starved": case.inlet is not None,
+        "heated": heated,
+        "rough": bool(case.roughness),
+        "moving": case.motion is not None,
+        f"rheology {rheology}": True,
+        "viscosity across the film": heated or rheology != "newtonian",
+    }
+
+
+def _of_bearing(case: BearingCase) -> dict[str, bool]:
+    bearing = case.bearing
+    flooded = bearing.film_factor in ("none", 1.0) and bearing.supply in ("flooded", 1.0)
+    solved_heat = bearing.film_factor == "solved"
+    # The rheology of a bearing is in its solved heat only.
+    thinning = solved_heat and case.lubricant.eyring_stress is not None
+    return {
+        "bearing": True,
+        "point": bearing.roller_length is None,
+        "flooded": flooded,
+        "film factor": not flooded,
+        "supply": bearing.supply != "flooded",
+        "supply rule": bearing.by_supply_rule,
+        "formula": case.contacts == "formula",
+        "atlas": case.contacts == "atlas",
+        "coated": bearing.coating is not None,
+        "inlet heat": bearing.heated,
+        "solved heat": solved_heat,
+        f"rheology {'eyring' if thinning else 'newtonian'}": True,
+        "viscosity across the film": solved_heat,
+    }
+
+
+def _of_drive(case: DriveCase) -> dict[str, bool]:
+    scattered = any(one.discharge is not None and one.discharge.weibull for one in case.bearings)
+    return {
+        # The voltages at which the films break down scatter.
+        "scatter": case.breakdown.weibull_shape is not None or scattered,
+        "estimated": bool(case.circuit.estimated),
+        "measured source": case.source.measured,
+        "space-vector": case.source.modulation == "space-vector",
+        "pole pairs": case.source.pole_pairs is not None,
+        "rough bearing": any(one.bearing.composite_rq is not None for one in case.bearings),
+    }
