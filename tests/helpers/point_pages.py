@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from ehlectric import Case, solve
-from ehlectric.figures import contact_figure_files as figures
+from ehlectric.figures.result_figures import save_figures
 
 CIRCLE = {
     "geometry": "point",
@@ -66,7 +66,7 @@ def pages(kind):
     saved = []
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", lambda figure, _, **__: saved.append(figure))
-        files = figures.save_figures(result_of(kind), Path(folder))
+        files = save_figures(result_of(kind), Path(folder))
     return dict(zip((path.name for path in files), saved, strict=True))
 
 

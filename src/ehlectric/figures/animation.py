@@ -41,11 +41,10 @@ from ehlectric.figures.motion_panels import (
     height_unit,
     in_contact,
     name_run,
-    share_below,
     shown_range,
     time_unit,
 )
-from ehlectric.figures.style import figure_of, new_panels, style
+from ehlectric.figures.style import figure_of, new_panels, share_below, style
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.palette import BLUE, BODY, OIL, ORANGE
 from ehlectric.quantities.units import unit_for

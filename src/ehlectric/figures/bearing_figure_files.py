@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +54,7 @@ from ehlectric.figures.breakdown_over_speed import breakdown_over_speed as draw_
 from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as draw_capacitance_over_speed
 from ehlectric.figures.breakdown_over_speed import rpm_text
 from ehlectric.figures.figure_names import in_formats, of_cut
-from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
+from ehlectric.figures.style import drawing_of, new_panels, save_each, share_below, style, titled
 from ehlectric.quantities.units import rpm
 
 _TOUCHING = ("conducting", "touching")
@@ -252,35 +251,20 @@ def _breaks(result: BearingResult) -> bool:
     return result.breaks()["first_break"] is not None
 
 
-# Panels of the figures by the names of their files; no panels where the bearing has nothing to show.
-FIGURES: Mapping[str, Callable[[BearingResult], tuple[Draw, ...]]] = {
-    "bearing_loads.png": _loads,
-    "bearing_circuit.png": _circuit,
-    "bearing_pitch.png": _pitch,
-    "bearing_impedance.png": _impedance,
+# Functions of the panels and of the first line of the title, by the names of the files. A figure without
+# panels has nothing to show.
+FIGURES: Mapping[str, tuple[Callable[[BearingResult], tuple[Draw, ...]], Callable[[BearingResult], str]]] = {
+    "bearing_loads.png": (_loads, loads),
+    "bearing_circuit.png": (_circuit, circuit),
+    "bearing_pitch.png": (_pitch, pitch),
+    "bearing_impedance.png": (_impedance, impedance),
 }
 
-# First lines of the titles of the figures.
-FINDINGS: Mapping[str, Callable[[BearingResult], str]] = {
-    "bearing_loads.png": loads,
-    "bearing_circuit.png": circuit,
-    "bearing_pitch.png": pitch,
-    "bearing_impedance.png": impedance,
-}
-
-
-@dataclass(frozen=True)
-class _OverSpeed:
-    """Functions that draw a figure over speed, and give the first line of its title."""
-
-    draw: Callable[..., Axes]
-    finding: Callable[[Curves, Speed | None], str]
-
-
-# Figures over the speed of the shaft.
-SPEED_FIGURES: Mapping[str, _OverSpeed] = {
-    "capacitance_over_speed.png": _OverSpeed(draw_capacitance_over_speed, capacitance_over_speed),
-    "breakdown_over_speed.png": _OverSpeed(draw_breakdown_over_speed, breakdown_over_speed),
+# Functions that draw a figure over the speed of the shaft, and give the first line of its title.
+SpeedDrawing = tuple[Callable[..., Axes], Callable[[Curves, Speed | None], str]]
+SPEED_FIGURES: Mapping[str, SpeedDrawing] = {
+    "capacitance_over_speed.png": (draw_capacitance_over_speed, capacitance_over_speed),
+    "breakdown_over_speed.png": (draw_breakdown_over_speed, breakdown_over_speed),
 }
 
 
@@ -291,7 +275,7 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     dielectric strength or where surfaces touch, and no impedance without a conductivity or where surfaces
     touch. What varies by less than a per cent over a pitch of the cage is not drawn over it.
     """
-    panels = {name: panels_of(result) for name, panels_of in FIGURES.items()}
+    panels = {name: panels_of(result) for name, (panels_of, _) in FIGURES.items()}
     return {name: draws for name, draws in panels.items() if draws}
 
 
@@ -304,7 +288,7 @@ def figure(result: BearingResult, name: str) -> Figure:
         return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
     voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
-    title = "\n".join([FINDINGS[name](result), *case_lines(result, voltages=voltages)])
+    title = "\n".join([FIGURES[name][1](result), *case_lines(result, voltages=voltages)])
     polar = panels[0] is load_around
     with style():
         axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))
@@ -320,24 +304,13 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
     summary at this speed. Raises InputError where there is no figure of this name, or the bearing has no
     breakdown voltage at any speed.
     """
-    drawing = drawing_of(_speed_drawings(points), name)
+    draw, finding = drawing_of(_speed_drawings(points), name)
     curves = curves_of(points, own)
-    lines = [drawing.finding(curves, own), title, curves_line(points, curves, own)]
+    lines = [finding(curves, own), title, curves_line(points, curves, own)]
     title = "\n".join(filter(None, lines))
     with style():
-        ax = drawing.draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
+        ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
         return titled(ax, title, converged=all(summary["converged"] for _, summary in points))
-
-
-def save_bearing_figures(
-    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
-) -> list[Path]:
-    """Draw the figures of a bearing at its own speed as files."""
-    return [
-        file
-        for name in bearing_figures_of(result)
-        for file in save_figure(figure(result, name), folder / name, formats)
-    ]
 
 
 def save_speed_figures(
@@ -352,12 +325,8 @@ def save_speed_figures(
     """Draw capacitance and, where there are any, breakdown voltages over the speed as files. ``points``,
     speed of the inner ring [rad/s], and the summary at this speed.
     """
-    return [
-        file
-        for name in _speed_drawings(points)
-        for figure in (speed_figure(points, name, title, own=own),)
-        for file in save_figure(figure, folder / of_cut(name, at), formats)
-    ]
+    files = {of_cut(name, at): name for name in _speed_drawings(points)}
+    return save_each(lambda file: speed_figure(points, files[file], title, own=own), files, folder, formats)
 
 
 def save_over_speed(
@@ -375,10 +344,10 @@ def save_over_speed(
     return save_speed_figures(points, folder, title, own=own, formats=formats), left_out
 
 
-def _speed_drawings(points: Speeds) -> dict[str, _OverSpeed]:
-    """Figures of a bearing over speed, by the names of their files; no empty figures."""
+def _speed_drawings(points: Speeds) -> dict[str, SpeedDrawing]:
+    """Figures of a bearing over speed that have something to show, by the names of their files."""
     empty = set() if breaks_anywhere(points) else {draw_breakdown_over_speed}
-    return {name: drawing for name, drawing in SPEED_FIGURES.items() if drawing.draw not in empty}
+    return {name: pair for name, pair in SPEED_FIGURES.items() if pair[0] not in empty}
 
 
 def _own_speed(result: BearingResult) -> Speed:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
@@ -21,11 +21,15 @@ from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
 from ehlectric.bearing.speed_curves import nearly_equal
+from ehlectric.figures.contact_findings import with_unit
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.draw import line_look
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above, page_size, round_numbers
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, outlined, page_size, round_numbers
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import unit_for
+
+# Text: value with three digits and a prefixed unit, in which it is at least 1.
+prefixed = partial(with_unit, least=1.0)
 
 # Colour, dash and width [pt] of a line.
 Look = tuple[str, str, float]
@@ -83,7 +87,8 @@ def fill_text(fill: float | str) -> str:
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
 # the line of the inner ring is drawn last, over the wider line of the outer ring.
-_RINGS = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
+Ring = tuple[str, str, float, float]
+_RINGS: tuple[Ring, ...] = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
 
 # Radius of the inner circle, at which the scale begins, over the radius of the outer circle.
 _CORE = 0.3
@@ -103,16 +108,15 @@ def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
 
 
 def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the load of both contacts of the elements around the shaft. ``ax``, polar axes to draw on; axes of
-    a new figure if omitted. Returns polar axes on which the radial load on the inner ring points down.
+    """Draw the load of both contacts of the elements around the shaft. Returns polar axes on which the radial
+    load on the inner ring points down.
     """
     ax = _polar_or_new(result, ax)
-    states = [(position.inner, position.outer) for position in result.solution.positions]
-    largest = max(float(np.max(race.load)) for pair in states for race in pair)
+    largest = max(float(np.max(race.load)) for ring in _RINGS for race in _races(result, ring))
     factor, unit = unit_for(largest, "N", least=1.0)
-    for k, ring in reversed(list(enumerate(_RINGS))):
-        races = [pair[k] for pair in states]
-        _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="unloaded")
+    for ring in reversed(_RINGS):
+        loads = [factor * race.load for race in _races(result, ring)]
+        _draw_ring(result, ax, ring, loads, at_rest="unloaded")
     _radius(ax, np.array([0.0, factor * largest]), _between(result), log=False)
     ax.set_title(f"contact load [{unit}]")
     _legend_below(ax)
@@ -120,13 +124,14 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft. ``ax``, polar
-    axes to draw on; axes of a new figure if omitted. Returns polar axes on which the radial load points down.
+    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft. Returns polar
+    axes on which the radial load points down.
     """
     ax = _polar_or_new(result, ax)
-    states = [(position.inner, position.outer) for position in result.solution.positions]
     rq = result.solution.case.bearing.composite_rq
-    films = np.concatenate([race.values.minimum_thickness[race.solved] for pair in states for race in pair])
+    films = np.concatenate(
+        [race.values.minimum_thickness[race.solved] for ring in _RINGS for race in _races(result, ring)]
+    )
     factor, unit = unit_for(float(films.min()), "m")
     # Circles far below the films are left out, because they would leave little room for the films.
     ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
@@ -136,23 +141,26 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
         line = ":" if ratio == CONDUCTING else "--"
         label = rf"$\lambda$ = {ratio:g}"
         ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
-    for k, ring in reversed(list(enumerate(_RINGS))):
-        races = [pair[k] for pair in states]
+    for ring in reversed(_RINGS):
+        races = _races(result, ring)
         values = [np.where(race.solved, factor * race.values.minimum_thickness, np.nan) for race in races]
-        _ring(result, ax, ring, races, values)
+        _draw_ring(result, ax, ring, values)
     _radius(ax, everything, _between(result), log=is_wide(everything))
-    for k, ring in enumerate(_RINGS):
-        _unloaded(result, ax, ring, [pair[k] for pair in states])
+    for ring in _RINGS:
+        _unloaded(result, ax, ring)
     ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
     _legend_below(ax)
     return ax
 
 
-def _unloaded(
-    result: BearingResult, ax: Axes, ring: tuple[str, str, float, float], races: Sequence[RingState]
-) -> None:
+def _races(result: BearingResult, ring: Ring) -> list[RingState]:
+    """Contacts with a ring at each position of the cage."""
+    return [getattr(position, ring[0]) for position in result.solution.positions]
+
+
+def _unloaded(result: BearingResult, ax: Axes, ring: Ring) -> None:
     """Shade the sector in which no element is loaded by a ring, and name it in the legend with the gap."""
-    name, color, *_ = ring
+    (name, color, *_), races = ring, _races(result, ring)
     angle, loaded = _around(result, [race.solved for race in races])
     if np.all(loaded):
         return
@@ -186,20 +194,14 @@ def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
     return polar
 
 
-def _ring(
-    result: BearingResult,
-    ax: Axes,
-    ring: tuple[str, str, float, float],
-    races: Sequence[RingState],
-    values: Sequence[Array],
-    *,
-    at_rest: str = "",
+def _draw_ring(
+    result: BearingResult, ax: Axes, ring: Ring, values: Sequence[Array], *, at_rest: str = ""
 ) -> None:
     """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one.
 
     Contacts without load have hollow markers called ``at_rest``, and a dotted line.
     """
-    name, color, width, size = ring
+    (name, color, width, size), races = ring, _races(result, ring)
     angle, along = _around(result, values)
     _, loaded = _around(result, [race.solved for race in races])
     angle, along = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
@@ -244,10 +246,9 @@ def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
     ax.yaxis.set_minor_locator(NullLocator())
     ax.tick_params(axis="y", labelleft=False)
     # Labels of an axis would lie below the lines: these texts lie above them.
-    edge = [withStroke(linewidth=2.4, foreground="white")]
     for tick in ticks:
         where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small", "zorder": 6.0}
-        ax.text(at, tick, f"{tick:g}", path_effects=edge, **where)
+        ax.text(at, tick, f"{tick:g}", path_effects=outlined(2.4), **where)
 
 
 def _legend_below(ax: Axes) -> None:
@@ -269,9 +270,8 @@ _NUMBERED, _WIDTH = 16, 6.0
 
 
 def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the capacitance of both contacts of every element, with the cage at its first position. ``ax``,
-    axes to draw on; axes of a new figure if omitted. Returns axes that state the capacitance of the bearing
-    at this position of the cage.
+    """Draw the capacitance of both contacts of every element, with the cage at its first position. Returns
+    axes that state the capacitance of the bearing at this position of the cage.
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
@@ -298,8 +298,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
 
     With a coating on a ring it is the shaft voltage, of which the coating has a part.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the contacts at the first
-    position of the cage.
+    Returns axes with the contacts at the first position of the cage.
     """
     ax = axes_or_new(ax)
     circuit, position = result.solution.circuits()[0], result.solution.positions[0]
@@ -344,16 +343,21 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
+def _breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
+    """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
+    if nearly_equal(first, through):
+        return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
+    return [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
+
+
 def _levels(result: BearingResult, ax: Axes) -> None:
     """Draw lines at the voltages of the whole bearing, as far as there are any, and name them at the edge."""
     breaks, shaft = result.breaks(), result.shaft_voltage
     first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
-    levels = [("first\nbreakdown", first, FIRST), ("ring-to-ring\nbreakdown", through, THROUGH)]
-    if nearly_equal(np.array([first]), np.array([through])):
-        levels = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
-    if shaft is not None:
-        levels.append(("shaft voltage", shaft, SHAFT))
-    for name, value, look in reversed(levels):
+    levels = [] if shaft is None else [("shaft voltage", shaft, SHAFT)]
+    lines = _breakdown_lines(np.array([first]), np.array([through]))
+    levels += [(name, float(value), look) for name, (value,), look in lines]
+    for name, value, look in levels:
         ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
     label_ends(ax, [(value, f"{name}\n{volts(value)}", look[0]) for name, value, look in levels])
 
@@ -396,9 +400,8 @@ def variation(values: Array) -> float:
 
 
 def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements. ``ax``, axes to
-    draw on; axes of a new figure if omitted. Returns axes with the difference from the mean in per cent, for
-    oil and for air around the films.
+    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements. Returns axes
+    with the difference from the mean in per cent, for oil and for air around the films.
     """
     ax = axes_or_new(ax)
     for fill, look in (("oil", {"color": BLUE}), ("air", {"color": GREY, "ls": "--"})):
@@ -414,17 +417,14 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
 
 
 def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw first and ring-to-ring breakdown while the cage turns by one pitch of the elements. ``ax``, axes
-    to draw on; axes of a new figure if omitted. Returns axes that also show the shaft voltage if there is
-    one.
+    """Draw first and ring-to-ring breakdown while the cage turns by one pitch of the elements. Returns axes
+    that also show the shaft voltage if there is one.
     """
     ax = axes_or_new(ax)
     first = first_breakdowns(result)
     path = shaft_path(result.solution)
     through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
-    lines = [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
-    if nearly_equal(first, through):
-        lines = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
+    lines = _breakdown_lines(first, through)
     for name, values, look in lines:
         _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
     shaft = result.shaft_voltage
@@ -460,9 +460,8 @@ _CONSTANT = 2.0
 
 
 def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the magnitude of the bearing's impedance over the frequency. ``ax``, axes to draw on; axes of a
-    new figure if omitted. Returns axes with two logarithmic scales, from 1 kHz or a decade below the corner
-    frequency.
+    """Draw the magnitude of the bearing's impedance over the frequency. Returns axes with two logarithmic
+    scales, from 1 kHz or a decade below the corner frequency.
     """
     ax = axes_or_new(ax)
     frequency, magnitude, _ = _shown(_impedance(result))
@@ -502,8 +501,8 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the phase of the bearing's impedance over the frequency. ``ax``, axes to draw on; axes of a new
-    figure if omitted. Returns axes from -90 degrees (a capacitor) to 0 (a resistor).
+    """Draw the phase of the bearing's impedance over the frequency. Returns axes from -90 degrees (a
+    capacitor) to 0 (a resistor).
     """
     ax = axes_or_new(ax)
     frequency, _, phase = _shown(_impedance(result))
@@ -532,18 +531,6 @@ def magnitude_at(impedance: Impedance, frequency: float) -> float:
     """Magnitude of an impedance at a frequency [Ohm], interpolated as a power of the frequency."""
     logs = np.log(impedance.frequency), np.log(impedance.magnitude)
     return float(np.exp(np.interp(np.log(frequency), *logs)))
-
-
-def prefixed(value: float, unit: str, *, least: float = 1.0) -> str:
-    """Text: value with three digits and a prefixed unit, in which it is at least ``least``.
-
-    Examples
-    --------
-    >>> prefixed(2e4, "Hz"), prefixed(0.00749, "Hz"), prefixed(34410.0, "Ω")
-    ('20 kHz', '7.49 mHz', '34.4 kΩ')
-    """
-    factor, name = unit_for(value, unit, least=least)
-    return f"{factor * value:.3g} {name}"
 
 
 def _impedance(result: BearingResult) -> Impedance:

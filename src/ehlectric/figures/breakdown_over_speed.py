@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
 
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.bearing.speed_curves import (
@@ -24,7 +23,7 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.figures.bearing_figures import FIRST, SHAFT, THROUGH, Look, label_ends, volts
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, outlined
 from ehlectric.quantities import units
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
@@ -221,7 +220,7 @@ def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
         textcoords="offset points",
         fontsize="small",
         zorder=6.0,
-        path_effects=[withStroke(linewidth=2.0, foreground="white")],
+        path_effects=outlined(2.0),
         **_beside(ax, curves, rpm, first=first, shaft=shaft),
     )
 

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
@@ -22,8 +21,7 @@ from ehlectric.figures.contact_findings import AnyContact, signed, strength_limi
 from ehlectric.figures.contact_profiles import Line
 from ehlectric.figures.data import Panel
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.figure_names import BREAKDOWN_FIGURE, METER_FIGURE, SHEAR_FIGURE, TEMPERATURE_FIGURE
-from ehlectric.figures.film_section import section_part
+from ehlectric.figures.film_section import fill_section
 from ehlectric.figures.style import (
     BAR,
     LENGTH_AXIS,
@@ -34,8 +32,9 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
     new_panels,
+    outlined,
 )
-from ehlectric.quantities.palette import BLUE, GREY, ORANGE, STRENGTH
+from ehlectric.quantities.palette import BLUE, BODY, GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
 
 
@@ -55,9 +54,6 @@ def enlarged_below(ax: Axes, ends: tuple[float, float], *, framed: bool = False)
         look = {"facecolor": "none", "edgecolor": "black", "lw": 0.7, "ls": "--", "zorder": 3.0}
     return ax.axvspan(*ends, label="enlarged below", **look)
 
-
-# White edge of a text, which keeps it readable on a line.
-_OUTLINE = [withStroke(linewidth=2.0, foreground="white")]
 
 # A dielectric strength below this part of the maximum field is named above its line, away from the ticks.
 _LOW = 0.1
@@ -104,7 +100,7 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
         color=STRENGTH,
         fontsize=8.0,
         va="bottom" if low else "top",
-        path_effects=_OUTLINE,
+        path_effects=outlined(2.0),
         zorder=5.0,
     )
     return float(np.max(limit[limit <= _FAR * largest]))
@@ -126,9 +122,6 @@ def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> 
 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
-
-    ``axes``, axes to draw on, two of them for a point contact; axes of a new figure if omitted. Returns the
-    first axes.
     """
     if axes is None:
         rows = 2 if isinstance(result, PointResult) else 1
@@ -202,11 +195,10 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
 
 
 def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the probability of breakdown by a Weibull law over the voltage, and the applied voltage. ``ax``,
-    axes to draw on; axes of a new figure if omitted. Returns axes with the probability in per cent; the range
-    of voltages from 5 % to 95 % is shaded.
+    """Draw the probability of breakdown by a Weibull law over the voltage, and the applied voltage. Returns
+    axes with the probability in per cent; the range of voltages from 5 % to 95 % is shaded.
     """
-    ax = new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
+    ax = axes_or_new(ax)
     discharge, found, applied = result.case.discharge, result.discharge, result.field.voltage
     assert discharge is not None and discharge.weibull is not None
     assert found is not None and found.breakdown_voltage is not None
@@ -224,23 +216,11 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def breakdown_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
-    """Function that draws the breakdown of a contact, by file name.
-
-    Empty if the case gives neither a dielectric strength nor a Weibull law.
-    """
-    discharge = result.case.discharge
-    if discharge is not None and discharge.weibull is not None:
-        return {BREAKDOWN_FIGURE: probability}
-    return {} if strength_limit(result) is None else {BREAKDOWN_FIGURE: breakdown}
-
-
 def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the capacitance between the bodies up to a distance from the contact.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the sum over distance, with
-    the gap outside the film's domain filled as the case says, and between air and oil; lines mark the edge of
-    the Hertz zone and the nearest edge of the domain.
+    Returns axes with the sum over distance, with the gap outside the film's domain filled as the case says,
+    and between air and oil; lines mark the edge of the Hertz zone and the nearest edge of the domain.
     """
     ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
     assert isinstance(result.case, Case) and result.meter is not None
@@ -285,11 +265,6 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def meter_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
-    """Function that draws the capacitance at a meter, by file name; empty without a table ``meter``."""
-    return {} if result.meter is None else {METER_FIGURE: meter}
-
-
 # Range of x/b that is drawn, and colours of temperatures.
 _WINDOW, _HEAT = (-1.75, 1.25), "inferno"
 
@@ -312,9 +287,8 @@ def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
 
 
 def shear_stress(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the shear stress at mid-film over x/b, with the pressure times the traction coefficient. ``ax``,
-    axes to draw on; axes of a new figure if omitted. Returns axes with the shear stress, of a point contact
-    along y = 0.
+    """Draw the shear stress at mid-film over x/b, with the pressure times the traction coefficient. Returns
+    axes with the shear stress, of a point contact along y = 0.
     """
     return _panel(result, contact_profiles.shear_stress, axes_or_new(ax))
 
@@ -347,18 +321,10 @@ def _map(result: AnyContact, ax: Axes) -> Axes:
     values = _along(result, heated.temperature).T - contact_profiles.CELSIUS
     limits = float(values[shown].min()), float(values[shown].max())
     limits = limits[0], max(limits[1], limits[0] + _LEAST_RANGE)
-    section_part(ax, x[shown], heights[shown], values[shown], limits=limits, colours=_HEAT)
+    fill_section(ax, x[shown], heights[shown], values[shown], limits=limits, colours=_HEAT)
     half = 1.6 * float(np.max(np.abs(heights[np.abs(x) < 1.0])))
-    ax.set(xlim=_WINDOW, ylim=(-half, half), ylabel=f"height [{unit}]")
+    ax.set(xlim=_WINDOW, ylim=(-half, half), ylabel=f"height [{unit}]", facecolor=BODY)
     label_position(result, ax)
     colours = ScalarMappable(Normalize(*limits), _HEAT)
     figure_of(ax).colorbar(colours, cax=ax.inset_axes(BAR), label="temperature [°C]")
     return ax
-
-
-def heat_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
-    """Function that draws the heat and the shear of a film, by file name; none of a plain film."""
-    heated = result.film.heated
-    if heated is None:
-        return {}
-    return {TEMPERATURE_FIGURE: temperature} if heated.thermal else {SHEAR_FIGURE: shear_stress}

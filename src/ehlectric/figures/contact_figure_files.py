@@ -1,34 +1,68 @@
-"""Figures of stationary contacts: by name, and as files."""
+"""Figures of stationary contacts: a table of their names, functions and conditions, and their titles."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from functools import partial
+from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ehlectric.contact.result import PointResult, Result
-from ehlectric.figures.contact_findings import finding
-from ehlectric.figures.figure_names import in_formats
-from ehlectric.figures.line_figures import figures_of
-from ehlectric.figures.point_figures import point_figures_of
-from ehlectric.figures.style import drawing_of, figure_of, name_over, save_figure, style
+from ehlectric.contact.result import PointResult
+from ehlectric.figures import line_figures, point_figures
+from ehlectric.figures.contact_curves import breakdown, meter, probability, shear_stress, temperature
+from ehlectric.figures.contact_findings import AnyContact, finding, strength_limit
+from ehlectric.figures.contact_maps import spots
+from ehlectric.figures.figure_names import (
+    BREAKDOWN_FIGURE,
+    METER_FIGURE,
+    ROUGHNESS_FIGURE,
+    SHEAR_FIGURE,
+    SPOTS_FIGURE,
+    TEMPERATURE_FIGURE,
+    in_formats,
+)
+from ehlectric.figures.style import drawing_of, figure_of, name_over, style
 
 # Empty edge above and below the maps [inches].
 _EDGE = 0.06
 
 
-def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
-    """Functions that draw the figures of a contact, by the names of their files.
-
-    The roughness is among them where a surface is rough.
-    """
-    return point_figures_of(result) if isinstance(result, PointResult) else figures_of(result)
+def _module(result: AnyContact) -> Any:
+    """Module of the figures of a kind of contact."""
+    return point_figures if isinstance(result, PointResult) else line_figures
 
 
-def figure(result: Result | PointResult, name: str) -> Figure:
+def _weibull(result: AnyContact) -> bool:
+    return result.case.discharge is not None and result.case.discharge.weibull is not None
+
+
+def _heated(result: AnyContact, *, thermal: bool) -> bool:
+    return result.film.heated is not None and bool(result.film.heated.thermal) is thermal
+
+
+# Figures that only some contacts have: name, function that draws it, and whether a contact has it.
+_FURTHER: Sequence[tuple[str, Callable[..., Axes], Callable[[Any], bool]]] = (
+    (ROUGHNESS_FIGURE, lambda r: _module(r).roughness(r), lambda r: bool(np.any(r.roughness))),
+    (TEMPERATURE_FIGURE, temperature, partial(_heated, thermal=True)),
+    (SHEAR_FIGURE, shear_stress, partial(_heated, thermal=False)),
+    (BREAKDOWN_FIGURE, probability, _weibull),
+    (BREAKDOWN_FIGURE, breakdown, lambda r: not _weibull(r) and strength_limit(r) is not None),
+    (METER_FIGURE, meter, lambda r: r.meter is not None),
+    (SPOTS_FIGURE, spots, lambda r: r.converged and bool(np.any(r.film.contact))),
+)
+
+
+def drawings_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
+    """Functions that draw the figures of a contact, by the names of their files."""
+    common: dict[str, Callable[..., Axes]] = _module(result).FIGURES
+    return common | {name: draw for name, draw, has in _FURTHER if has(result)}
+
+
+def figure(result: AnyContact, name: str) -> Figure:
     """Figure of a contact. Raises InputError where the result has no figure of this name."""
     draw = drawing_of(drawings_of(result), name)
     with style():
@@ -40,16 +74,7 @@ def figure(result: Result | PointResult, name: str) -> Figure:
     return figure_of(ax)
 
 
-def save_figures(result: Result | PointResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw all figures of a contact as files."""
-    return [
-        file
-        for name in drawings_of(result)
-        for file in save_figure(figure(result, name), folder / name, formats)
-    ]
-
-
-def _name(ax: Axes, result: Result | PointResult, name: str) -> None:
+def _name(ax: Axes, result: AnyContact, name: str) -> None:
     """Draw the title over all panels of a figure: the finding, and below it the title of the case."""
     (file,) = in_formats([name])
     title = textwrap.shorten(result.case.title, 90, placeholder=" ...")

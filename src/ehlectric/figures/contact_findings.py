@@ -152,16 +152,21 @@ def profiles_text(result: AnyContact) -> str:
 
 def disagreement(result: AnyContact) -> float:
     """Largest relative difference between the fields on both walls and at mid-film of one column."""
+    sections = _sections(result)
+    apart: Array = np.ptp(sections, axis=0) / np.max(sections, axis=0)
+    return float(np.max(apart[result.field.inner]))
+
+
+def _sections(result: AnyContact) -> Array:
+    """Field on both walls and at mid-film [V/m], stacked along a first axis."""
     field = result.field
-    sections = np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
-    apart: Array = (np.max(sections, axis=0) - np.min(sections, axis=0)) / np.max(sections, axis=0)
-    return float(np.max(apart[field.inner]))
+    return np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
 
 
 def deviation_text(result: AnyContact) -> str:
     """Largest deviation of the field from the thin-gap estimate V12/h, and where it is."""
     field = result.field
-    sections = np.stack([field.strength[..., 0], field.middle_strength, field.strength[..., -1]])
+    sections = _sections(result)
     deviation: Array = np.max(np.abs(sections / field.thin_gap_strength - 1.0), axis=0)
     apart, counted = deviation, field.inner
     if isinstance(result, PointResult):
@@ -297,23 +302,15 @@ def _thinning(result: AnyContact) -> str:
     return f"; {_more(change, 'thicker', 'thinner')} than isothermal and Newtonian"
 
 
-LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
+# Findings by the names of the files of figures; a name that line and point contacts share has one finding.
+_FINDINGS: Mapping[str, Callable[[Any], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
     "field_profiles.png": profiles_text,
     "field_deviation.png": deviation_text,
-    ROUGHNESS_FIGURE: roughness_text,
-    BREAKDOWN_FIGURE: breakdown_text,
-    METER_FIGURE: meter_text,
-    SPOTS_FIGURE: spots_text,
-    TEMPERATURE_FIGURE: temperature_text,
-    SHEAR_FIGURE: shear_text,
-}
-POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
     "pressure_map.png": pressure_text,
     "field_map.png": strength_text,
-    "field_deviation.png": deviation_text,
     "field_sections.png": strength_text,
     "cuts.png": cuts_text,
     ROUGHNESS_FIGURE: roughness_text,
@@ -327,6 +324,4 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
 
 def finding(result: AnyContact, name: str) -> str:
     """Finding that a figure of a contact shows, by the name of its file."""
-    if isinstance(result, PointResult):
-        return POINT_FINDINGS[name](result)
-    return LINE_FINDINGS[name](result)
+    return _FINDINGS[name](result)

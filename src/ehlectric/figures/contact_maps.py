@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Protocol, cast
 
 import numpy as np
-from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
@@ -14,6 +13,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch
+from matplotlib.patheffects import AbstractPathEffect
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Transform, offset_copy
 from scipy.interpolate import RectBivariateSpline
@@ -25,7 +25,6 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.figures.contact_findings import AnyContact
 from ehlectric.figures.contact_profiles import Line, film_scale, film_thickness
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.figure_names import SPOTS_FIGURE
 from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
@@ -34,6 +33,7 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
     new_panels,
+    outlined,
     page_width,
 )
 from ehlectric.quantities.palette import ORANGE
@@ -289,13 +289,9 @@ def legend_line(patch: Ellipse) -> Line2D:
     return Line2D([], [], color="black", ls=patch.get_linestyle(), lw=0.8, label=str(patch.get_label()))
 
 
-def _outlined(ink: str, width: float) -> list[patheffects.AbstractPathEffect]:
-    """Outline of a line or text, white for black ink and black for white, ``width`` wide [pt].
-
-    It keeps the line or text visible on any colour.
-    """
-    edge = "white" if ink == "black" else "black"
-    return [patheffects.withStroke(linewidth=width, foreground=edge)]
+def _outlined(ink: str, width: float) -> list[AbstractPathEffect]:
+    """Outline of a line or text [pt], white for black ink and black for white."""
+    return outlined(width, "white" if ink == "black" else "black")
 
 
 def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
@@ -413,9 +409,9 @@ _LINE_WINDOW = (-1.4, 1.4)
 
 
 def spots(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. ``ax``, axes to draw
-    on; axes of a new figure if omitted. Returns axes of the map of a point contact, or of the profile of a
-    line contact; thicker films than those of 95 % of the Hertz zone have the last colour, or are cut off.
+    """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. Returns axes of the map
+    of a point contact, or of the profile of a line contact; thicker films than those of 95 % of the Hertz
+    zone have the last colour, or are cut off.
     """
     return _map(result, ax) if isinstance(result, PointResult) else _profile(result, ax)
 
@@ -460,8 +456,3 @@ def _profile(result: Result, ax: Axes | None) -> Axes:
     length_axis(result, ax)
     legend_above(ax, lift=LENGTH_AXIS)
     return ax
-
-
-def spots_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
-    """Figure of the spots by the name of its file; none where the surfaces do not touch."""
-    return {SPOTS_FIGURE: spots} if result.converged and np.any(result.film.contact) else {}

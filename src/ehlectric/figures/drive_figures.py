@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from ehlectric.arrays import Array
@@ -25,11 +26,9 @@ from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, literal
 from ehlectric.figures.style import (
-    axes_or_new,
     drawing_of,
     legend_above,
     new_panels,
-    save_figure,
     scale_axis,
     share_below,
     style,
@@ -52,8 +51,7 @@ THRESHOLD: dict[str, Any] = {"color": "black", "lw": 0.9, "ls": "--"}
 def events_of(result: DriveResult, b: int) -> Array:
     """Events of one bearing, a row for each, as in ``Record``."""
     events = result.solution.record.events
-    own: Array = events[events[:, FILM] == b]
-    return own
+    return np.asarray(events[events[:, FILM] == b])
 
 
 def number_of_events(result: DriveResult, b: int) -> int:
@@ -71,8 +69,8 @@ def voltage_unit(largest: float) -> tuple[float, str]:
     return unit_for(max(largest, 1e-9), "V", least=1.0)
 
 
-# Share of time from which on a voltage is told [%].
-_TOLD = 1.0
+# Least share of time for which a title states a voltage [%].
+_LEAST_SHARE = 1.0
 
 
 def voltages(result: DriveResult) -> str:
@@ -91,19 +89,19 @@ def histogram(result: DriveResult) -> str:
     """Sentence: for which share of time the bearing voltages are above the largest limit that matters."""
     record = result.solution.record
     shares = 100.0 * record.above / record.duration
-    told = np.flatnonzero(np.max(shares, axis=0) >= _TOLD)
-    if not told.size:
+    stated = np.flatnonzero(np.max(shares, axis=0) >= _LEAST_SHARE)
+    if not stated.size:
         share = float(np.max(shares[:, 0]))
         lead = (
             f"Above {record.limits[0]:g} V for {share:.2g} % of the time" if share else "Low bearing voltage"
         )
         return f"{lead}: {_largest(result)}"
-    k = int(told[-1])
+    k = int(stated[-1])
     texts = [f"{share:.3g} %" for share in shares[:, k]]
     if len(set(texts)) == 1:
         return f"Voltage of both bearings above {record.limits[k]:g} V for {texts[0]} of the time"
-    told_of = " and ".join(f"{text} ({name})" for text, name in zip(texts, NAMES, strict=True))
-    return f"Above {record.limits[k]:g} V for {told_of} of the time"
+    both = " and ".join(f"{text} ({name})" for text, name in zip(texts, NAMES, strict=True))
+    return f"Above {record.limits[k]:g} V for {both} of the time"
 
 
 def spectrum(result: DriveResult) -> str:
@@ -127,14 +125,16 @@ def discharges(result: DriveResult) -> str:
 
 
 def remedies(result: DriveResult) -> str:
-    """Sentence: which remedy has the fewest discharges, beside those of the drive as it is."""
-    (_, own), *others = variants(result)
+    """Sentence: which remedy has the fewest discharges, compared with the drive as it is."""
+    (_, unchanged), *others = variants(result)
     rates = [sum(end["events_per_second"] for end in pair) for _, pair in others]
-    least, now = min(rates), sum(end["events_per_second"] for end in own)
+    least, now = min(rates), sum(end["events_per_second"] for end in unchanged)
     best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
     if not now + max(rates):
         highest = max(
-            end["events_per_second_high"] for pair in (own, *(pair for _, pair in others)) for end in pair
+            end["events_per_second_high"]
+            for pair in (unchanged, *(pair for _, pair in others))
+            for end in pair
         )
         return f"No discharge, with or without remedies: at most {number_text(highest)} a second"
     if not least < now:
@@ -159,7 +159,7 @@ def case_lines(result: DriveResult) -> list[str]:
 
 
 def arc_line(result: DriveResult) -> str:
-    """Line: what charges, energies and currents rest on."""
+    """Line: the assumption from which charges, energies and currents follow."""
     arc, kept = result.case.breakdown.arc_resistance, len(result.solution.record.events)
     text = f"charges, energies and currents follow from an arc of {amount(arc, 'Ω')}, which is an assumption"
     if kept < sum(number_of_events(result, b) for b in range(len(ENDS))):
@@ -205,22 +205,17 @@ _NEAR_LIMIT = 1.5
 _BINS = 3
 
 
-def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the share of time at the voltages across the films of both bearings. ``ax``, axes to draw on; axes
-    of a new figure if omitted. Returns axes with a logarithmic share, and with the breakdown voltages where
-    they are near.
+def time_at_voltage(result: DriveResult, ax: Axes) -> None:
+    """Draw the share of time at the voltages across the films of both bearings, and the breakdown voltages
+    where they are near.
     """
-    ax = axes_or_new(ax)
     record = result.solution.record
     most = _most(result)
     factor, unit = voltage_unit(most)
     width = float(record.edges[1] - record.edges[0])
     shares = 100.0 * record.histogram / record.duration
     for b, values in enumerate(shares):
-        look: dict[str, Any] = {"fill": True, "alpha": 0.35, "lw": 0.0} if b == 0 else {"lw": 1.1}
-        ax.stairs(values, factor * record.edges, color=COLOURS[b], label=NAMES[b], **look)
-        if b == 0:
-            ax.stairs(values, factor * record.edges, color=COLOURS[b], lw=0.7)
+        _stairs(ax, b, values, factor * record.edges, NAMES[b], width=(0.7, 1.1)[b])
     _log_share(ax, shares)
     for k, volts in enumerate(_breakdowns(result)):
         for sign in (1.0, -1.0):
@@ -230,14 +225,10 @@ def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
     ax.set_xlabel(f"voltage across the films [{unit}]")
     ax.set_ylabel(f"share of time\nper {factor * width:.3g} {unit} [%]")
     legend_above(ax, columns=3)
-    return ax
 
 
-def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the share of time above a voltage, whatever its sign, with the limits of the summary as dots.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with a logarithmic share.
-    """
-    ax = axes_or_new(ax)
+def time_above(result: DriveResult, ax: Axes) -> None:
+    """Draw the share of time above a voltage, whatever its sign, with the limits of the summary as dots."""
     record = result.solution.record
     most = _most(result)
     factor, unit = voltage_unit(most)
@@ -260,7 +251,13 @@ def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
     ax.set_xlim(0.0, factor * most)
     ax.set_xlabel(f"voltage across the films, without its sign [{unit}]")
     ax.set_ylabel("share of time\nabove it [%]")
-    return ax
+
+
+def _stairs(ax: Axes, b: int, values: Array, edges: Array, name: str, *, width: float) -> None:
+    """Draw the steps of bearing ``b``, those of the bearing at the drive end filled."""
+    if b == 0:
+        ax.stairs(values, edges, color=COLOURS[b], fill=True, alpha=0.35, lw=0.0, label=name)
+    ax.stairs(values, edges, color=COLOURS[b], lw=width, label=name if b else "_")
 
 
 def shares_above(result: DriveResult) -> tuple[Array, Array]:
@@ -291,39 +288,29 @@ def _breakdowns(result: DriveResult) -> list[float]:
 
 def _log_share(ax: Axes, shares: Array) -> None:
     """Logarithmic axis of shares of time [%], over at most some decades."""
-    ax.set_yscale("log")
     known = shares[shares > 0.0]
     top = float(np.max(known, initial=1.0))
     least = max(float(np.min(known, initial=top)), _DECADES * top)
-    ax.set_ylim(min(0.5 * least, _LOW * top), 2.0 * top)
-    ax.yaxis.set_major_locator(LogLocator(numticks=6))
-    ax.yaxis.set_minor_formatter(NullFormatter())
+    _log_axis(ax.yaxis, min(0.5 * least, _LOW * top), 2.0 * top, ticks=6)
 
 
 # Number of points that are drawn for each decade of frequency, and part of the largest line that is drawn.
 _POINTS, _LEAST = 400, 1e-6
 
 
-def shaft_spectrum(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz. ``ax``, axes to draw on;
-    axes of a new figure if omitted. Returns axes of both logarithms; where lines are too close to be seen
-    apart, the largest one is drawn.
+def shaft_spectrum(result: DriveResult, ax: Axes) -> None:
+    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz.
+
+    Where lines are too close to be seen apart, the largest one is drawn.
     """
-    ax = axes_or_new(ax)
     frequencies, amplitudes = highest_lines(result)
     least, most = shown_range(amplitudes)
     factor, unit = voltage_unit(float(np.max(amplitudes)))
     ax.plot(frequencies, factor * amplitudes, color=BLUE, lw=0.8)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlim(0.8 * frequencies[0], 1.25 * frequencies[-1])
-    ax.set_ylim(factor * least, factor * most)
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_locator(LogLocator(numticks=9))
-        axis.set_minor_formatter(NullFormatter())
+    _log_axis(ax.xaxis, 0.8 * frequencies[0], 1.25 * frequencies[-1], ticks=9)
+    _log_axis(ax.yaxis, factor * least, factor * most, ticks=9)
     ax.set_xlabel("frequency [Hz]")
     ax.set_ylabel(f"amplitude of the shaft voltage [{unit}]")
-    return ax
 
 
 def shown_range(amplitudes: Array) -> tuple[float, float]:
@@ -364,12 +351,11 @@ def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
         yield name, [end_summary(solution, b) for b in range(len(ENDS))]
 
 
-def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %. ``ax``, axes to draw
-    on; axes of a new figure if omitted. Returns axes with a row for the drive as it is and for each remedy;
-    an arrow is an upper bound where no discharge happened.
+def rates(result: DriveResult, ax: Axes) -> None:
+    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %, a row for each.
+
+    An arrow is an upper bound where no discharge happened.
     """
-    ax = axes_or_new(ax)
     rows = list(variants(result))
     ends = [end for _, pair in rows for end in pair]
     known = [end["events_per_second_low"] for end in ends] + [end["events_per_second"] for end in ends]
@@ -387,17 +373,13 @@ def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
             else:
                 ax.plot([bottom, high], [at, at], ls=":", **look)
                 ax.plot([high], [at], marker="<", ms=5.5, mfc="white", **look)
-    _log_axis(ax, bottom, 2.0 * max(highest))
+    _log_axis(ax.xaxis, bottom, 2.0 * max(highest), ticks=5)
     ax.set_xlabel(DRIVE_BOOK["end.events_per_second"].label)
     _rows(ax, [name for name, _ in rows])
-    return ax
 
 
-def energies(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the mean energy of a discharge of the drive and its remedies. ``ax``, axes to draw on; axes of a
-    new figure if omitted. Returns axes with a row for the drive as it is and for each remedy.
-    """
-    ax = axes_or_new(ax)
+def energies(result: DriveResult, ax: Axes) -> None:
+    """Draw the mean energy of a discharge of the drive and of each remedy in its row."""
     rows = list(variants(result))
     found = [end["energy_mean"] for _, pair in rows for end in pair if end["events"]]
     factor, unit = unit_for(max(found, default=1e-9), "J", least=1.0)
@@ -414,19 +396,16 @@ def energies(result: DriveResult, ax: Axes | None = None) -> Axes:
             )  # fmt: skip
     positive = [factor * value for value in found if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
-        _log_axis(ax, 0.5 * min(positive), 2.0 * max(positive))
+        _log_axis(ax.xaxis, 0.5 * min(positive), 2.0 * max(positive), ticks=5)
     else:
         ax.set_xlim(0.0, 1.15 * max(positive, default=1.0))
     ax.set_xlabel(f"{DRIVE_BOOK['end.energy_mean'].label} [{unit}]")
     _rows(ax, [name for name, _ in rows])
     ax.tick_params(labelleft=False)
-    return ax
 
 
 def legend_of_remedies(axes: list[Axes]) -> None:
     """Legend above the first panel: both bearings, and the bounds."""
-    from matplotlib.lines import Line2D
-
     handles = [
         Line2D([], [], color=COLOURS[b], marker="os"[b], ms=5.0, lw=1.3, label=f"{NAMES[b]}, bounds of 95 %")
         for b in range(2)
@@ -454,18 +433,18 @@ def _broken(name: str) -> str:
     return "\n".join(textwrap.wrap(literal(name), _LETTERS, max_lines=_LINES, placeholder=" ..."))
 
 
-def _log_axis(ax: Axes, low: float, high: float) -> None:
-    ax.set_xscale("log")
-    ax.set_xlim(low, high)
-    ax.xaxis.set_major_locator(LogLocator(numticks=5))
-    ax.xaxis.set_minor_formatter(NullFormatter())
+def _log_axis(axis: Axis, low: float, high: float, ticks: int) -> None:
+    """Logarithmic axis between two values, with few ticks."""
+    ax = axis.axes
+    if axis is ax.xaxis:
+        ax.set(xscale="log", xlim=(low, high))
+    else:
+        ax.set(yscale="log", ylim=(low, high))
+    axis.set_major_locator(LogLocator(numticks=ticks))
+    axis.set_minor_formatter(NullFormatter())
 
 
-Draw = Callable[[DriveResult, Axes], Axes]
-
-
-def _no_legend(_axes: list[Axes]) -> None:
-    """The panels have legends of their own."""
+Draw = Callable[[DriveResult, Axes], None]
 
 
 @dataclass(frozen=True)
@@ -476,15 +455,15 @@ class _Drawing:
     rows: int
     size: tuple[float, float]
     finding: Callable[[DriveResult], str]
-    legend: Callable[[list[Axes]], None] = _no_legend
+    legend: Callable[[list[Axes]], None] | None = None  # none where the panels have legends themselves
     shared: bool = False
 
 
 def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     """Figures of a drive by the names of their files.
 
-    Figures with nothing to show are left out: a spectrum in a file of version 1.0, distributions without
-    discharges, remedies where the file has none, and voltages over time where no time was recorded.
+    Figures with nothing to show are left out: a spectrum without lines, distributions without discharges,
+    remedies where the file has none, and voltages over time where no time was recorded.
     """
     over_time, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
     found: dict[str, _Drawing] = {}
@@ -512,16 +491,11 @@ def figure(result: DriveResult, name: str) -> Figure:
         axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size)
         for draw, ax in zip(drawing.panels, axes, strict=True):
             draw(result, ax)
-        drawing.legend(axes)
+        if drawing.legend is not None:
+            drawing.legend(axes)
         if drawing.shared:
             share_below(axes)
         return titled(axes[0], "\n".join(lines), converged=result.converged)
-
-
-def save_drive_figures(result: DriveResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw the figures of a drive as files."""
-    names = drive_figures_of(result)
-    return [file for name in names for file in save_figure(figure(result, name), folder / name, formats)]
 
 
 # Breakdown voltage over the largest voltage of a panel up to which it is drawn, and room around the curves.
@@ -596,18 +570,18 @@ def _times(result: DriveResult, times: Array | None = None) -> Array:
     return factor * since
 
 
-def source_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
+def source_voltage(result: DriveResult, ax: Axes) -> None:
     """Draw the common-mode voltage of the source over a short time, without its ringing."""
-    return _draw(source_panel(result), result, ax)
+    _draw(source_panel(result), result, ax)
 
 
-def bearing_voltage(result: DriveResult, ax: Axes | None = None, *, b: int) -> Axes:
+def bearing_voltage(result: DriveResult, ax: Axes, *, b: int) -> None:
     """Draw the voltage across the films of bearing ``b``, 0 at the drive end, and mark its discharges."""
-    return _draw(bearing_panel(result, b), result, ax)
+    _draw(bearing_panel(result, b), result, ax)
 
 
 # Panels of the figure, from top to bottom.
-VOLTAGE_PANELS: tuple[Callable[[DriveResult, Axes], Axes], ...] = (
+VOLTAGE_PANELS: tuple[Draw, ...] = (
     source_voltage,
     *(partial(bearing_voltage, b=b) for b in range(2)),
 )
@@ -624,13 +598,11 @@ def legend_of(axes: list[Axes]) -> None:
         legend_above(axes[0], list(found.values()))
 
 
-def _draw(panel: Panel, result: DriveResult, ax: Axes | None) -> Axes:
-    ax = axes_or_new(ax)
+def _draw(panel: Panel, result: DriveResult, ax: Axes) -> None:
     draw_panel(panel, ax, time_axis(result))
     for line in ax.get_lines():
         # The trace ends with a discharge, whose mark would be cut at the edge.
         line.set_clip_on(line.get_marker() == "None")
-    return ax
 
 
 # Quantities of a discharge, and their columns of a record.
@@ -644,11 +616,8 @@ _SHOWN = (0.05, 99.95)
 _NARROW = 0.05
 
 
-def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int = 0) -> Axes:
-    """Draw how a quantity of the discharges of both bearings is distributed. ``ax``, axes to draw on; axes of
-    a new figure if omitted. Returns axes with the share of the discharges of each bearing.
-    """
-    ax = axes_or_new(ax)
+def distribution(result: DriveResult, ax: Axes, *, quantity: int = 0) -> None:
+    """Draw how a quantity of the discharges of both bearings is distributed [% of the discharges of each]."""
     name, column = QUANTITIES[quantity]
     about = EVENT_KEYS[name]
     values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
@@ -660,16 +629,14 @@ def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int =
             continue
         counts, _ = np.histogram(np.clip(factor * own, edges[0], edges[-1]), edges)
         share = 100.0 * counts / own.size
-        if b == 0:
-            ax.stairs(share, edges, color=COLOURS[b], fill=True, alpha=0.35, lw=0.0, label=_label(result, b))
-        ax.stairs(share, edges, color=COLOURS[b], lw=1.1, label="_" if b == 0 else _label(result, b))
+        name = f"{NAMES[b]}: {number_of_events(result, b)} discharges"
+        _stairs(ax, b, share, edges, name, width=1.1)
     scale_axis(ax.xaxis, f"{about.label} [{prefixed}]", values=edges, log=log)
     if not log:
         ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.set_xlim(edges[0], edges[-1])
     ax.set_ylim(0.0, None)
     ax.set_ylabel("discharges [%]")
-    return ax
 
 
 # Panels of the figure, row by row.
@@ -679,10 +646,6 @@ DISTRIBUTIONS = tuple(partial(distribution, quantity=number) for number in range
 def legend_of_discharges(axes: list[Axes]) -> None:
     """Legend above the first panel."""
     legend_above(axes[0], columns=1)
-
-
-def _label(result: DriveResult, b: int) -> str:
-    return f"{NAMES[b]}: {number_of_events(result, b)} discharges"
 
 
 def bins_of(values: Array) -> tuple[Array, bool]:

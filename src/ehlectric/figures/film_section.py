@@ -9,10 +9,10 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.contour import ContourSet
-from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from ehlectric.arrays import Array
+from ehlectric.figures.style import outlined
 from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 
 # Mark of a maximum: a ring that can be seen on any colour.
@@ -23,7 +23,7 @@ MAXIMUM: dict[str, Any] = {
     "mfc": "none",
     "mec": "black",
     "mew": 1.0,
-    "path_effects": [withStroke(linewidth=2.4, foreground="white")],
+    "path_effects": outlined(2.4),
 }
 
 
@@ -47,7 +47,7 @@ def draw_section(
     written on the bodies; ``units``, lengths that the unit of each axis stands for [m]. Returns the filled
     contours, from which a colour bar can be made.
     """
-    filled = _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
+    filled = fill_section(ax, x, heights, values, limits=limits, colours=colours, under=under)
     ax.set_xlim(x[0], x[-1])
     _limit_height(ax, heights)
     # The bodies go on beyond the axes, whose heights may be changed.
@@ -67,7 +67,7 @@ def draw_section(
             ha="right",
             va=where,
             fontsize=8.0,
-            path_effects=[withStroke(linewidth=2.0, foreground=BODY)],
+            path_effects=outlined(2.0, BODY),
         )
     if units is not None:
         ax.add_artist(_Enlargement(ax, units))
@@ -79,9 +79,7 @@ class _Enlargement(Text):
 
     def __init__(self, ax: Axes, units: tuple[float, float]) -> None:
         look: dict[str, Any] = {"fontsize": 7.5, "va": "bottom", "transform": ax.transAxes, "zorder": 5.0}
-        super().__init__(
-            0.015, 0.04, "", path_effects=[withStroke(linewidth=2.0, foreground="white")], **look
-        )
+        super().__init__(0.015, 0.04, "", path_effects=outlined(2.0), **look)
         self._drawn_on, self._units = ax, units
         self.set_in_layout(False)
 
@@ -102,7 +100,7 @@ def _two_digits(number: float) -> str:
     return f"{float(f'{number:.2g}'):g}"
 
 
-def section_part(
+def fill_section(
     ax: Axes,
     x: Array,
     heights: Array,
@@ -111,23 +109,11 @@ def section_part(
     limits: tuple[float, float],
     colours: str = "viridis",
     under: bool = False,
-) -> None:
-    """Draw a section, of which the axes show a part, as ``draw_section`` does, without texts."""
-    _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
-    ax.set_facecolor(BODY)
-
-
-def _fill(
-    ax: Axes,
-    x: Array,
-    heights: Array,
-    values: Array,
-    *,
-    limits: tuple[float, float],
-    colours: str,
-    under: bool,
 ) -> ContourSet:
-    """Fill the gap between two walls with the colours of values, and draw the walls."""
+    """Fill the gap between two walls with the colours of values, and draw the walls.
+
+    The arguments are those of ``draw_section``.
+    """
     along = np.broadcast_to(x[:, np.newaxis], heights.shape)
     levels = np.linspace(*limits, 401)
     # Without clipping, rounding may put the values at a wall outside the levels, and leave it without colour.

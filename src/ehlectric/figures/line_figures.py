@@ -14,21 +14,17 @@ from matplotlib.ticker import MaxNLocator
 from ehlectric.arrays import Array
 from ehlectric.contact.result import Result
 from ehlectric.figures.contact_curves import (
-    breakdown_figures_of,
     enlarged_below,
-    heat_figures_of,
     limit_line,
-    meter_figures_of,
     stacked_panels,
 )
 from ehlectric.figures.contact_findings import cut_offs, disagreement, per_cent, strength_limit
-from ehlectric.figures.contact_maps import round_levels, spots_figures_of
+from ehlectric.figures.contact_maps import round_levels
 from ehlectric.figures.contact_profiles import Line, field_scale, film_thickness, pressure
 from ehlectric.figures.contact_profiles import field_strength as strength_panel
 from ehlectric.figures.data import Curve
 from ehlectric.figures.draw import draw_curves
-from ehlectric.figures.figure_names import ROUGHNESS_FIGURE
-from ehlectric.figures.film_section import MAXIMUM, draw_section, section_part
+from ehlectric.figures.film_section import MAXIMUM, draw_section, fill_section
 from ehlectric.figures.style import (
     BAR,
     LENGTH_AXIS,
@@ -44,8 +40,8 @@ from ehlectric.quantities.units import unit_for
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw a map of the electric potential in the film, with ten equipotential lines. ``ax``, axes to draw
-    on; axes of a new figure if omitted. Returns axes with the map, and a colour bar beside them.
+    """Draw a map of the electric potential in the film, with ten equipotential lines. Returns axes with the
+    map, and a colour bar beside them.
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
@@ -58,9 +54,8 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
-    """Draw a map of the field strength in the film, and enlarged around its maximum, which is marked. ``ax``,
-    axes to draw on; axes of a new figure if omitted; ``largest``, draws the dimensionless field strength
-    abs(E) h_min/V12 instead, from 0 to this value. Returns axes with the map, and a colour bar beside them.
+    """Draw a map of the field strength in the film, and enlarged around its maximum, which is marked.
+    With ``largest``, the dimensionless field strength abs(E) h_min/V12 is drawn from 0 to this value.
 
     The dimensionless field strength is drawn as Figures 5 and 6 of Morris et al. (2022),
     doi:10.3390/lubricants10050087.
@@ -109,7 +104,8 @@ def _zoom(result: Result, panels: tuple[Axes, Axes], values: Array, limits: tupl
     k = int(np.argmax(np.max(values, axis=1)))
     half = 0.06 if not result.rough else 0.03
     ends = float(x[k, 0]) - half, float(x[k, 0]) + half
-    section_part(below, x[:, 0], y, values, limits=limits, under=True)
+    fill_section(below, x[:, 0], y, values, limits=limits, under=True)
+    below.set_facecolor(BODY)
     near = y[(x[:, 0] >= ends[0]) & (x[:, 0] <= ends[1])]
     room = 0.12 * float(np.ptp(near))
     below.set_xlim(*ends)
@@ -162,9 +158,8 @@ def _map(
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     """Draw pressure and film thickness over x/b around the contact, with the Hertz pressure behind them.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes of the pressure; the film thickness
-    is on a twin of them, with an axis on the right; both axes have their ticks at the same heights. The
-    minimum film is marked.
+    Returns axes of the pressure; the film thickness is on a twin of them, with an axis on the right; both
+    axes have their ticks at the same heights. The minimum film is marked.
     """
     ax, line = axes_or_new(ax), _line(result)
     above, below = pressure(line), film_thickness(line)
@@ -213,9 +208,8 @@ def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
 
 
 def film_change(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw the change that the roughness makes to the film: rough film minus smooth film over x/b. ``ax``,
-    axes to draw on; axes of a new figure if omitted. Returns axes with the change of the film, and the change
-    that undeformed roughness would make to it.
+    """Draw the change that the roughness makes to the film: rough film minus smooth film over x/b. Returns
+    axes with the change of the film, and the change that undeformed roughness would make to it.
     """
     ax = axes_or_new(ax)
     assert result.smooth is not None
@@ -254,8 +248,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
 
     The zone of high field is where the field at mid-film is above 95 % of its maximum.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the field strength in V/m,
-    prefixed, on the left, and abs(E) h_min/V12 on the right.
+    Returns axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right.
     """
     ax, field, panel = axes_or_new(ax), result.field, strength_panel(_line(result))
     zone = in_half_widths(result, np.array(field.high_field_zone))
@@ -300,9 +293,8 @@ def _merged(sections: Sequence[Curve], apart: float = np.inf) -> list[Curve]:
 
 
 def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw the deviation of the field strength from the thin-gap estimate V12/h over x/b. ``ax``, axes to
-    draw on; axes of a new figure if omitted. Returns axes with the deviations in per mille of V12/h, on both
-    walls and at mid-film.
+    """Draw the deviation of the field strength from the thin-gap estimate V12/h over x/b. Returns axes with
+    the deviations in per mille of V12/h, on both walls and at mid-film.
     """
     if ax is not None:
         _deviations(result, ax)
@@ -352,8 +344,7 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     Peaks, which make the film thinner, point up for both surfaces. Where the case cuts off the heights, both
     ends are drawn.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes over the range of x/b of the figure
-    of pressure and film thickness.
+    Returns axes over the range of x/b of the figure of pressure and film thickness.
     """
     ax = axes_or_new(ax)
     x = in_half_widths(result, result.film.x)
@@ -385,10 +376,3 @@ FIGURES: dict[str, Callable[..., Axes]] = {
     "field_profiles.png": field_profiles,
     "field_deviation.png": field_deviation,
 }
-
-
-def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
-    """Functions that draw the figures of a line contact, by file name."""
-    rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
-    more = heat_figures_of(result) | breakdown_figures_of(result) | meter_figures_of(result)
-    return FIGURES | rough | more | spots_figures_of(result)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,8 +21,8 @@ from ehlectric.figures.style import (
     legend_above,
     name_over,
     new_panels,
-    save_figure,
     scale_axis,
+    share_below,
     style,
 )
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
@@ -46,11 +45,6 @@ class _Scale:
     order: NDArray[np.intp]
 
 
-def measured_figures_of(_factors: FilmFactors) -> list[str]:
-    """Names of the figures of a measurement."""
-    return [MEASURED_FIGURE]
-
-
 def figure(factors: FilmFactors, name: str) -> Figure:
     """Figure of a measurement beside computed values. Returns above measured values with error bars, and
     computed lines at film factor 1 and at the mean with its 95 % band; below the film factor of every row.
@@ -66,18 +60,9 @@ def figure(factors: FilmFactors, name: str) -> Figure:
         # Rows without a film factor are drawn above only, and belong to the figure too.
         below.set_xlim(speeds)
         above.set_xlim(speeds)
-        above.set_xlabel("")
-        above.tick_params(labelbottom=False)
-        figure_of(above).align_ylabels([above, below])
+        share_below([above, below])
         name_over(above, "\n".join(_title(factors)))
         return figure_of(above)
-
-
-def save_measured_figures(
-    factors: FilmFactors, folder: Path, formats: Sequence[str] = ("png",)
-) -> list[Path]:
-    """Draw the figure of a measurement as files."""
-    return save_figure(figure(factors, MEASURED_FIGURE), folder / MEASURED_FIGURE, formats)
 
 
 def _title(factors: FilmFactors) -> list[str]:

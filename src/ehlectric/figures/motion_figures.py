@@ -5,8 +5,7 @@ roughness.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -30,20 +29,15 @@ from ehlectric.figures.motion_panels import (
     in_contact,
     in_unit,
     name_run,
-    share_below,
     shown_range,
     time_unit,
 )
-from ehlectric.figures.style import axes_or_new, drawing_of, figure_of, legend_above, new_panels, save_figure
+from ehlectric.figures.style import axes_or_new, drawing_of, figure_of, legend_above, new_panels, share_below
 from ehlectric.figures.style import style as figure_style
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import NEAR_MAXIMUM, MotionRun, coincident_frame, intervals_above
 from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 # A film that differs by less than this part from that of stationary roughness is as thick.
 _SAME = 0.005
@@ -132,9 +126,7 @@ _MOVED = 0.02
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the minimum film thickness over time, and compare it with stationary roughness. ``ax``, axes to
-    draw on; axes of a new figure if omitted.
-    """
+    """Draw the minimum film thickness over time, and compare it with stationary roughness."""
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
     thickness = factor * run.values("minimum_thickness")
@@ -153,9 +145,8 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the largest field strength over time, with its value for stationary roughness. ``ax``, axes to
-    draw on; axes of a new figure if omitted. Returns axes over time, with the voltage divided by the minimum
-    film thickness at every step.
+    """Draw the largest field strength over time, with its value for stationary roughness. Returns axes over
+    time, with the voltage divided by the minimum film thickness at every step.
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -200,9 +191,7 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
 
 
 def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time. ``ax``,
-    axes to draw on; axes of a new figure if omitted.
-    """
+    """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time."""
     ax = axes_or_new(ax)
     found = TouchHistory.of(run)
     assert found is not None
@@ -218,9 +207,8 @@ def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def places(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw where the field is strongest and where the film is thinnest over time. ``ax``, axes to draw on;
-    axes of a new figure if omitted. Returns axes over time; for a point contact also with the position across
-    entrainment.
+    """Draw where the field is strongest and where the film is thinnest over time. Returns axes over time; for
+    a point contact also with the position across entrainment.
     """
     ax = axes_or_new(ax)
     b = run.conditions.half_width
@@ -292,9 +280,8 @@ _SIZE = (7.2, 5.4)
 
 
 def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the film thickness over position and time. ``ax``, axes to draw on; axes of a new figure if
-    omitted. Returns axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, are
-    grey.
+    """Draw the film thickness over position and time. Returns axes with a colour bar that fits the Hertz
+    zone; thicker films, as in the inlet, are grey.
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
@@ -305,9 +292,7 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the pressure over position and time. ``ax``, axes to draw on; axes of a new figure if omitted.
-    Returns axes with a colour bar up to the largest pressure.
-    """
+    """Draw the pressure over position and time. Returns axes with a colour bar up to the largest pressure."""
     values = run.along("pressure")
     factor, unit = unit_for(float(np.max(values)), "Pa")
     limits = (0.0, factor * float(np.max(values)))
@@ -316,9 +301,8 @@ def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the largest field strength across the film over position and time. ``ax``, axes to draw on; axes
-    of a new figure if omitted. Returns axes with a colour bar that fits the Hertz zone; weaker fields are
-    grey, and light grey where the field was not solved.
+    """Draw the largest field strength across the film over position and time. Returns axes with a colour bar
+    that fits the Hertz zone; weaker fields are grey, and light grey where the field was not solved.
     """
     factor, unit = field_unit(run)
     values = factor * run.along("strength")
@@ -421,9 +405,8 @@ def sampling_text(run: MotionRun) -> str:
 
 
 def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the film thickness with moving and with stationary roughness, and before the motion. ``ax``, axes
-    to draw on; axes of a new figure if omitted. Returns axes whose range fits the film in the Hertz zone;
-    outside the zone the film is thicker.
+    """Draw the film thickness with moving and with stationary roughness, and before the motion. Returns axes
+    whose range fits the film in the Hertz zone; outside the zone the film is thicker.
     """
     ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "min.", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -431,8 +414,8 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the pressure with moving and with stationary roughness, and before the motion. ``ax``, axes to
-    draw on; axes of a new figure if omitted. Returns axes whose range begins at zero pressure.
+    """Draw the pressure with moving and with stationary roughness, and before the motion. Returns axes whose
+    range begins at zero pressure.
     """
     unit = unit_for(max(_extremes(run, "pressure", np.nanmax)), "Pa")
     ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "max.", np.nanmax))
@@ -441,9 +424,8 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the field strength with moving and with stationary roughness, and before the motion. ``ax``, axes
-    to draw on; axes of a new figure if omitted. Returns axes whose range fits the field in the Hertz zone;
-    outside the zone the field is smaller.
+    """Draw the field strength with moving and with stationary roughness, and before the motion. Returns axes
+    whose range fits the field in the Hertz zone; outside the zone the field is smaller.
     """
     ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "max.", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -460,9 +442,8 @@ def roughness_at(
 ) -> Axes:
     """Draw the heights of the rough surfaces along entrainment at a recorded instant.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted; ``stationary``, number of the instant at which
-    the surfaces are where stationary roughness is, to draw them too. Returns axes with the same range of x as
-    the axes of the film; peaks of both surfaces point up.
+    ``stationary``, number of the instant at which the surfaces are where stationary roughness is, to draw
+    them too. Returns axes with the same range of x as the axes of the film; peaks of both surfaces point up.
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
@@ -612,16 +593,6 @@ def figure(run: MotionRun, name: str) -> Figure:
     draw = drawing_of(drawings_of(run), name)
     with figure_style():
         return figure_of(draw(run))
-
-
-def save_motion_figures(dataset: xr.Dataset, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw all figures of a transient run as files. Returns files written: those of ``drawings_of``, in each
-    format. Raises InputError where the dataset is not a run of moving roughness.
-    """
-    run = MotionRun.of(dataset)
-    return [
-        file for name in drawings_of(run) for file in save_figure(figure(run, name), folder / name, formats)
-    ]
 
 
 def _stack(panels: int) -> Sequence[Axes]:

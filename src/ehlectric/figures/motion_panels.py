@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
 from ehlectric.contact.conditions import surface_ratios
-from ehlectric.figures.style import figure_of, name_over
+from ehlectric.figures.style import name_over
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.units import unit_for
 
@@ -74,14 +73,6 @@ def along_label(run: MotionRun, ax: Axes) -> None:
     factor, unit = unit_for(b, "m", least=1.0)
     line = _ALONG[run.kind.name]
     ax.set_xlabel(f"$x/b$   ({line}$b$ = {factor * b:.4g} {unit})")
-
-
-def share_below(axes: Sequence[Axes]) -> None:
-    """Remove the labels of the common axis from all stacked panels except the lowest."""
-    for ax in axes[:-1]:
-        ax.set_xlabel("")
-        ax.tick_params(labelbottom=False)
-    figure_of(axes[0]).align_ylabels(axes)
 
 
 def speed_text(run: MotionRun) -> str:

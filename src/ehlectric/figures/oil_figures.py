@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -32,7 +32,7 @@ from ehlectric.figures.style import (
     figure_of,
     name_over,
     new_panels,
-    save_figure,
+    save_each,
     scale_axis,
     style,
 )
@@ -283,14 +283,10 @@ def save_oil(report: OilReport, folder: Path, formats: Sequence[str] = ("png",))
     """Write the figures of an oil as files, one of each format. Returns files written; an oil whose viscosity
     does not depend on temperature has no figure over it.
     """
-    drawn: list[tuple[str, Callable[[OilReport], list[Axes]]]] = [(OIL_FIGURE_FILES[0], over_pressure)]
-    if depends_on_temperature(report.named.table):
-        drawn.append((OIL_FIGURE_FILES[1], over_temperature))
+    draws = (
+        (over_pressure, over_temperature) if depends_on_temperature(report.named.table) else (over_pressure,)
+    )
     with style():
-        figures = [(name, draw(report)) for name, draw in drawn]
-        return [
-            file
-            for name, axes in figures
-            if axes
-            for file in save_figure(figure_of(axes[0]), folder / name, formats)
-        ]
+        drawn = {name: draw(report) for name, draw in zip(OIL_FIGURE_FILES, draws, strict=False)}
+        figures = {name: figure_of(axes[0]) for name, axes in drawn.items() if axes}
+        return save_each(figures.__getitem__, figures, folder, formats)

@@ -15,12 +15,7 @@ from matplotlib.patches import Patch
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.result import PointResult
 from ehlectric.field.zones import HIGH_FIELD
-from ehlectric.figures.contact_curves import (
-    breakdown_figures_of,
-    heat_figures_of,
-    limit_line,
-    meter_figures_of,
-)
+from ehlectric.figures.contact_curves import limit_line
 from ehlectric.figures.contact_findings import has_spike, strength_limit
 from ehlectric.figures.contact_maps import (
     Range,
@@ -42,10 +37,8 @@ from ehlectric.figures.contact_maps import (
     round_levels,
     say,
     smoothed,
-    spots_figures_of,
 )
 from ehlectric.figures.contact_profiles import Cut
-from ehlectric.figures.figure_names import ROUGHNESS_FIGURE
 from ehlectric.figures.film_section import draw_section
 from ehlectric.figures.style import axes_or_new, figure_of, label_position, legend_above, new_panels
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE, OUT_OF_RANGE
@@ -57,8 +50,7 @@ _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the pressure on two cuts, through the centre and through the minimum film, and the Hertz pressure.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the pressure over x/b or y/b,
-    and a legend above them.
+    Returns axes with the pressure over x/b or y/b, and a legend above them.
     """
     ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
@@ -78,9 +70,8 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
 def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the film thickness on two cuts, through the centre and through the minimum film.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the film up to twice the
-    central or the mean film thickness, whichever is larger; a dotted line shows the film with smooth
-    surfaces, if it was solved for a rough contact.
+    Returns axes with the film up to twice the central or the mean film thickness, whichever is larger; a
+    dotted line shows the film with smooth surfaces, if it was solved for a rough contact.
     """
     ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
@@ -98,8 +89,7 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
 
 def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the field strength at mid-film on two cuts, through the centre and through the maximum field.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the field strength as lines,
-    and the thin-gap estimate V12/h as wide bands behind them.
+    Returns axes with the field strength as lines, and the thin-gap estimate V12/h as wide bands behind them.
     """
     ax, field = axes_or_new(ax), result.field
     factor, unit = unit_for(field.max_strength, "V/m")
@@ -166,8 +156,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
     The cuts run through the centre and through the minimum film, or for the field through its maximum.
 
-    ``axes``, six axes to draw on, in three rows of two; axes of a new figure if omitted. Returns the first
-    axes, with the pressure along entrainment.
+    Returns the first axes, with the pressure along entrainment.
     """
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
     for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
@@ -181,7 +170,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw a section of the film through the maximum field: field strength as colours, and equipotentials.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the section and a colour bar.
+    Returns axes with the section and a colour bar.
     """
     ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
@@ -239,8 +228,7 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
 
     The colours show the field strength. Both sections have the same scale of heights.
 
-    ``axes``, two axes to draw on; axes of a new figure if omitted. Returns the first axes, with the section
-    along entrainment.
+    Returns the first axes, with the section along entrainment.
     """
     axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):
@@ -270,9 +258,7 @@ _CAVITATED = "#e3e6ea"
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Draw a map of the film thickness with lines of equal thickness, and mark the minimum. ``ax``, axes to
-    draw on; axes of a new figure if omitted.
-    """
+    """Draw a map of the film thickness with lines of equal thickness, and mark the minimum."""
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = film_unit(result)
@@ -313,8 +299,8 @@ def _in_metres(result: PointResult, window: tuple[Range, Range]) -> tuple[Range,
 
 
 def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched. ``ax``, axes
-    to draw on; axes of a new figure if omitted. Returns axes with the map, and a colour bar beside them.
+    """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched. Returns axes
+    with the map, and a colour bar beside them.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -363,8 +349,7 @@ def _cavitated(result: PointResult, ax: Axes) -> Patch:
 
 def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
     """Draw a map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the map and its colour bar,
-    which ends at the largest field of all three sections.
+    Returns axes with the map and its colour bar, which ends at the largest field of all three sections.
     """
     field, window = result.field, field_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -407,8 +392,6 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
     """Draw maps of the deviation of the field strength from the thin-gap estimate V12/h.
 
     The maps are of both walls and of mid-film; one map serves both walls where they are alike.
-
-    ``axes``, three axes to draw on; axes of a new figure if omitted. Returns the first axes.
     """
     field, window = result.field, field_window(result)
     panels = {name: 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS}
@@ -425,9 +408,8 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film.
-    ``axes``, two axes to draw on, or one if the smooth contact was not solved; axes of a new figure if
-    omitted. Returns the first axes, with the heights; peaks of either surface are positive.
+    """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film. Returns
+    the first axes, with the heights; peaks of either surface are positive.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
@@ -482,7 +464,7 @@ def _compared(
     return axes[0]
 
 
-POINT_FIGURES: dict[str, Callable[..., Axes]] = {
+FIGURES: dict[str, Callable[..., Axes]] = {
     "film_map.png": film_map,
     "pressure_map.png": pressure_map,
     "field_map.png": field_map,
@@ -490,16 +472,3 @@ POINT_FIGURES: dict[str, Callable[..., Axes]] = {
     "field_sections.png": field_sections,
     "cuts.png": cuts,
 }
-
-
-def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
-    """Functions that draw the figures of a point contact, by file name."""
-    rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
-    return (
-        POINT_FIGURES
-        | rough
-        | heat_figures_of(result)
-        | breakdown_figures_of(result)
-        | meter_figures_of(result)
-        | spots_figures_of(result)
-    )

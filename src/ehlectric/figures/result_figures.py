@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,6 @@ from ehlectric.figures import drive_figures as drive
 from ehlectric.figures import measured_figures as measured
 from ehlectric.figures import motion_figures as motion
 from ehlectric.figures import sweep_figures as sweep
-from ehlectric.figures.bearing_figure_files import bearing_figures_of
-from ehlectric.figures.drive_figures import drive_figures_of
 from ehlectric.figures.figure_names import (
     BEARING_FIGURE_FILES,
     MEASURED_FIGURE,
@@ -34,6 +33,7 @@ from ehlectric.figures.figure_names import (
     in_formats,
     map_files,
 )
+from ehlectric.figures.style import save_each
 from ehlectric.figures.style import style as styled
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MotionRun
@@ -54,32 +54,17 @@ def default_figure(result: Any, **options: Any) -> _Default:
     """Name and options of the figure that tells most about a result. Returns ``name``, name of the figure;
     ``options``, options of ``figure``; empty for results other than sweeps.
     """
-    choose = next(choice for kind, choice in _CHOICES.items() if isinstance(result, kind))
-    return choose(result, options)
+    if isinstance(result, SweepResults):
+        return _of_sweep(result, options)
+    choose = next(choice for kind, choice in _DEFAULTS.items() if isinstance(result, kind))
+    return choose(result), {}
 
 
-def _of_line(result: Result, _options: Mapping[str, Any]) -> _Default:
-    return ("field_profiles.png" if result.discharge is not None else "film.png"), {}
-
-
-def _of_point(result: PointResult, _options: Mapping[str, Any]) -> _Default:
-    return ("field_map.png" if result.discharge is not None else "film_map.png"), {}
-
-
-def _of_bearing(result: BearingResult, _options: Mapping[str, Any]) -> _Default:
+def _of_bearing(result: BearingResult) -> str:
     """Breakdown over speed where there is a breakdown voltage, else the loads."""
     if result.breaks()["first_break"] is not None:
-        return "breakdown_over_speed.png", {}
-    return next(iter(bearing_figures_of(result))), {}
-
-
-def _of_drive(result: DriveResult, _options: Mapping[str, Any]) -> _Default:
-    """Voltages over time, else how long which voltages last."""
-    return next(iter(drive_figures_of(result))), {}
-
-
-def _of_motion(_result: MotionResult, _options: Mapping[str, Any]) -> _Default:
-    return "motion_history.png", {}
+        return "breakdown_over_speed.png"
+    return next(iter(bearing.bearing_figures_of(result)))
 
 
 def _of_sweep(results: SweepResults, options: Mapping[str, Any]) -> _Default:
@@ -124,14 +109,15 @@ def _numeric(results: SweepResults) -> list[str]:
     return [key for key, values in columns.items() if len(values) > 1 and isinstance(first[key], int | float)]
 
 
-_CHOICES: Mapping[type, Callable[[Any, Mapping[str, Any]], _Default]] = {
-    Result: _of_line,
-    PointResult: _of_point,
+# Default figure of each kind of result. That of a drive is the first of its figures: voltages over time, else
+# how long which voltages last.
+_DEFAULTS: Mapping[type, Callable[[Any], str]] = {
+    Result: lambda result: "film.png" if result.discharge is None else "field_profiles.png",
+    PointResult: lambda result: "film_map.png" if result.discharge is None else "field_map.png",
     BearingResult: _of_bearing,
-    DriveResult: _of_drive,
-    MotionResult: _of_motion,
-    SweepResults: _of_sweep,
-    FilmFactors: lambda _factors, _options: (MEASURED_FIGURE, {}),
+    DriveResult: lambda result: next(iter(drive.drive_figures_of(result))),
+    MotionResult: lambda _: "motion_history.png",
+    FilmFactors: lambda _: MEASURED_FIGURE,
 }
 
 
@@ -210,7 +196,8 @@ def figure_names(result: AnyResult) -> list[str]:
     list of str
         Names for ``figure``, without the ending of a file.
     """
-    return [_stem(name) for name in _draws_of(result).names(_opened(result))]
+    draws, opened = _draws_of(result), _opened(result)
+    return [_stem(name) for name in (*draws.names(opened), *draws.more_names(opened))]
 
 
 def draw_figures(
@@ -225,7 +212,10 @@ def draw_figures(
     """
     in_formats((), formats)
     with alone_in(folder, locks=[FIGURE_LOCK]) as folder, styled(style):
-        return _draws_of(result).save(result, folder, formats)
+        draws, opened = _draws_of(result), _opened(result)
+        files = save_each(partial(draws.figure, opened), draws.names(opened), folder, formats)
+        over_speed, left_out = draws.save_more(opened, folder, formats)
+        return Drawn((*files, *over_speed), tuple(left_out))
 
 
 def save_figures(
@@ -260,44 +250,22 @@ def save_figures(
 
 @dataclass(frozen=True)
 class _Draws:
-    """Functions that draw one kind of result: a figure by name, the names, and all figures as files."""
+    """Functions that draw one kind of result."""
 
-    figure: Callable[..., Figure]
-    names: Callable[[Any], Any]
-    save: Callable[[Any, Path, Sequence[str]], Drawn]
-
-
-def _save_contact(result: Result | PointResult, folder: Path, formats: Sequence[str]) -> Drawn:
-    return Drawn(tuple(contact.save_figures(result, folder, formats)))
+    figure: Callable[..., Figure]  # a figure by its name
+    names: Callable[[Any], Iterable[str]]  # names of the figures that are drawn as files
+    # Names of the figures over speeds or varied keys, and the function that draws those over speeds as files.
+    more_names: Callable[[Any], list[str]] = lambda _: []
+    save_more: Callable[..., tuple[list[Path], list[ResultWarning]]] = lambda *_: ([], [])
 
 
-def _save_bearing(result: BearingResult, folder: Path, formats: Sequence[str]) -> Drawn:
-    files = bearing.save_bearing_figures(result, folder, formats)
-    over_speed, left_out = bearing.save_over_speed(result, folder, formats)
-    return Drawn((*files, *over_speed), tuple(left_out))
-
-
-def _save_drive(result: DriveResult, folder: Path, formats: Sequence[str]) -> Drawn:
-    return Drawn(tuple(drive.save_drive_figures(result, folder, formats)))
-
-
-def _save_motion(result: xr.Dataset | MotionRun, folder: Path, formats: Sequence[str]) -> Drawn:
-    dataset = result.dataset if isinstance(result, MotionRun) else result
-    return Drawn(tuple(motion.save_motion_figures(dataset, folder, formats)))
-
-
-def _save_measured(factors: FilmFactors, folder: Path, formats: Sequence[str]) -> Drawn:
-    return Drawn(tuple(measured.save_measured_figures(factors, folder, formats)))
-
-
-def _names_of_bearing(result: BearingResult) -> list[str]:
-    """Names of the figures of a bearing, also over speed as far as its quick contacts have them."""
+def _names_over_speed(result: BearingResult) -> list[str]:
+    """Names of the figures of a bearing over speed, as far as its quick contacts have them."""
     case, _ = quick_case(result.case)
     if case is None:
-        return list(bearing.bearing_figures_of(result))
+        return []
     breaks = case.discharge.has_strength and not result.solution.conditions.ceramic
-    over_speed = [name for name in bearing.SPEED_FIGURES if breaks or not name.startswith("breakdown")]
-    return [*bearing.bearing_figures_of(result), *over_speed]
+    return [name for name in bearing.SPEED_FIGURES if breaks or not name.startswith("breakdown")]
 
 
 def _names_of_sweep(results: SweepResults) -> list[str]:
@@ -357,17 +325,19 @@ def _stem(name: str) -> str:
     return in_formats([name])[0].removesuffix(".png")
 
 
-_CONTACT = _Draws(contact.figure, contact.drawings_of, _save_contact)
-_MOTION = _Draws(motion.figure, motion.drawings_of, _save_motion)
+_CONTACT = _Draws(contact.figure, contact.drawings_of)
+_MOTION = _Draws(motion.figure, motion.drawings_of)
 _DRAWS: dict[type, _Draws] = {
     Result: _CONTACT,
     PointResult: _CONTACT,
-    BearingResult: _Draws(bearing.figure, _names_of_bearing, _save_bearing),
-    DriveResult: _Draws(drive.figure, drive.drive_figures_of, _save_drive),
-    FilmFactors: _Draws(measured.figure, measured.measured_figures_of, _save_measured),
+    BearingResult: _Draws(
+        bearing.figure, bearing.bearing_figures_of, _names_over_speed, bearing.save_over_speed
+    ),
+    DriveResult: _Draws(drive.figure, drive.drive_figures_of),
+    FilmFactors: _Draws(measured.figure, lambda _: [MEASURED_FIGURE]),
     xr.Dataset: _MOTION,
     MotionRun: _MOTION,
-    SweepResults: _Draws(sweep.figure, _names_of_sweep, lambda _results, _folder, _formats: Drawn(())),
+    SweepResults: _Draws(sweep.figure, lambda _: [], _names_of_sweep),
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -22,6 +22,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
+from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.text import Annotation
 from matplotlib.textpath import text_to_path
 from matplotlib.ticker import (
@@ -168,6 +169,11 @@ def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: boo
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
 
+def outlined(width: float, colour: str = "white") -> list[AbstractPathEffect]:
+    """Edge of a line or text [pt], which keeps it visible on any colour."""
+    return [cast("AbstractPathEffect", withStroke(linewidth=width, foreground=colour))]
+
+
 def axes_or_new(ax: Axes | None) -> Axes:
     """``ax`` itself, or the axes of a new figure where ``ax`` is None."""
     return new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
@@ -258,6 +264,13 @@ def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -
             figure.savefig(content, format=kind, metadata=metadata)
         write(file, content.getvalue())
     return files
+
+
+def save_each(
+    figure_by: Callable[[str], Figure], names: Iterable[str], folder: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Draw the figures of some names, and write each as a file of each format."""
+    return [file for name in names for file in save_figure(figure_by(name), folder / name, formats)]
 
 
 def drawing_of(drawings: Mapping[str, D], name: str) -> D:

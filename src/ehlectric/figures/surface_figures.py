@@ -20,9 +20,7 @@ _BEYOND = 0.1
 
 
 def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title. ``ax``, axes to
-    draw on; those of a new figure if omitted.
-    """
+    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title."""
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
@@ -38,9 +36,9 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
 
 
 def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar. ``ax``, axes to
-    draw on; those of a new figure if omitted. Returns axes with the map, x and y to the same scale, and a
-    colour bar; the lowest and the highest 0.1 % of the heights lie beyond the ends of the colours.
+    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar. Returns axes with
+    the map, x and y to the same scale, and a colour bar; the lowest and the highest 0.1 % of the heights lie
+    beyond the ends of the colours.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)

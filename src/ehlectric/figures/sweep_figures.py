@@ -19,7 +19,15 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing_figure_files import save_speed_figures
 from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats, map_files
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above, new_panels, save_figure, style
+from ehlectric.figures.style import (
+    axes_or_new,
+    figure_of,
+    legend_above,
+    new_panels,
+    save_each,
+    save_figure,
+    style,
+)
 from ehlectric.figures.sweep_lines import LinePath, joined, lines_of, value_lines
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_points import (
@@ -151,8 +159,7 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
 
     For a breakdown voltage or a margin, the applied voltage is drawn too.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the share of samples below
-    each value; the samples are the solved points of A and B.
+    Returns axes with the share of samples below each value; the samples are the solved points of A and B.
     """
     ax = axes_or_new(ax)
     samples = np.sort(_drawn(results, analysis.value))
@@ -194,8 +201,7 @@ def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, scale: Scal
 
 def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
     """Draw the first-order and the total sensitivity index of each input with their confidence intervals.
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the indices as bars, the input
-    with the largest total index on top.
+    Returns axes with the indices as bars, the input with the largest total index on top.
     """
     ax = axes_or_new(ax)
     ordered = sorted(analysis.indices, key=lambda index: index.total)
@@ -298,13 +304,9 @@ def save_maps(
 ) -> list[Path]:
     """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``take`` raises it."""
     numeric = take(results, x, y, value, at).numeric
-    pairs = zip(map_files(value), map_files(value, at), strict=True)
-    wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
-    return [
-        file
-        for name, path in wanted
-        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / path, formats)
-    ]
+    names = dict(zip(map_files(value, at), map_files(value), strict=True))
+    wanted = [file for file in names if (y is not None and numeric) or file.startswith("lines_")]
+    return save_each(lambda file: figure(results, names[file], x=x, y=y, at=at), wanted, folder, formats)
 
 
 def save_speeds(

@@ -149,9 +149,9 @@ def value_lines(
 ) -> Axes:
     """Draw a value of the summaries over one varied key, with a line for each value of a second key.
 
-    ``y``, second varied key, of numbers or texts; None for a single line; ``ax``, axes to draw on; axes of a
-    new figure if omitted. Returns axes with the lines, interpolated between points as in a map. Raises
-    InputError if ``ehlectric.sweep.slices.take`` refuses the keys or values.
+    ``y``, second varied key, of numbers or texts; None for a single line; Returns axes with the lines,
+    interpolated between points as in a map. Raises InputError if ``ehlectric.sweep.slices.take`` refuses the
+    keys or values.
     """
     selection = take(results, x, y, value, at)
     ax = axes_or_new(ax)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.tri import Triangulation
 
 from ehlectric.arrays import Array, Mask
@@ -26,6 +25,7 @@ from ehlectric.figures.style import (
     legend_above,
     levels_of,
     norm_of,
+    outlined,
     scale_axis,
 )
 from ehlectric.figures.sweep_points import (
@@ -71,14 +71,13 @@ def value_map(
 ) -> Axes:
     """Draw a map of a value of the summaries over two varied keys.
 
-    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the map and a colour bar;
-    cells are coloured if all of their corner points have a value; points without one are marked in a hole of
-    the map. Between points the value, or the logarithm of positive values if an axis is logarithmic, is
-    linear in the axes as they are drawn. Maps of ``discharge`` values and of a bearing's breakdown voltages
-    have a line on which the breakdown voltage equals the applied voltage; the side that breaks down is
-    hatched. Maps of the share of time in which a bearing conducts have the colours of its regimes and lines
-    at 1, 10, 50 and 99 %. Raises InputError if ``ehlectric.sweep.slices.take`` refuses the keys or values, or
-    values of ``y`` are not numbers.
+    Returns axes with the map and a colour bar; cells are coloured if all of their corner points have a value;
+    points without one are marked in a hole of the map. Between points the value, or the logarithm of positive
+    values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of ``discharge`` values
+    and of a bearing's breakdown voltages have a line on which the breakdown voltage equals the applied
+    voltage; the side that breaks down is hatched. Maps of the share of time in which a bearing conducts have
+    the colours of its regimes and lines at 1, 10, 50 and 99 %. Raises InputError if
+    ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
     """
     selection = take(results, x, y, value, at)
     selection.check_numeric()
@@ -285,7 +284,7 @@ def _breakdown(between: _Between, ax: Axes) -> tuple[list[Artist], Array]:
         hatched.set_label(f"{about.name} below {applied}")
         return [hatched], taken
     line = ax.tricontour(*drawn, levels=[1.0], colors="black", linewidths=1.8)
-    line.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=3.2, foreground="white"))])
+    line.set_path_effects(outlined(3.2))
     taken = label_lines(ax, line, taken, ["margin 1"], **ON_BOX)
     hatched.set_label(f"below {about.voltage_name}")
     return [Line2D([], [], color="black", lw=1.8, label=f"margin 1 at {volts}"), hatched], taken

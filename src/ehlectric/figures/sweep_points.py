@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -17,14 +17,13 @@ from matplotlib.colors import to_rgba
 from matplotlib.contour import ContourSet
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.tri import Triangulation
 from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
 from ehlectric.cases.defaults import HOW
-from ehlectric.figures.style import name_over
+from ehlectric.figures.style import name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.sweep.labels import Label, label_of
@@ -39,7 +38,7 @@ ON_BOX: dict[str, Any] = {
 }
 ON_COLOURS: dict[str, Any] = {
     "color": "white",
-    "path_effects": [withStroke(linewidth=1.6, foreground="#222222")],
+    "path_effects": outlined(1.6, "#222222"),
     "zorder": 4.5,
 }
 
@@ -152,7 +151,7 @@ def fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) 
     if inside:
         own = [levels[k] for k in inside]
         lines = ax.tricontour(mesh, quantiles, levels=own, colors="black", linewidths=1.2, linestyles="-")
-        lines.set_path_effects([cast("AbstractPathEffect", withStroke(linewidth=2.2, foreground="white"))])
+        lines.set_path_effects(outlined(2.2))
         label_lines(ax, lines, taken, [f"{100.0 * _LINES[k]:g} %" for k in inside], **ON_BOX)
     return regime_handles()
 
@@ -288,7 +287,7 @@ def dot_size(selection: Slice, largest: float) -> float:
 def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
     """Draw the marks of points of one kind, above everything else in the axes."""
     # A white edge around the rings would hide the curves beside them.
-    edge = [] if kind in ("solved", "less accurate") else [withStroke(linewidth=2.6, foreground="white")]
+    edge = [] if kind in ("solved", "less accurate") else outlined(2.6)
     plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False, "path_effects": edge}
     ax.plot(x, y, **(plain | _look(kind) | look))
 

@@ -4,7 +4,6 @@ elements.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +13,12 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.quantities.bounds import bearing_bound_words, bearing_bounds
-from ehlectric.quantities.formats import Scale, amount, formatted, scale_for, scale_of
+from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, FILM_COLUMNS, LOAD_COLUMNS
 from ehlectric.quantities.units import rpm_text
+from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -45,7 +45,7 @@ def total_rows(summary: Summary) -> list[Row]:
     The first row is an alarm if a film is not converged.
     """
     rows = sheet_rows(BEARING, BEARING_BOOK, summary, _WORDS, bearing_bounds(BEARING_BOOK, summary))
-    return [*_status(summary), *rows]
+    return [*status_rows(summary), *rows]
 
 
 def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
@@ -59,7 +59,7 @@ def input_rows(summary: Summary) -> Iterator[Row]:
     return sheet_rows(BEARING[:1], BEARING_BOOK, summary, _WORDS)
 
 
-def _status(summary: Summary) -> Iterator[Row]:
+def status_rows(summary: Summary) -> Iterator[Row]:
     """Row that warns of films that are not converged."""
     if not summary["converged"]:
         yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
@@ -79,16 +79,9 @@ def films_table(summary: Summary) -> Table:
 
 def _contacts_table(summary: Summary, keys: tuple[str, ...]) -> Table:
     """Table with a row for each element and ring, and these columns."""
-    from rich.markup import escape
-    from rich.table import Table
-
-    table = Table(box=None, padding=(0, 2, 0, 0))
-    for name, unit in contact_heads(summary, keys):
-        # Rich would read a unit of small letters in brackets as a style.
-        table.add_column(escape(f"{name}\n{unit}".strip()), justify="right", no_wrap=True)
-    for row in summary["contacts"]:
-        table.add_row(*contact_cells(row, keys))
-    return table
+    heads = [f"{name}\n{unit}".strip() for name, unit in contact_heads(summary, keys)]
+    rows = (contact_cells(row, keys) for row in summary["contacts"])
+    return columns_table(heads, rows, left=(), padding=2)
 
 
 def contact_heads(summary: Summary, keys: tuple[str, ...]) -> Iterator[tuple[str, str]]:
@@ -116,10 +109,9 @@ def _cell(row: Mapping[str, Any], key: str) -> str:
     return formatted(scale_of(shown_unit(about, value)).of(value), about.digits)
 
 
-def _bearing(summary: Summary) -> Mapping[str, Any]:
+def _bearing(summary: Summary) -> Any:
     """Inputs of the table ``bearing``."""
-    found: Mapping[str, Any] = summary["inputs"]["bearing"]
-    return found
+    return summary["inputs"]["bearing"]
 
 
 def _of_temperature(summary: Summary) -> bool:
@@ -394,10 +386,6 @@ def _period(summary: Summary) -> str:
     return f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
 
 
-def _broken(summary: Summary) -> bool:
-    return bool(summary["bearing"]["margin"] < 1.0)
-
-
 def _limits(summary: Summary) -> str:
     low, *_, high = (f"{1e-6 * limit:g}" for limit in summary["bearing"]["current_density_limits"])
     return f", published limits {low} to {high} A/mm²"
@@ -447,20 +435,13 @@ def input_range(effect: Mapping[str, Any]) -> str:
     ends, unit = (effect["low_input"], effect["high_input"]), unit_of(effect["key"])
     if effect["key"] == OF_TABLE:
         unit = ""
-    if unit == "K":
-        return "{:.4g} to {:.4g} °C".format(*(end - 273.15 for end in ends))
     scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
-    low, high = (f"{end * scale.factor:.4g}" for end in ends)
+    low, high = (f"{scale.of(end):.4g}" for end in ends)
     return f"{low} to {high} {scale.unit}".rstrip()
 
 
-# Units that are printed for lengths and strengths of bearings, whatever their size.
-_SCALES = {
-    "rad": Scale(180.0 / math.pi, "deg"),
-    "V/m": Scale(1e-6, "V/µm"),
-    "N": Scale(1.0, "N"),
-    "m**2/s": Scale(1e6, "mm²/s"),
-}
+# Units that are printed whatever the size of a value, by their SI units.
+_SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N", "mm²/s")}
 
 
 _WORDS = Words(
@@ -542,7 +523,7 @@ _WORDS = Words(
         "bearing.lambda_ratio": lambda s: _state(s) in _TOUCH,
         "bearing.regime": lambda s: bool(s["bearing"]["regime"] != "capacitive"),
         "bearing.first_break": lambda s: bool(_state(s) == "conducting"),
-        "bearing.margin": _broken,
+        "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
     },
     rows={"margin.effects": _effects, "margin.left_out": _left_out},

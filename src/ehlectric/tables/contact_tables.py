@@ -19,7 +19,7 @@ from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.film_error import UNRESOLVED
 from ehlectric.quantities.bounds import bound_words, contact_bounds
-from ehlectric.quantities.formats import amount, formatted
+from ehlectric.quantities.formats import amount, formatted, scale_of
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT
@@ -405,16 +405,18 @@ def _by_outlet(summary: Summary) -> Any:
     found = summary.get("discharge")
     if found is None:
         return None
-    factor, unit = (1e9, "nF/m") if _geometry(summary) == "line" else (1e12, "pF")
-    ends = (formatted(factor * found[f"capacitance_{name}"], ".4g") for name in ("layers", "full"))
-    return " to ".join(ends), unit
+    return _between(found, ("layers", "full"), "nF/m" if _geometry(summary) == "line" else "pF")
 
 
 def _meter_range(summary: Summary) -> Any:
     found = summary.get("meter")
-    if found is None:
-        return None
-    return " to ".join(formatted(1e12 * found[f"capacitance_{name}"], ".4g") for name in ("air", "oil")), "pF"
+    return found and _between(found, ("air", "oil"), "pF")
+
+
+def _between(found: Summary, names: tuple[str, str], unit: str) -> tuple[str, str]:
+    """Range of capacitances of a table."""
+    ends = (formatted(scale_of(unit).of(found[f"capacitance_{name}"]), ".4g") for name in names)
+    return " to ".join(ends), unit
 
 
 def _share(name: str) -> Callable[[Summary], str]:

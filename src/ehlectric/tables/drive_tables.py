@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -16,6 +16,8 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
+from ehlectric.tables.bearing_tables import status_rows
+from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -34,13 +36,7 @@ def prepared_rows(summary: Summary) -> list[Row]:
 
 def drive_rows(summary: Summary) -> list[Row]:
     """Rows of a simulated drive, both bearings below each other."""
-    return [*_status(summary), *_rows(DRIVE, summary)]
-
-
-def _status(summary: Summary) -> Iterator[Row]:
-    """Row that warns of films that are not converged."""
-    if not summary["converged"]:
-        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
+    return [*status_rows(summary), *_rows(DRIVE, summary)]
 
 
 def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
@@ -96,13 +92,14 @@ def ends_table(summary: Summary) -> Table:
     rows: list[tuple[str, ...]] = []
     for heading, cells in end_cells(summary):
         rows += [(heading,), *((f"  {name}", *rest) for name, *rest in cells)]
-    return _table([printable(summary["title"]), *NAMES_OF_ENDS.values(), ""], rows)
+    heads = [printable(summary["title"]), *NAMES_OF_ENDS.values(), ""]
+    return columns_table(heads, rows, left=(0, 3), wrapped=(0,))
 
 
 def remedies_table(summary: Summary) -> Table:
     """Table of the drive and its remedies for the terminal; of the worse bearing of each."""
     heads, *rows = worse_cells(summary)
-    return _table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows)
+    return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
 
 
 def worse_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
@@ -129,19 +126,6 @@ def _drives(summary: Summary) -> Iterator[tuple[str, Mapping[str, Any]]]:
     yield "as it is", summary
     for one in summary["remedies"]:
         yield one["title"], one
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
-    """Table for the terminal, in which a row of one cell is a heading."""
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=None, padding=(0, 1, 0, 0))
-    for k, name in enumerate(head):
-        table.add_column(Text(name), justify="left" if k == 0 or not name else "right", no_wrap=bool(k))
-    for row in rows:
-        table.add_row(*(Text(cell) for cell in row), style="bold" if len(row) == 1 else None)
-    return table
 
 
 def _range(summary: Summary) -> tuple[str, str]:

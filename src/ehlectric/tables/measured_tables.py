@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.cases.defaults import HOW
@@ -43,6 +43,38 @@ def table_of(rows: Iterable[Row], title: str = "") -> Table:
     return table
 
 
+def columns_table(
+    heads: Sequence[str],
+    rows: Iterable[Iterable[str]],
+    title: str = "",
+    *,
+    left: Sequence[int] = (0,),
+    wrapped: Sequence[int] = (),
+    padding: int = 1,
+) -> Table:
+    """Table of columns for the terminal. ``left`` are the numbers of columns aligned to the left, ``wrapped``
+    of those whose texts may be broken into lines; a row of a single cell is a heading.
+    """
+    from rich.table import Table
+    from rich.text import Text
+
+    # Text keeps rich from reading brackets as a style.
+    table = Table(
+        title=Text(title) if title else None, title_justify="left", box=None, padding=(0, padding, 0, 0)
+    )
+    for k, head in enumerate(heads):
+        table.add_column(
+            Text(head),
+            justify="left" if k in left else "right",
+            no_wrap=k not in wrapped,
+            overflow="fold" if k in wrapped else "ellipsis",
+        )
+    for row in rows:
+        cells = [Text(cell) for cell in row]
+        table.add_row(*cells, style="bold" if len(cells) == 1 else None)
+    return table
+
+
 # Largest number of rows that are printed; measured.csv has all of them.
 _PRINTED = 30
 
@@ -57,29 +89,25 @@ def measured_tables(outcome: RunOutcome[Any]) -> Iterator[Table]:
 
 def rows_table(factors: FilmFactors) -> Table:
     """Table of the rows of a measurement with their film factors."""
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(title=Text("Rows of the measurement"), title_justify="left", box=None, padding=(0, 2, 0, 0))
     electric = factors.quantity == "capacitance"
     measured, unit, scale = ("capacitance", "pF", 1e12) if electric else ("film", "nm", 1e9)
     speed = "speed\n[rpm]" if electric else "u\n[m/s]"
-    for head in ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "+-"):
-        # Text keeps rich from reading brackets as a style.
-        table.add_column(Text(head), justify="right", no_wrap=True)
-    columns = factors.columns
+    heads = ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "+-")
+    columns, rows = factors.columns, []
     for k in range(min(len(factors.reasons), _PRINTED)):
         at = float(columns[factors.speed_key][k])
         error = columns["factor_uncertainty"][k] if "factor_uncertainty" in columns else math.nan
-        table.add_row(
-            f"{columns['line'][k]:.0f}",
-            f"{rpm(at) if electric else at:.4g}",
-            _number(scale * columns[measured][k]),
-            _number(scale * columns["computed"][k]),
-            "none" if factors.reasons[k] else f"{columns['film_factor'][k]:.3f}",
-            _number(error, ".2g"),
+        rows.append(
+            (
+                f"{columns['line'][k]:.0f}",
+                f"{rpm(at) if electric else at:.4g}",
+                _number(scale * columns[measured][k]),
+                _number(scale * columns["computed"][k]),
+                "none" if factors.reasons[k] else f"{columns['film_factor'][k]:.3f}",
+                _number(error, ".2g"),
+            )
         )
-    return table
+    return columns_table(heads, rows, "Rows of the measurement", left=(), padding=2)
 
 
 def _number(value: float, digits: str = ".4g") -> str:

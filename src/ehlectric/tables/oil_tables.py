@@ -16,6 +16,7 @@ from ehlectric.cases.library.bearing_catalogue import CatalogueBearing
 from ehlectric.cases.library.library_oils import KINDS, LibraryOil
 from ehlectric.cases.oil_report import OilReport, SurveyLine, celsius, depends_on_temperature, survey
 from ehlectric.runtime.files import column_head, csv_of
+from ehlectric.tables.measured_tables import columns_table
 
 CSV_FILE = "oil.csv"
 
@@ -81,23 +82,17 @@ def listed_oil(oil: LibraryOil) -> dict[str, Any]:
 
 def listed_tables(listed: Sequence[Mapping[str, Any]]) -> Iterator[Table]:
     """Tables of the oils of the library: numbers with the letters of their kinds, and what each oil is."""
-    numbers = _table()
-    numbers.add_column(Text("\n\nname"), no_wrap=True)
-    numbers.add_column(Text("\nrange\n[°C]"), justify="right", no_wrap=True)
-    for *_, head in _COLUMNS:
-        numbers.add_column(Text(head), justify="right", no_wrap=True)
-    for oil in listed:
-        ends = oil["temperature_range"]
-        span = "any" if ends is None else " to ".join(celsius(end).removesuffix(" °C") for end in ends)
-        numbers.add_row(oil["name"], span, *(_lettered(oil[key]) for key, *_ in _COLUMNS))
-    yield numbers
-    about = _table()
-    about.add_column("name", no_wrap=True)
-    about.add_column("oil", overflow="fold")
-    about.add_column("the case must give", no_wrap=True)
-    for oil in listed:
-        about.add_row(oil["name"], Text(oil["title"]), Text("\n".join(oil["needs"])))
-    yield about
+    heads = ("\n\nname", "\nrange\n[°C]", *(head for *_, head in _COLUMNS))
+    numbers = ((oil["name"], _span(oil), *(_lettered(oil[key]) for key, *_ in _COLUMNS)) for oil in listed)
+    yield columns_table(heads, numbers)
+    about = ((oil["name"], oil["title"], "\n".join(oil["needs"])) for oil in listed)
+    yield columns_table(("name", "oil", "the case must give"), about, left=range(3), wrapped=(1,))
+
+
+def _span(oil: Mapping[str, Any]) -> str:
+    """Range of temperatures of an oil [°C]."""
+    ends = oil["temperature_range"]
+    return "any" if ends is None else " to ".join(celsius(end).removesuffix(" °C") for end in ends)
 
 
 def _lettered(entry: Mapping[str, Any] | None) -> str:
@@ -118,15 +113,12 @@ def heading(report: OilReport) -> str:
 
 def values_table(report: OilReport) -> Table:
     """Table of the values of an oil: properties and pressures below each other, temperatures beside."""
-    table = _table()
-    table.add_column("", no_wrap=True)
-    for kelvin in report.temperatures:
-        table.add_column(celsius(kelvin) or "as given", justify="right", no_wrap=True)
+    heads = ["", *(celsius(kelvin) or "as given" for kelvin in report.temperatures)]
+    rows = []
     for line in _shown(report):
         _, unit = _unit(line)
-        name = f"{_name(line)} [{unit}]" if unit else _name(line)
-        table.add_row(Text(name), *_cells(report, line))
-    return table
+        rows.append((f"{_name(line)} [{unit}]" if unit else _name(line), *_cells(report, line)))
+    return columns_table(heads, rows)
 
 
 def _shown(report: OilReport) -> Iterator[SurveyLine]:
@@ -162,31 +154,24 @@ def _cells(report: OilReport, line: SurveyLine) -> Iterator[str]:
 def behind_table(report: OilReport) -> Table:
     """Table of the law, the kind and the numbers of the sources behind each property."""
     number = {source: k for k, source in enumerate(report.sources, 1)}
-    table = _table()
-    for head in ("property", "law", "weakest source", "sources"):
-        table.add_column(head, no_wrap=True)
-    told = set()
+    rows: dict[tuple[str, bool], tuple[str, ...]] = {}
     for line in _shown(report):
         compressed = line.pressure > 0.0
-        if line.missing or (line.of.name, compressed) in told:
+        if line.missing or (line.of.name, compressed) in rows:
             continue
-        told.add((line.of.name, compressed))
         name = "  compressed" if compressed and line.of.name != "density_ratio" else line.of.title
         numbers = ", ".join(str(number[source]) for source in line.sources)
-        table.add_row(*map(Text, (name, line.law, line.kind, numbers)))
-    return table
+        rows[line.of.name, compressed] = (name, line.law, line.kind, numbers)
+    return columns_table(("property", "law", "weakest source", "sources"), rows.values(), left=range(4))
 
 
 def sources_table(report: OilReport) -> Table:
     """Table of the sources by number: kind, citation with DOI, and remark."""
-    table = _table()
-    table.add_column("", no_wrap=True, justify="right")
-    table.add_column("kind")
-    table.add_column("source")
+    rows = []
     for number, source in enumerate(report.sources, 1):
         doi = f", doi:{source.doi}" if source.doi else ""
-        table.add_row(str(number), source.kind, Text(f"{source.citation}{doi}\n{source.note}".strip()))
-    return table
+        rows.append((str(number), source.kind, f"{source.citation}{doi}\n{source.note}".strip()))
+    return columns_table(("", "kind", "source"), rows, left=(1, 2), wrapped=(1, 2))
 
 
 def csv_content(report: OilReport) -> Callable[[BinaryIO], None]:
@@ -208,11 +193,6 @@ def _csv_rows(report: OilReport) -> Iterator[list[Any]]:
                 line.of.name, line.of.unit or "-", oil.temperature, line.pressure, number,
                 report.beyond(line, oil), line.law, line.kind, cited, notes,
             ]  # fmt: skip
-
-
-def _table() -> Table:
-    """Empty table without lines."""
-    return Table(box=None, padding=(0, 1, 0, 0))
 
 
 # Heads of the columns after the name.

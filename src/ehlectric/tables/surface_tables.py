@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
-
-from rich.table import Table
-from rich.text import Text
+from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import printable
+from ehlectric.tables.measured_tables import columns_table
 
-# Columns of the statistics of a profile and of a map: head, key, and format of the number.
+if TYPE_CHECKING:
+    from rich.table import Table
+
+# Columns of the statistics of a profile and of a map: head, key, factor to the shown unit, and format.
+# Heights from 1 µm on have no decimals.
 _PROFILE_COLUMNS = (
-    ("Rq\n[nm]", "rq", "height"),
-    ("Ra\n[nm]", "ra", "height"),
-    ("Rsk", "rsk", ".2f"),
-    ("Rku", "rku", ".1f"),
-    ("corr.\nlength\n[µm]", "correlation_length", "length"),
-    ("max.\nslope", "largest_slope", ".2g"),
+    ("Rq\n[nm]", "rq", 1e9, ".1f"),
+    ("Ra\n[nm]", "ra", 1e9, ".1f"),
+    ("Rsk", "rsk", 1.0, ".2f"),
+    ("Rku", "rku", 1.0, ".1f"),
+    ("corr.\nlength\n[µm]", "correlation_length", 1e6, ".3g"),
+    ("max.\nslope", "largest_slope", 1.0, ".2g"),
 )
 _MAP_COLUMNS = (
-    ("Sq\n[nm]", "sq", "height"),
-    ("Sa\n[nm]", "sa", "height"),
-    ("Ssk", "ssk", ".2f"),
-    ("Sku", "sku", ".1f"),
-    ("corr.\nlength\nx [µm]", "correlation_length_x", "length"),
-    ("corr.\nlength\ny [µm]", "correlation_length_y", "length"),
-    ("max.\nslope", "largest_slope", ".2g"),
+    ("Sq\n[nm]", "sq", 1e9, ".1f"),
+    ("Sa\n[nm]", "sa", 1e9, ".1f"),
+    ("Ssk", "ssk", 1.0, ".2f"),
+    ("Sku", "sku", 1.0, ".1f"),
+    ("corr.\nlength\nx [µm]", "correlation_length_x", 1e6, ".3g"),
+    ("corr.\nlength\ny [µm]", "correlation_length_y", 1e6, ".3g"),
+    ("max.\nslope", "largest_slope", 1.0, ".2g"),
 )
 
 # Columns of the summits: head, key, factor to the shown unit, and format.
@@ -55,25 +57,12 @@ def surface_table(surface: dict[str, Any]) -> Table:
     """Table of a profile or map: its source and size, and its statistics after every processing step."""
     source = printable(surface["source"] or "generated")
     title = f"surface {surface['surface']}: {source}\n{size_text(surface)}"
-    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 1, 0, 0))
-    heads, rows = statistics_rows(surface)
-    table.add_column(heads[0], no_wrap=True)
-    for name in heads[1:]:
-        table.add_column(Text(name), justify="right", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    return table
+    return columns_table(*statistics_rows(surface), title)
 
 
 def summits_table(summits: Sequence[Mapping[str, float | None]]) -> Table:
     """Table of spectral moments and summits, a row for each sampling interval; a dash for no summits."""
-    table = Table(title=SUMMITS_TITLE, title_justify="left", box=None, padding=(0, 1, 0, 0))
-    heads, rows = summits_rows(summits)
-    for head in heads:
-        table.add_column(Text(head), justify="right", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    return table
+    return columns_table(*summits_rows(summits), SUMMITS_TITLE, left=())
 
 
 def summits_rows(
@@ -81,7 +70,7 @@ def summits_rows(
 ) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads of the moments and summits with their units, and a row for every sampling interval."""
     columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
-    rows = [tuple(_summit(row[key], factor, how) for _, key, factor, how in columns) for row in summits]
+    rows = [tuple(_number(row[key], factor, how) for _, key, factor, how in columns) for row in summits]
     return tuple(head for head, *_ in columns), rows
 
 
@@ -102,11 +91,20 @@ def statistics_rows(surface: Mapping[str, Any]) -> tuple[tuple[str, ...], list[t
     """Heads of the statistics of a profile or map with their units, and a row for every processing step."""
     of_map = "sq" in surface["steps"][0]
     columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS
-    heads = ("step", "points", *(head for head, _, _ in columns))
+    heads = ("step", "points", *(head for head, *_ in columns))
     rows = []
     for step in surface["steps"]:
         points = f"{step['points_x']}x{step['points_y']}" if of_map else str(step["points"])
-        rows.append((step["step"], points, *(_statistic(step[key], how) for _, key, how in columns)))
+        rows.append(
+            (
+                step["step"],
+                points,
+                *(
+                    _number(step[key], factor, ".0f" if factor == 1e9 and step[key] >= 1e-6 else how)
+                    for _, key, factor, how in columns
+                ),
+            )
+        )
     return heads, rows
 
 
@@ -117,16 +115,6 @@ def _size(size: list[int] | None) -> str:
     return " x ".join(str(count) for count in size if count > 1 or len(size) == 1) + " points"
 
 
-def _summit(value: float | None, factor: float, how: str) -> str:
-    """Number of a table of summits in its shown unit; a dash where there is none."""
+def _number(value: float | None, factor: float, how: str) -> str:
+    """Number in its shown unit; a dash where there is none."""
     return "\N{EN DASH}" if value is None else format(value * factor, how)
-
-
-def _statistic(value: float, how: str) -> str:
-    """Number of a statistic as a string, heights in nm and lengths in µm."""
-    match how:
-        case "height":
-            return f"{value * 1e9:.{1 if value < 1e-6 else 0}f}"
-        case "length":
-            return f"{value * 1e6:.3g}"
-    return format(value, how)

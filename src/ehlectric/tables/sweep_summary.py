@@ -14,6 +14,7 @@ from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
 from ehlectric.sweep.sweep_inputs import breakdown_of
+from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -77,20 +78,16 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
 
 def indices_table(results: SweepResults, sensitivity: Sensitivity) -> Table:
     """Table of the sensitivity indices of the varied inputs, sorted by decreasing total index."""
-    from rich.table import Table
-    from rich.text import Text
-
     title = f"Sobol indices: share of the variance of the {label_of(sensitivity.value, results.case).name}"
-    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 2, 0, 0))
-    table.add_column("input")
-    for head in ("first order", "95 % interval", "total", "95 % interval"):
-        table.add_column(head, justify="right", no_wrap=True)
-    for index in sorted(sensitivity.indices, key=lambda one: -one.total):
-        table.add_row(
+    heads = ("input", "first order", "95 % interval", "total", "95 % interval")
+    rows = (
+        (
             label_of(index.key, results.case).name,
             f"{index.first_order:.3f}",
             "{:.3f} to {:.3f}".format(*index.first_order_interval),
             f"{index.total:.3f}",
             "{:.3f} to {:.3f}".format(*index.total_interval),
         )
-    return table
+        for index in sorted(sensitivity.indices, key=lambda one: -one.total)
+    )
+    return columns_table(heads, rows, title, wrapped=(0,), padding=2)

@@ -19,7 +19,7 @@ from ehlectric.figures import figure_names as known
 from ehlectric.figures import motion_figures as of_motions
 from ehlectric.figures import sweep_figures as of_sweeps
 from ehlectric.figures.line_figures import FIGURES
-from ehlectric.figures.point_figures import POINT_FIGURES
+from ehlectric.figures.point_figures import FIGURES as POINT_FIGURES
 from ehlectric.figures.result_figures import draw_figures, figure_names
 from ehlectric.figures.style import name_over, new_panels, style
 from ehlectric.motion.run import run_motion

@@ -10,7 +10,7 @@ import xarray as xr
 from ehlectric import Case
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
-from ehlectric.figures.motion_figures import save_motion_figures
+from ehlectric.figures.result_figures import save_figures
 from ehlectric.motion import moving_contact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion, time_above
@@ -444,7 +444,7 @@ def test_a_stored_run_needs_no_surface_file(tmp_path, table):
     profile.unlink()
     dataset = read_motion(tmp_path)
     assert summary_of(dataset) == before
-    assert [file.name for file in save_motion_figures(dataset, tmp_path)] == list(MOTION_FIGURE_FILES[:2])
+    assert [file.name for file in save_figures(dataset, tmp_path)] == list(MOTION_FIGURE_FILES[:2])
 
 
 def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):

@@ -23,7 +23,7 @@ def square():
 
 
 def texts(table):
-    return [list(column.cells) for column in table.columns]
+    return [[str(cell) for cell in column.cells] for column in table.columns]
 
 
 @pytest.mark.parametrize("made", [profile, square])

@@ -8,6 +8,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from scipy.ndimage import binary_dilation, binary_erosion
 
+from ehlectric.figures.contact_figure_files import drawings_of
 from ehlectric.figures.contact_maps import film_window
 from ehlectric.figures.figure_names import ALL_FIGURES, POINT_FIGURE_FILES
 from ehlectric.figures.point_figures import (
@@ -20,7 +21,6 @@ from ehlectric.figures.point_figures import (
     field_sections,
     film_cut,
     film_map,
-    point_figures_of,
     pressure_cut,
     pressure_map,
     roughness,
@@ -304,7 +304,7 @@ def test_roughness_without_the_smooth_contact():
 @EVERY_KIND
 def test_figures_by_their_files(kind):
     result = result_of(kind)
-    names = list(point_figures_of(result))
+    names = list(drawings_of(result))
     assert names == [*POINT_FIGURE_FILES, *(["roughness.png"] if result.rough else [])]
     assert set(names) <= set(ALL_FIGURES)
     assert len(set(ALL_FIGURES)) == len(ALL_FIGURES)

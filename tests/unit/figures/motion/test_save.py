@@ -12,14 +12,14 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ehlectric import Case, InputError
+from ehlectric import Case, InputError, figure_names, save_figures
 from ehlectric.figures import motion_figures as motion_beside
 from ehlectric.figures import motion_figures as motion_history
 from ehlectric.figures import motion_figures as motion_maps
 from ehlectric.figures import style as drawing
 from ehlectric.figures.animation import line_frames, map_frames, save_animation
 from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
-from ehlectric.figures.motion_figures import beside_stationary, history, maps, save_motion_figures
+from ehlectric.figures.motion_figures import beside_stationary, history, maps
 from ehlectric.figures.motion_panels import speed_text
 from ehlectric.motion.stored_run import MotionRun, intervals_above
 from ehlectric.quantities.palette import OUT_OF_RANGE
@@ -130,7 +130,7 @@ def mesh_of(ax):
 
 def test_what_is_no_run_is_refused_in_one_line():
     with pytest.raises(InputError, match="'strength'") as caught:
-        save_motion_figures(by_hand().drop_vars("strength"), None)
+        figure_names(by_hand().drop_vars("strength"))
     assert "\n" not in str(caught.value)
 
 
@@ -351,7 +351,7 @@ def test_maps_say_the_extremes_and_are_grey_beyond_their_colours(run):
 @pytest.mark.parametrize("contact", [CONTACT, BALL])
 def test_figures_are_written(contact, tmp_path, monkeypatch):
     monkeypatch.setitem(drawing._SCREEN, "savefig.dpi", 60)
-    files = save_motion_figures(by_hand(contact=contact), tmp_path)
+    files = save_figures(by_hand(contact=contact), tmp_path)
     assert [file.name for file in files] == [HISTORY, MAPS, BESIDE]
     assert sorted(tmp_path.iterdir()) == sorted(files)
     for file in files:
@@ -370,8 +370,8 @@ def test_figures_are_written(contact, tmp_path, monkeypatch):
     ],
 )
 def test_figures_with_nothing_to_show_are_left_out(changes, left, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlectric.figures.motion_figures.save_figure", lambda _, path, *__: [path])
-    assert [file.name for file in save_motion_figures(by_hand(**changes), tmp_path)] == left
+    monkeypatch.setattr("ehlectric.figures.style.save_figure", lambda _, path, *__: [path])
+    assert [file.name for file in save_figures(by_hand(**changes), tmp_path)] == left
 
 
 def test_frames_show_their_instant(run):
