@@ -273,7 +273,9 @@ class Cause:
 
 def _codes() -> Iterator[tuple[str, Cause]]:
     """Causes by code, from ``warning_codes.toml``; groups of quantities may contain others."""
-    read = tomllib.loads(Path(__file__).with_name("warning_codes.toml").read_text("utf-8"))
+    read = tomllib.loads(
+        Path(__file__).parent.joinpath("quantities", "warning_codes.toml").read_text("utf-8")
+    )
 
     def keys(names: list[str]) -> Iterator[str]:
         for name in names:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.field import in_field_unit
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.field import in_field_unit
 from ehlectric.quantities.units import printed
 from tests.browser.driving import (
     complete,

@@ -11,8 +11,8 @@ import openpyxl
 import pytest
 from scipy.io import loadmat
 
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.field import in_field_unit
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.field import in_field_unit
 from tests.browser.driving import seen, type_into, wait_for_address, wait_for_number
 from tests.browser.outputs import address_of, command, downloaded
 from tests.helpers.places import EXAMPLES

@@ -24,7 +24,7 @@ from ehlectric.lubricant.electrical_laws import PERMITTIVITY_LAWS
 from ehlectric.lubricant.law import Law, Parameter
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 from ehlectric.runs.meaning import check
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import ROOT

@@ -38,7 +38,7 @@ from ehlectric.figures.style import style as styled
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import known_values
 from ehlectric.sweep.sweep_inputs import main_value

@@ -40,7 +40,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.formats import Scale, number_text
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
 from ehlectric.sweep.slices import Slice, numbers_of, spaced_log, take

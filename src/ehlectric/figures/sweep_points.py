@@ -26,7 +26,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.figures.style import name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
-from ehlectric.sweep.labels import Label, label_of
+from ehlectric.sweep.axis_labels import Label, label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice
 

@@ -1,4 +1,4 @@
-"""Inputs of the files: label, symbol and meaning of every key, and fields of the app, from ``inputs.toml``.
+"""Inputs of the files, from ``inputs_and_sliders.toml``: label, symbol and meaning of every key, form fields.
 
 Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. Units
 of SI stand with the bounds of a key in the tables of the package ``cases``.
@@ -45,7 +45,11 @@ class Input(Quantity):
 
 @cache
 def _contents() -> dict[str, dict[str, Any]]:
-    text = resources.files("ehlectric.quantities").joinpath("inputs.toml").read_text(encoding="utf-8")
+    text = (
+        resources.files("ehlectric.quantities")
+        .joinpath("inputs_and_sliders.toml")
+        .read_text(encoding="utf-8")
+    )
     return tomllib.loads(text)
 
 

@@ -25,7 +25,7 @@ from ehlectric.report.report_content import Block, Part, Section, Table, Text, l
 from ehlectric.report.report_facts import SWEPT, cell_table, pictures_of, row_tables, swept_names
 from ehlectric.report.report_texts import limits_of, references_of
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity

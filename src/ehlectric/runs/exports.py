@@ -22,7 +22,7 @@ from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import AnyResult, load
 from ehlectric.runtime.files import column_head, refuse_special, write
 from ehlectric.runtime.netcdf import load_library
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import flat
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.store import NAME as SWEEP

@@ -319,7 +319,7 @@ def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, 
 def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str]:
     """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
     from ehlectric.cases.input_keys import unit_of
-    from ehlectric.sweep.labels import label_of
+    from ehlectric.sweep.axis_labels import label_of
 
     unit = unit_of(key)
     if not all(isinstance(value, float) for value in values):

@@ -23,7 +23,7 @@ from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.values import Shown, headline, is_number
-from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat
 from ehlectric.sweep.sweep_verdict import sweep_verdict
 from ehlectric.version import __version__

@@ -26,7 +26,7 @@ from ehlectric.discharge.film_verdict import (
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point, SweepPoints
 
 # Reason for which a bearing with a lambda ratio below 1 has no margin.

@@ -12,8 +12,8 @@ from ehlectric.bearing.margin import OF_TABLE
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text
-from ehlectric.quantities.bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
+from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, FILM_COLUMNS, LOAD_COLUMNS

@@ -18,8 +18,8 @@ from ehlectric.contact.summary import case_summary
 from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.film_error import UNRESOLVED
-from ehlectric.quantities.bounds import bound_words, contact_bounds
 from ehlectric.quantities.formats import amount, formatted, scale_of
+from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT

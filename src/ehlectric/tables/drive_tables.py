@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
-from ehlectric.quantities.bounds import ideal_bounds
 from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_bounds import ideal_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES

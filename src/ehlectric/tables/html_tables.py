@@ -21,7 +21,7 @@ from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
 from ehlectric.quantities.palette import LIGHTS
 from ehlectric.quantities.rows import Row
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sweep_inputs import Sweep

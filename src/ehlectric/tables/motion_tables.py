@@ -9,7 +9,7 @@ from typing import Any
 from ehlectric.cases.case import Case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.touching import share_text
-from ehlectric.quantities.bounds import ideal_bounds
+from ehlectric.quantities.result_bounds import ideal_bounds
 from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK

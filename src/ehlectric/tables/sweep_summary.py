@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.quantities.quantity import Bound
 from ehlectric.quantities.rows import Row
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
 from ehlectric.sweep.sweep_inputs import breakdown_of

@@ -7,6 +7,7 @@ import tomllib
 import pytest
 
 from ehlectric.app.answers import BearingAnswer
+from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import told_of
 from ehlectric.app.compute.bearing_answers import (
     answer_of,
@@ -18,7 +19,6 @@ from ehlectric.app.compute.bearing_answers import (
     solve_contacts,
     whole_quick_answer,
 )
-from ehlectric.app.figures.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.page_warnings import Told, beside, counts, elsewhere
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.discharge.film_verdict import Verdict, ratio_text

@@ -7,9 +7,9 @@ import pytest
 
 from ehlectric import BearingCase, solve
 from ehlectric.app.answers import Effect, Result, effects, in_both, input_rows, only_in
+from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.compute.compare_answers import side, whole_side
 from ehlectric.app.compute.contact_answers import check_contact
-from ehlectric.app.figures import compare_charts as figures
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
 from ehlectric.errors import InputError

@@ -16,10 +16,10 @@ from ehlectric.app.compute.contact_answers import (
     solve_contact,
     view_of,
 )
-from ehlectric.app.fields.contact_fields import geometry_of, groups_of, switched
-from ehlectric.app.fields.field import written_text
-from ehlectric.app.fields.field_defaults import default_of
-from ehlectric.app.fields.field_rules import changed
+from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
+from ehlectric.app.form_fields.field import written_text
+from ehlectric.app.form_fields.field_defaults import default_of
+from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import contact_start
 from ehlectric.contact.solver import solve

@@ -3,7 +3,7 @@
 import pytest
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.fields.drive_fields import (
+from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     HALF,
     OTHER,
@@ -13,8 +13,8 @@ from ehlectric.app.fields.drive_fields import (
     with_remedy,
     without_remedy,
 )
-from ehlectric.app.fields.field_defaults import bearing_at, default_of, end_and_key
-from ehlectric.app.fields.field_rules import Memory, changed, is_own, own_values
+from ehlectric.app.form_fields.field_defaults import bearing_at, default_of, end_and_key
+from ehlectric.app.form_fields.field_rules import Memory, changed, is_own, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, DRIVE, drive_with
 from ehlectric.cases.amounts import Amount

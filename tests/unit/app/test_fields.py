@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.fields import BEARING_GROUPS, Field
+from ehlectric.app.form_fields import BEARING_GROUPS, Field
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import case_of_dict

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.app.charts.line_charts import line_figures
+from ehlectric.app.charts.plotly_panels import values
+from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.app.compute.contact_answers import view_of
-from ehlectric.app.figures.charts import values
-from ehlectric.app.figures.line_charts import line_figures
-from ehlectric.app.figures.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.contact.solver import solve
 from ehlectric.figures.contact_profiles import Line, heat
 from tests.conftest import PAPER_CONTACT
@@ -132,7 +132,7 @@ _MAPS = ("film-map", "pressure-map", "field-map")
 
 
 def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatch):
-    monkeypatch.setattr("ehlectric.app.figures.point_charts._MOST", 12)
+    monkeypatch.setattr("ehlectric.app.charts.point_charts._MOST", 12)
     shown = by_name(point_figures(point))["surface"]
     surface = written(shown)["data"][0]
     gap = point.field.z[:, :, -1] - point.field.z[:, :, 0]

@@ -2,7 +2,7 @@
 
 import tomllib
 
-from ehlectric.app.fields.field_rules import changed, own_values
+from ehlectric.app.form_fields.field_rules import changed, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.form import _sent
 from ehlectric.runs.example_files import example_text

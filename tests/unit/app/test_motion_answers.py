@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from ehlectric.app.charts.motion_charts import history, instants, nodes_shown
 from ehlectric.app.compute import motion_answers
-from ehlectric.app.figures.motion_charts import history, instants, nodes_shown
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError
 from ehlectric.motion.result import MotionResult
@@ -138,8 +138,8 @@ def test_halved_steps_are_marked(solved):
 @pytest.mark.slow
 def test_many_instants_are_thinned_with_the_extremes(solved, monkeypatch):
     _, run, _, _ = solved
-    monkeypatch.setattr("ehlectric.app.figures.motion_charts.MOST_INSTANTS", 5)
-    monkeypatch.setattr("ehlectric.app.figures.motion_charts.MOST_INSTANTS_OF_MAPS", 5)
+    monkeypatch.setattr("ehlectric.app.charts.motion_charts.MOST_INSTANTS", 5)
+    monkeypatch.setattr("ehlectric.app.charts.motion_charts.MOST_INSTANTS_OF_MAPS", 5)
     chosen = instants(run)
     assert chosen.size <= 5
     assert int(np.argmax(run.values("max_strength"))) in chosen

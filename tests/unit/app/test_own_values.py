@@ -4,12 +4,12 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.bearing_fields import OIL
-from ehlectric.app.fields.contact_fields import groups_of
-from ehlectric.app.fields.field_defaults import default_of
-from ehlectric.app.fields.field_rules import Memory, changed
-from ehlectric.app.fields.oil_fields import EXPANSION, assumed
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.bearing_fields import OIL
+from ehlectric.app.form_fields.contact_fields import groups_of
+from ehlectric.app.form_fields.field_defaults import default_of
+from ehlectric.app.form_fields.field_rules import Memory, changed
+from ehlectric.app.form_fields.oil_fields import EXPANSION, assumed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.quantities.units import to_si

@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.field_rules import changed, own_values
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.field_rules import changed, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.errors import InputError

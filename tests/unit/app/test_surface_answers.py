@@ -8,9 +8,9 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import Case, solve
+from ehlectric.app.charts.plotly_panels import coarser
+from ehlectric.app.charts.surface_charts import line_figure, map_figure
 from ehlectric.app.compute.surface_answers import look
-from ehlectric.app.figures.charts import coarser
-from ehlectric.app.figures.surface_charts import line_figure, map_figure
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,

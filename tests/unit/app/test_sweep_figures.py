@@ -3,7 +3,7 @@
 import json
 
 from ehlectric.app.answers import Axis, Chart, ChartPoint
-from ehlectric.app.figures.sweep_charts import chosen_trace, figure_of, place
+from ehlectric.app.charts.sweep_charts import chosen_trace, figure_of, place
 from tests.helpers.each import each
 
 STATES = ("failed", "not converged", "do not use", "no value", "open")

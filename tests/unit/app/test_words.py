@@ -5,8 +5,8 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.field import in_field_unit, shown_text, written_text
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.field import in_field_unit, shown_text, written_text
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import case_of_dict

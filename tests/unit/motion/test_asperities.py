@@ -6,7 +6,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from ehlectric.app.figures import motion_charts
+from ehlectric.app.charts import motion_charts
 from ehlectric.arrays import Array
 from ehlectric.figures.motion_figures import figure, of_history
 from ehlectric.film.flow import flow

@@ -13,7 +13,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.report.report_facts import row_tables
 from ehlectric.runs.solve import load
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.places import ROOT

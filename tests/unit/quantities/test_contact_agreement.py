@@ -8,15 +8,15 @@ import pytest
 from ehlectric.app.compute.contact_answers import view_of
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.contact.result import PointResult
-from ehlectric.quantities.bounds import contact_bounds
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.result_bounds import contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import shown_unit
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
 from ehlectric.report.report_content import Table
 from ehlectric.report.report_facts import row_tables
 from ehlectric.runs.solve import load
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.helpers.places import ROOT

@@ -15,7 +15,7 @@ from ehlectric.quantities.rows import shown_unit, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.report.report_content import Table
 from ehlectric.report.report_facts import row_tables
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.tables.html_tables import html_of
 from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import POINT, moving

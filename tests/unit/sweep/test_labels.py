@@ -14,8 +14,8 @@ from ehlectric.quantities.formats import scale_for
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import CONTACT_KEYS
 from ehlectric.quantities.units import to_si
+from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.points import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.drives import small_drive

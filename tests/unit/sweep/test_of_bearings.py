@@ -18,7 +18,7 @@ from ehlectric.figures.sweep_figures import save_speeds
 from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_points import held_text
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import take

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ehlectric import InputError
 from ehlectric.quantities.formats import scale_for
-from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.slices import spaced_log, surface_of, take
 from ehlectric.sweep.sweep_inputs import CONTACT

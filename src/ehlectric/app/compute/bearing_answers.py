@@ -20,8 +20,7 @@ from ehlectric.app.answers import (
     Number,
     Table,
 )
-from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, sentences_of, told_of
-from ehlectric.app.figures.bearing_charts import (
+from ehlectric.app.charts.bearing_charts import (
     SPEED_HEADS,
     Around,
     OverSpeed,
@@ -31,6 +30,7 @@ from ehlectric.app.figures.bearing_charts import (
     load_figure,
     speed_rows,
 )
+from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, sentences_of, told_of
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula

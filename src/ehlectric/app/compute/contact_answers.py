@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import ContactCheck, ContactView, Shown
+from ehlectric.app.charts.line_charts import Lengths, line_figures, spot_position
+from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.app.compute.answer_parts import cards, case_of, lines_of, told_of, with_warnings
-from ehlectric.app.figures.line_charts import Lengths, line_figures, spot_position
-from ehlectric.app.figures.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve

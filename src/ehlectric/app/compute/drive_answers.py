@@ -227,7 +227,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     InputError if the tables are no valid drive, or it cannot be simulated; LostError where the process of a
     contact was killed four times.
     """
-    from ehlectric.app.figures.drive_charts import drive_figures
+    from ehlectric.app.charts.drive_charts import drive_figures
 
     case = drive_of(table, session)
     progress(0, 0, _SOLVING if _is_solved(case) else SIMULATING)

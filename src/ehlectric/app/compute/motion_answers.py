@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import MotionAnswer
+from ehlectric.app.charts.motion_charts import history, instants, least_films, movie, texts, units
 from ehlectric.app.compute.answer_parts import case_of, told_of
-from ehlectric.app.figures.motion_charts import history, instants, least_films, movie, texts, units
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, warnings_of
 from ehlectric.motion.result import MotionResult

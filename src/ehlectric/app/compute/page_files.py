@@ -12,7 +12,7 @@ from typing import Any
 
 from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Download, Uploaded, Written
 from ehlectric.app.compute.answer_parts import kind_of, names_in, run_case_of, sweep_of, told_of, with_names
-from ehlectric.app.fields.field_rules import changed
+from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
 from ehlectric.cases.table import tables_of_text

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import StepFigure, SummitsTable, SurfaceAnswer
+from ehlectric.app.charts.surface_charts import line_figure, map_figure, profile_figure
 from ehlectric.app.compute.answer_parts import told_of, with_own_files
 from ehlectric.app.compute.contact_answers import FORMULA_BY_GEOMETRY
-from ehlectric.app.figures.surface_charts import line_figure, map_figure, profile_figure
 from ehlectric.app.page_warnings import Told
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case

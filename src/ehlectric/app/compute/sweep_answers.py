@@ -23,10 +23,10 @@ from ehlectric.app.answers import (
     SweepView,
     Variable,
 )
+from ehlectric.app.charts.sweep_charts import figure_of
 from ehlectric.app.compute import answer_parts, swept_drives
 from ehlectric.app.compute.answer_parts import run_case_of, told_of
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.figures.sweep_charts import figure_of
+from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.page_inputs import Inputs, number_of_text
 from ehlectric.app.page_warnings import Told
 from ehlectric.bearing.quick_contacts import is_quick
@@ -45,8 +45,8 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import in_unit, rpm, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
+from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.engine import case_key, solve_point
-from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.points import Point, flat
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.run import planned_points

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.drive_fields import DRIVE_GROUPS
-from ehlectric.app.fields.field import Field
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.field import Field
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase

@@ -12,8 +12,8 @@ from nicegui import ui
 
 from ehlectric.app.answers import Figure, Judged, Number, PageAnswer, Table
 from ehlectric.app.calls import Call
-from ehlectric.app.fields.field import Group
 from ehlectric.app.following import Following
+from ehlectric.app.form_fields.field import Group
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.page_warnings import Told, counts, elsewhere
 from ehlectric.app.pages.downloads import Downloads

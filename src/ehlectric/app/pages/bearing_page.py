@@ -9,7 +9,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import FOLLOWS, PENDING, RANGE_FOLLOWS, BearingAnswer, Difference, Table
 from ehlectric.app.calls import BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
-from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark

@@ -24,9 +24,9 @@ from ehlectric.app.answers import (
     only_in,
 )
 from ehlectric.app.calls import COMPARE_SIDE, COMPARE_WHOLE_SIDE, Call
-from ehlectric.app.fields import Group
-from ehlectric.app.figures import compare_charts as figures
+from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.following import Following
+from ehlectric.app.form_fields import Group
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages import page_parts
 from ehlectric.app.pages.answer_page import behind

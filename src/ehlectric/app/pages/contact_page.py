@@ -12,7 +12,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import ContactCheck, ContactView, Reach, Shown
 from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
-from ehlectric.app.fields.contact_fields import geometry_of, groups_of, switched
+from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form

@@ -10,7 +10,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import DriveAnswer
 from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
-from ehlectric.app.fields.drive_fields import (
+from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     PRESETS,
     SOURCE,

@@ -16,7 +16,7 @@ from nicegui import Client, events, ui
 
 from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.calls import FILES_UPLOADED
-from ehlectric.app.fields.field_rules import changed
+from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
 from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, tool, weakly
 from ehlectric.app.session import Session

@@ -24,10 +24,10 @@ from ehlectric.app.calls import (
     SWEEP_SEEN,
     SWEEP_SOLVED,
 )
-from ehlectric.app.fields import Group
-from ehlectric.app.fields.field import in_field_unit
-from ehlectric.app.figures.sweep_charts import chosen_trace
-from ehlectric.app.figures.sweep_charts import place as place_of_point
+from ehlectric.app.charts.sweep_charts import chosen_trace
+from ehlectric.app.charts.sweep_charts import place as place_of_point
+from ehlectric.app.form_fields import Group
+from ehlectric.app.form_fields.field import in_field_unit
 from ehlectric.app.page_inputs import (
     Inputs,
     Range,

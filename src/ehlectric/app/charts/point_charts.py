@@ -10,7 +10,19 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import Reach, Shown
-from ehlectric.app.figures.charts import (
+from ehlectric.app.charts.line_charts import (
+    BEFORE,
+    BEHIND,
+    BEYOND,
+    Lengths,
+    is_turned,
+    main_numbers,
+    mark,
+    spot_marks,
+    spot_position,
+    spots_text,
+)
+from ehlectric.app.charts.plotly_panels import (
     FIELD_COLOURS,
     FILM_COLOURS,
     INK,
@@ -23,18 +35,6 @@ from ehlectric.app.figures.charts import (
     plot,
     stack,
     values,
-)
-from ehlectric.app.figures.line_charts import (
-    BEFORE,
-    BEHIND,
-    BEYOND,
-    Lengths,
-    is_turned,
-    main_numbers,
-    mark,
-    spot_marks,
-    spot_position,
-    spots_text,
 )
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult

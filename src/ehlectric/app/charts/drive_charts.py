@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import Figure, Table
-from ehlectric.app.figures.charts import Plot, axis, log_ticks, plot, scatter, stack, vertical
+from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack, vertical
 from ehlectric.arrays import Array
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary

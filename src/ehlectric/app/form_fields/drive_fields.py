@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ehlectric.app.fields.bearing_fields import (
+from ehlectric.app.form_fields.bearing_fields import (
     ASSUMED,
     BREAKDOWN,
     CLEARANCE,
@@ -18,7 +18,7 @@ from ehlectric.app.fields.bearing_fields import (
     REPORT,
     SUMMITS,
 )
-from ehlectric.app.fields.field import (
+from ehlectric.app.form_fields.field import (
     Field,
     Group,
     Way,
@@ -30,7 +30,7 @@ from ehlectric.app.fields.field import (
     unequal,
     way_by,
 )
-from ehlectric.app.fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
+from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
 from ehlectric.quantities.inputs import form

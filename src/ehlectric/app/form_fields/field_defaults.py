@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
-from ehlectric.app.fields.field import Field, Group, Way, When
+from ehlectric.app.form_fields.field import Field, Group, Way, When
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 from ehlectric.quantities.inputs import ENDS

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ehlectric.app.catalogue import oil
-from ehlectric.app.fields.field import (
+from ehlectric.app.form_fields.field import (
     Field,
     Group,
     Way,
@@ -21,8 +21,8 @@ from ehlectric.app.fields.field import (
     never,
     way_by,
 )
-from ehlectric.app.fields.field_rules import changed
-from ehlectric.app.fields.oil_fields import oil as oil_fields
+from ehlectric.app.form_fields.field_rules import changed
+from ehlectric.app.form_fields.oil_fields import oil as oil_fields
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.inputs import form
 

@@ -7,7 +7,17 @@ from typing import Any
 
 from ehlectric.app.catalogue import oil as oil_named
 from ehlectric.app.catalogue import oil_needs
-from ehlectric.app.fields.field import Group, Way, both, equal, fields_of, given, list_of_ways, never, way_by
+from ehlectric.app.form_fields.field import (
+    Group,
+    Way,
+    both,
+    equal,
+    fields_of,
+    given,
+    list_of_ways,
+    never,
+    way_by,
+)
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 

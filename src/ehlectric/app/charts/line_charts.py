@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.app.answers import Shown
-from ehlectric.app.figures.charts import (
+from ehlectric.app.charts.plotly_panels import (
     FIELD_COLOURS,
     Indices,
     Plot,
@@ -20,7 +20,7 @@ from ehlectric.app.figures.charts import (
     thinned,
     values,
 )
-from ehlectric.app.figures.charts import axis as plot_axis
+from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.figures.contact_profiles import (

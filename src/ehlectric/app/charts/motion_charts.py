@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.charts import (
+from ehlectric.app.charts.line_charts import BEFORE, BEHIND
+from ehlectric.app.charts.plotly_panels import (
     FILM_COLOURS,
     NARROW,
     Plot,
@@ -20,9 +21,8 @@ from ehlectric.app.figures.charts import (
     thinned,
     vertical,
 )
-from ehlectric.app.figures.charts import axis as plot_axis
-from ehlectric.app.figures.charts import values as listed
-from ehlectric.app.figures.line_charts import BEFORE, BEHIND
+from ehlectric.app.charts.plotly_panels import axis as plot_axis
+from ehlectric.app.charts.plotly_panels import values as listed
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.motion.motion_touching import TouchHistory

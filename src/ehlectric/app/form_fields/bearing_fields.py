@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ehlectric.app.fields.field import (
+from ehlectric.app.form_fields.field import (
     ANGULAR,
     ROLLERS,
     Group,
@@ -21,7 +21,7 @@ from ehlectric.app.fields.field import (
     unequal,
     way_by,
 )
-from ehlectric.app.fields.oil_fields import oil
+from ehlectric.app.form_fields.oil_fields import oil
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 from ehlectric.quantities.inputs import form

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.charts import Plot, axis, log_ticks, plot, scatter, stack
+from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
 from ehlectric.cases.defaults import OF_CONTACTS

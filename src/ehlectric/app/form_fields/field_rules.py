@@ -11,9 +11,9 @@ from copy import deepcopy
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating
-from ehlectric.app.fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
-from ehlectric.app.fields.field import Field, Group, fitted_to_kind
-from ehlectric.app.fields.field_defaults import at_end, bearing_at, end_and_key
+from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
+from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind
+from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 from ehlectric.quantities import alternatives

@@ -6,7 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.charts import FILM_COLOURS, NARROW, axis, coarser, plot, scatter, thinned, values
+from ehlectric.app.charts.plotly_panels import (
+    FILM_COLOURS,
+    NARROW,
+    axis,
+    coarser,
+    plot,
+    scatter,
+    thinned,
+    values,
+)
 from ehlectric.arrays import Array
 from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
