@@ -25,19 +25,22 @@ from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
 
 
-def cards(rows: Iterable[Row], keys: Iterable[str]) -> list[Number]:
+def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number]:
     """Numbers of some keys, in the order of the keys; those that no row has are left out.
 
-    A key of the form "film_formulas.*.minimum_thickness" takes the first row of this form.
+    Each has in its note the quantities that stand small below it, the values of ``keys``. A key of the form
+    "film_formulas.*.minimum_thickness" takes the first row of this form.
     """
     known = {row.key: row for row in reversed([*rows]) if row.key}
-    found = []
-    for key in keys:
+    numbers = []
+    for key, further in keys.items():
         head, star, tail = key.partition("*")
-        own = [one for one in reversed(known) if star and one.startswith(head) and one.endswith(tail)]
-        if key in known or own:
-            found.append(card(known[own[0] if own else key]))
-    return found
+        matching = [one for one in reversed(known) if star and one.startswith(head) and one.endswith(tail)]
+        if key in known or matching:
+            number = card(known[matching[0] if matching else key])
+            below = (f"{known[name].name} {known[name].amount}" for name in further if name in known)
+            numbers.append(replace(number, note="; ".join(filter(None, [number.note, *below]))))
+    return numbers
 
 
 def card(row: Row) -> Number:

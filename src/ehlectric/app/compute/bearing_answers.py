@@ -94,14 +94,11 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     """
     rows = {row.key: row for row in total_rows(summary)}
     missing = _missing(summary, told, rows, whole=whole)
-    known = {one.key: one for one in cards(rows.values(), [*BEARING_CARDS])} | missing
+    known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
     found = []
-    for key, further in BEARING_CARDS.items():
-        if key not in known:
-            continue
+    for key in (key for key in BEARING_CARDS if key in known):
         follows = RANGE_FOLLOWS if key == "bearing.margin" and not whole and _ranges(summary) else ""
-        beneath = (f"{rows[name].name} {rows[name].amount}" for name in further if name in rows)
-        note = "; ".join(filter(None, [follows, known[key].note, *beneath]))
+        note = "; ".join(filter(None, [follows, known[key].note]))
         near = tuple(one for one in beside(told, key) if known[key].known or one.code not in _BOUNDS)
         found.append(replace(known[key], note=note, told=near))
     return tuple(found) if summary["converged"] else tuple(map(_unusable, found))

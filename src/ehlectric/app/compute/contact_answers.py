@@ -56,7 +56,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     meaning = check(case)
     level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
-    keys = [key.replace("*", formula) for key in CHECK_CARDS]
+    keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
     numbers, others = with_warnings(cards(meaning.rows, keys), told_of(meaning.warnings))
     return ContactCheck(
         title=meaning.title,
