@@ -13,7 +13,7 @@ from tests.helpers.places import EXAMPLES
 def test_discharge_example(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "discharge.toml", "-o", "out", "--no-plots")
     assert (done.returncode, done.stderr) == (0, "")
-    for text in ("breakdown voltage", "at 15 V/µm", "outlet filling", "pit it melts", "A/mm²"):
+    for text in ("breakdown voltage", "at 15 V/µm", "outlet filling", "diameter of the pit", "A/mm²"):
         assert text in done.stdout
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
     found = summary["discharge"]

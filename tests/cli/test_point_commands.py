@@ -45,7 +45,7 @@ def test_run_writes_everything(ehlectric, point_file, tmp_path):
     assert done.returncode == 0, done.stderr
     assert names_in(tmp_path / "out") >= DATA
     assert names_in(tmp_path / "out") - DATA <= FIGURES
-    for text in ("minimum film", "semi-axis a across", "maximum field", "Hamrock-Dowson", "65 x 65", "pF"):
+    for text in ("minimum film", "semi-axis across", "maximum field", "Hamrock-Dowson", "65 x 65", "pF"):
         assert text in done.stdout
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
     assert (summary["converged"], summary["status"], summary["title"]) == (True, "converged", "A ball")

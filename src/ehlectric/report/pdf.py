@@ -10,7 +10,7 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import matplotlib as mpl
@@ -37,38 +37,19 @@ from reportlab.platypus import (
 )
 
 from ehlectric.errors import SEVERITY_WORDS, short
-from ehlectric.figures.style import style as figure_style
 from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.report.light import Light
-from ehlectric.report.report_content import Cell, Link, Picture, Report, Table, Text, Warnings
+from ehlectric.report.report_content import (
+    Cell,
+    Link,
+    Picture,
+    Report,
+    Table,
+    Text,
+    Warnings,
+    image_of,
+)
 from ehlectric.version import __version__
-
-# Resolution of pixels [1/inch].
-DPI = 200
-
-# Largest image of vectors [bytes]; maps have a path for each of their cells.
-_LARGEST = 400_000
-
-# Neither kind of image has a date, so that equal figures are equal files.
-_METADATA = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
-
-
-def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:
-    """Content of an image file of a figure."""
-    content = BytesIO()
-    with figure_style():
-        metadata = {**_METADATA[kind], "Title": picture.title}
-        picture.figure.savefig(content, format=kind, dpi=DPI, metadata=metadata)
-    return content.getvalue()
-
-
-def best_image(picture: Picture) -> tuple[str, bytes]:
-    """MIME type and content of a figure for a page: vectors, or pixels where vectors are too large."""
-    vectors = image_of(picture, "svg")
-    if len(vectors) <= _LARGEST:
-        return "image/svg+xml", vectors
-    return "image/png", image_of(picture, "png")
-
 
 # Fonts with Greek letters and signs, which matplotlib carries: name in the document, and file.
 _FONTS: Mapping[str, str] = MappingProxyType(

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from io import BytesIO
 from textwrap import shorten
 from typing import Any, Literal, TypeAlias
 
@@ -15,8 +16,18 @@ from matplotlib.figure import Figure
 from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import ResultWarning, Severity, printable
+from ehlectric.figures.style import style as figure_style
 from ehlectric.report.light import Light
 from ehlectric.report.report_texts import Limit, Reference
+
+# Resolution of pixels [1/inch].
+DPI = 200
+
+# Largest image of vectors [bytes]; maps have a path for each of their cells.
+_LARGEST = 400_000
+
+# Neither kind of image has a date, so that equal figures are equal files.
+_METADATA = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
 
 Tone = Literal["plain", "alarm", "code"]
 
@@ -161,3 +172,20 @@ def lead_of(result: Any) -> str:
         # The name of a bearing keeps its letters.
         line = f"Bearing {line}"
     return printable(f"{line[:1].upper()}{line[1:]}.").replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
+
+
+def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:
+    """Content of an image file of a figure."""
+    content = BytesIO()
+    with figure_style():
+        metadata = {**_METADATA[kind], "Title": picture.title}
+        picture.figure.savefig(content, format=kind, dpi=DPI, metadata=metadata)
+    return content.getvalue()
+
+
+def best_image(picture: Picture) -> tuple[str, bytes]:
+    """MIME type and content of a figure for a page: vectors, or pixels where vectors are too large."""
+    vectors = image_of(picture, "svg")
+    if len(vectors) <= _LARGEST:
+        return "image/svg+xml", vectors
+    return "image/png", image_of(picture, "png")

@@ -14,8 +14,7 @@ from jinja2 import Environment, StrictUndefined
 
 from ehlectric.errors import SEVERITY_WORDS, InputError, shown
 from ehlectric.report.light import Light
-from ehlectric.report.pdf import best_image
-from ehlectric.report.report_content import Link, Picture, Report, Table, Text, Warnings
+from ehlectric.report.report_content import Link, Picture, Report, Table, Text, Warnings, best_image
 from ehlectric.runtime.files import refuse_special, write
 
 # Name of each class of blocks in the template.
