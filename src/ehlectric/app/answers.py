@@ -485,7 +485,7 @@ class Difference:
 
 
 class PageAnswer:
-    """What the answers about a bearing and about a drive have in common."""
+    """Parts that the answers about a bearing and about a drive share."""
 
     judged: Judged  # the verdict in its parts
     how: str  # how the answer was computed, and how far off it may be
@@ -528,7 +528,7 @@ class BearingAnswer(PageAnswer):
 
 @dataclass(frozen=True)
 class ContactAnswer:
-    """What the answers about a contact before and after its solution have in common."""
+    """Parts that the answers about a contact before and after its solution share."""
 
     title: str
     geometry: str  # "line" or "point"

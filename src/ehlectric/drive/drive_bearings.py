@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
@@ -23,9 +22,6 @@ _IN_SERIES = 2.0
 
 # Share of time with metallic contact below which it is left out: a second in a week.
 _NEVER = 1e-6
-
-# Values at each position of the elements, in a file.
-_at_positions = partial(stored, "position", count="position_count")
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,4 @@
-"""What follows from the data sheet of an oil: viscosity index and grade, and its pressure-viscosity
-coefficient.
-"""
+"""Viscosity index, viscosity grade and pressure-viscosity coefficient from the data sheet of an oil."""
 
 from __future__ import annotations
 

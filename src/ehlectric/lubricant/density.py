@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import Law, parameter, parameters_of, refused, required
+from ehlectric.lubricant.law import Law, parameters_of, refused, required
 
 # Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
 # no contact compresses a liquid to its half.
@@ -182,9 +182,6 @@ def murnaghan_pressure(
     modulus = tait_modulus(temperature, murnaghan_k00, murnaghan_beta_k, "murnaghan")
     logarithm = np.log(np.asarray(density_ratio, dtype=float))
     return np.asarray(modulus * np.expm1(murnaghan_k0_prime * logarithm) / murnaghan_k0_prime)
-
-
-REFERENCE_TEMPERATURE = parameter("reference_temperature")
 
 
 TAIT = Law(

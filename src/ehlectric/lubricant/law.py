@@ -20,11 +20,9 @@ tables.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from inspect import signature
 from typing import Any, Protocol
 
@@ -33,7 +31,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.quantity import Quantity, data_file
 
 
 class PressureLaw(Protocol):
@@ -95,8 +93,8 @@ class Parameter:
 @cache
 def _parameters() -> dict[str, Parameter]:
     """Parameters of ``parameters.toml`` by their names."""
-    text = resources.files("ehlectric.lubricant").joinpath("parameters.toml").read_text(encoding="utf-8")
-    return {name: Parameter(name, **entry) for name, entry in tomllib.loads(text).items()}
+    entries = data_file("ehlectric.lubricant", "parameters.toml")
+    return {name: Parameter(name, **entry) for name, entry in entries.items()}
 
 
 def parameter(name: str) -> Parameter:

@@ -14,7 +14,12 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
-from ehlectric.quantities.results import LAW_NAMES
+
+# What the laws of an oil describe, in the order of files.
+LAW_NAMES = (
+    *("atmospheric", "viscosity", "density", "permittivity", "conductivity"),
+    *("thermal_conductivity", "heat_capacity", "strength"),
+)
 
 # Share of the integral of alpha* beyond its end above which a warning tells that it has no definite value.
 _UNFINISHED = 0.01

@@ -6,14 +6,12 @@ of SI stand with the bounds of a key in the tables of the package ``cases``.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib import resources
 from typing import Any, Literal
 
-from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.quantity import Quantity, data_file
 
 # Tables of the bearings of a drive file, and the name that stands for both.
 ENDS = ("drive_end", "non_drive_end")
@@ -45,12 +43,7 @@ class Input(Quantity):
 
 @cache
 def _contents() -> dict[str, dict[str, Any]]:
-    text = (
-        resources.files("ehlectric.quantities")
-        .joinpath("inputs_and_sliders.toml")
-        .read_text(encoding="utf-8")
-    )
-    return tomllib.loads(text)
+    return data_file("ehlectric.quantities", "inputs_and_sliders.toml")
 
 
 @cache

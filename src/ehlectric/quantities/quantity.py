@@ -6,9 +6,11 @@ of columns and the documentation look them up by key, and have no labels, units 
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from importlib import resources
+from typing import Any, Literal, TypeAlias
 
 # Sign of a value that is a bound only; empty for any other value.
 Bound: TypeAlias = Literal["", "≤", "≥"]
@@ -27,8 +29,8 @@ class Quantity:
     # there is none, or for "prefixed", the SI unit with the prefix that suits the value.
     shown: str = field(default="", kw_only=True)
     digits: str = field(default=".4g", kw_only=True)  # format of the shown number
-    # What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``bounds`` says
-    # whether it holds for a result.
+    # What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``result_bounds``
+    # says whether it holds for a result.
     bound: Bound = field(default="", kw_only=True)
     # Short label at the head of a column; if it is empty, the label.
     head: str = field(default="", kw_only=True)
@@ -37,6 +39,17 @@ class Quantity:
 # Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its
 # own; ``*`` stands for any single name.
 Keys = Mapping[str, Quantity]
+
+
+def data_file(package: str, name: str) -> dict[str, Any]:
+    """Contents of a data file in TOML that lies in a package.
+
+    Examples
+    --------
+    >>> sorted(data_file("ehlectric.quantities", "sheets.toml"))
+    ['cards', 'columns', 'main', 'sections', 'sheets']
+    """
+    return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
 
 
 def under(table: str, keys: Keys) -> dict[str, Quantity]:

@@ -7,12 +7,14 @@ breaks down at a lower voltage.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ehlectric.quantities.quantity import Bound, Keys
 from ehlectric.quantities.rows import Summary, value_at
 
 
 def left_out(summary: Summary) -> tuple[str, ...]:
-    """What the film of a contact leaves out: "isothermal", "fully flooded", "smooth".
+    """Idealisations of the film of a contact: some of "isothermal", "fully flooded" and "smooth".
 
     Examples
     --------
@@ -49,11 +51,7 @@ def contact_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     always = {"asperities.resistance"}
     never = {"field.max_strength"} if value_at(summary, "asperities.spots") else set()
     ideal = bool(left_out(summary))
-    return {
-        key: about.bound
-        for key, about in book.items()
-        if about.bound and key not in never and (ideal or key in always)
-    }
+    return _holding(book, lambda key: key not in never and (ideal or key in always))
 
 
 def ideal_bounds(book: Keys) -> dict[str, Bound]:
@@ -61,7 +59,12 @@ def ideal_bounds(book: Keys) -> dict[str, Bound]:
 
     Their films are ideal in any case: those of a drive are smooth, those of moving roughness isothermal.
     """
-    return {key: about.bound for key, about in book.items() if about.bound}
+    return _holding(book, lambda _: True)
+
+
+def _holding(book: Keys, holds: Callable[[str], bool]) -> dict[str, Bound]:
+    """Bounds of the book that hold, by dotted key."""
+    return {key: about.bound for key, about in book.items() if about.bound and holds(key)}
 
 
 def ideal_bearing(summary: Summary) -> bool:
@@ -130,8 +133,4 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     worded = [
         key for key in ("bearing.first_break", "margin.critical_speed") if value_at(summary, key) is None
     ]
-    return {
-        key: about.bound
-        for key, about in book.items()
-        if about.bound and holds.get(key, True) and key not in worded
-    }
+    return _holding(book, lambda key: holds.get(key, True) and key not in worded)

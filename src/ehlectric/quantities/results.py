@@ -6,29 +6,21 @@ surfaces, stand once. A book has besides the keys of a summary what outputs show
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from importlib import resources
 from types import MappingProxyType
 from typing import Any
 
-from ehlectric.quantities.inputs import input_at
-from ehlectric.quantities.quantity import Keys, Quantity, under
-
-# What the laws of an oil describe, in the order of files.
-LAW_NAMES = (
-    *("atmospheric", "viscosity", "density", "permittivity", "conductivity"),
-    *("thermal_conductivity", "heat_capacity", "strength"),
-)
+from ehlectric.quantities.inputs import ENDS, input_at
+from ehlectric.quantities.quantity import Keys, Quantity, data_file, under
 
 # Voltages whose share of time the summary of a drive has [V]: in the field, discharges begin at a few volts.
 LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 
 # Bearings of a drive in labels, by the names of their tables.
 NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
-    {"drive_end": "drive end", "non_drive_end": "non-drive end"}
+    dict(zip(ENDS, ("drive end", "non-drive end"), strict=True))
 )
 
 # Statistics of the discharges of a bearing, by the ends of their keys.
@@ -46,10 +38,9 @@ _GEOMETRIES = ("line", "point")
 @cache
 def _entries(kind: str) -> Mapping[str, Mapping[str, Any]]:
     """Fields of the entries of a kind of result, by dotted key."""
-    path = resources.files("ehlectric.quantities").joinpath(f"{kind}_results.toml")
     return {
         name if table == _OUTSIDE else f"{table}.{name}": fields
-        for table, keys in tomllib.loads(path.read_text(encoding="utf-8")).items()
+        for table, keys in data_file("ehlectric.quantities", f"{kind}_results.toml").items()
         for name, fields in keys.items()
     }
 

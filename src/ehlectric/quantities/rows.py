@@ -89,7 +89,7 @@ Sheet: TypeAlias = tuple[Section, ...]
 
 @dataclass(frozen=True)
 class Words:
-    """What stands beside the numbers of a kind of result, by dotted key; functions of the summary."""
+    """Texts next to the numbers of a kind of result, by dotted key: functions of the summary."""
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
     # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
@@ -183,9 +183,17 @@ def row_of(
 
 
 def shown_unit(about: Quantity, value: float) -> str:
-    """Unit in which a value of a quantity is shown: its own, the usual one, or one that suits the value."""
+    """Unit in which a value of a quantity is shown: its own, the usual one, or one that suits the value.
+
+    Raises ValueError if its own is no unit of the quantity.
+    """
     unit = about.shown or USUAL.get(about.unit, "prefixed")
-    return suited(value, about.unit)[1] if unit == "prefixed" else unit
+    if unit == "prefixed":
+        return suited(value, about.unit)[1]
+    if UNITS[unit][0] != about.unit:
+        name = about.label or about.meaning
+        raise ValueError(f"{name} in {about.unit or 'no unit'} is not shown in {unit or 'no unit'}")
+    return unit
 
 
 def head_of(about: Quantity) -> str:
@@ -217,25 +225,3 @@ def value_at(table: Summary, key: str) -> Any:
         else:
             return None
     return value
-
-
-def rows_of(
-    keys: Keys,
-    summary: Summary,
-    entries: Iterable[tuple[str, ...]],
-    bounds: Mapping[str, Bound] = MappingProxyType({}),
-) -> Iterator[Row]:
-    """Rows of numbers of a summary by name, dotted key, shown unit and optionally a note; none of None."""
-    for name, key, unit, *note in entries:
-        value, entry = value_at(summary, key), key_of(keys, key)
-        if value is None or entry is None:
-            continue
-        if UNITS[unit][0] != entry.unit:
-            raise ValueError(f"{key} in {entry.unit or 'no unit'} is not shown in {unit or 'no unit'}")
-        yield Row(name, value, unit, *note, bound=bounds.get(key, ""), key=key)
-
-
-def amount_row(name: str, value: float, unit: str, note: str = "", *, bound: Bound = "") -> Row:
-    """Row of a value in a prefixed unit that suits it."""
-    factor, prefixed = suited(value, unit)
-    return Row(name, f"{factor * value:.4g}", prefixed, note, bound=bound)

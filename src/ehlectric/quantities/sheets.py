@@ -5,20 +5,12 @@ The terminal, the notebook and the report show whole sheets; a page shows the sa
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
-from importlib import resources
-from typing import Any
 
+from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Section, Sheet
 
-
-def _contents() -> dict[str, dict[str, Any]]:
-    path = resources.files("ehlectric.quantities").joinpath("sheets.toml")
-    return tomllib.loads(path.read_text(encoding="utf-8"))
-
-
-_READ = _contents()
+_READ = data_file("ehlectric.quantities", "sheets.toml")
 _SECTIONS = {
     name: Section(section["heading"], tuple(section["keys"])) for name, section in _READ["sections"].items()
 }

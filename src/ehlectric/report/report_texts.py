@@ -5,19 +5,16 @@ The file has the texts, and the names of the conditions under which they hold; t
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import resources
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.quantities.quantity import data_file
 
-TEXTS: dict[str, Any] = tomllib.loads(
-    resources.files("ehlectric.report").joinpath("report_texts.toml").read_text(encoding="utf-8")
-)
+TEXTS = data_file("ehlectric.report", "report_texts.toml")
 
 # Limits of bearings that the limits of drives say otherwise.
 _REPLACED = ("contacts of asperities", "circuit", "oil as insulator")

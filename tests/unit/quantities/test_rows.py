@@ -2,18 +2,21 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
 from ehlectric.quantities.formats import UNITS
 from ehlectric.quantities.quantity import Quantity
-from ehlectric.quantities.rows import Row, rows_of, value_at
+from ehlectric.quantities.results import BEARING_BOOK, CONTACT_BOOK, DRIVE_BOOK, MOTION_BOOK
+from ehlectric.quantities.rows import Row, Section, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.units import to_si
 from ehlectric.tables.measured_tables import table_of
 from tests.helpers.each import each
 
-KEYS = {"film.minimum_thickness": Quantity("smallest film", "m")}
-ENTRY = ("minimum film", "film.minimum_thickness")
+KEY = "film.minimum_thickness"
+KEYS = {KEY: Quantity("smallest film", "m", "minimum film")}
+SHEET = [Section("film", (KEY,))]
 
 
 @each("unit", [unit for unit in UNITS if unit not in ("", "%", "°C")])
@@ -37,14 +40,23 @@ def test_a_number_in_an_unknown_unit_is_refused():
 
 
 def test_rows_of_a_summary():
-    summary = {"film": {"minimum_thickness": 2e-7}}
-    assert list(rows_of(KEYS, summary, [(*ENTRY, "µm", ", of all")])) == [
-        Row("minimum film", 2e-7, "µm", ", of all", key=ENTRY[1])
-    ]
-    assert list(rows_of(KEYS, {"film": {"minimum_thickness": None}}, [(*ENTRY, "µm")])) == []
-    assert list(rows_of(KEYS, {"film": None}, [(*ENTRY, "µm")])) == []
-    with pytest.raises(ValueError, match=r"^film\.minimum_thickness in m is not shown in V$"):
-        list(rows_of(KEYS, summary, [(*ENTRY, "V")]))
+    summary, words = {"film": {"minimum_thickness": 2e-7}}, Words(notes={KEY: lambda _: ", of all"})
+    row = Row("minimum film", 2e-7, "µm", ", of all", key=KEY)
+    assert list(sheet_rows(SHEET, KEYS, summary, words)) == [Row("film"), row]
+    assert list(sheet_rows(SHEET, KEYS, {"film": {"minimum_thickness": None}})) == []
+    assert list(sheet_rows(SHEET, KEYS, {"film": None})) == []
+    wrong = {KEY: replace(KEYS[KEY], shown="V")}
+    with pytest.raises(ValueError, match=r"^minimum film in m is not shown in V$"):
+        list(sheet_rows(SHEET, wrong, summary))
+
+
+@each(
+    "book",
+    [*CONTACT_BOOK.values(), *MOTION_BOOK.values(), BEARING_BOOK, DRIVE_BOOK],
+)
+def test_every_quantity_is_shown_in_a_unit_of_its_own(book):
+    for key, about in book.items():
+        assert shown_unit(about, 1.0) is not None, key
 
 
 def test_values_by_dotted_key():
