@@ -197,7 +197,7 @@ def shown_unit(about: Quantity, value: float) -> str:
 
 
 def head_of(about: Quantity) -> str:
-    """Head of a column: label, and the unit in which all values of the quantity are shown.
+    """Head of a column: short label, and the unit in which all values of the quantity are shown.
 
     Examples
     --------
@@ -205,7 +205,8 @@ def head_of(about: Quantity) -> str:
     'energy of a discharge [nJ]'
     """
     unit = shown_unit(about, 1.0)
-    return f"{about.label} [{unit}]" if unit else about.label
+    head = about.head or about.label
+    return f"{head} [{unit}]" if unit else head
 
 
 def value_at(table: Summary, key: str) -> Any:

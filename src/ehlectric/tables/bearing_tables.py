@@ -454,7 +454,7 @@ _WORDS = Words(
         "inputs.discharge.dielectric_strength": _strength_note,
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
-        "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), _state(s)),
+        "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
         "bearing.film_factor": film_factor_note,
         "bearing.heat_factor": lambda _: "(solved)",
         "bearing.inlet_shear_factor": lambda _: "(Wilson and Sheu)",

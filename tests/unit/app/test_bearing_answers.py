@@ -333,7 +333,7 @@ def test_the_effects_have_the_value_that_belongs_to_each_margin(whole, quick, su
         low, high = (float(text.split()[0]) for text in ((other, at) if falls else (at, other)))
         assert low < high
     found = {row[0]: row for row in whole.effects.rows}
-    assert found["temperature"][2::2] == ("80 °C", "60 °C"), "hot oil has thinner films"
+    assert found["temperature of the oil"][2::2] == ("80 °C", "60 °C"), "hot oil has thinner films"
     assert found["dielectric strength"][2::2] == ("12 V/µm", "18 V/µm")
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.solution import regime
 from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.breakdown_over_speed import breakdown_panel, capacitance_panel, speed_axis
@@ -237,6 +237,5 @@ def _state(lambda_ratio: float, quick: str) -> str:
     """State of lubrication at a scaled lambda ratio; ``quick`` is that of the quick ratio."""
     if not math.isfinite(lambda_ratio):
         return quick
-    if lambda_ratio < CONDUCTING:
-        return "touching" if quick == "touching" else "conducting"
-    return "partial film" if lambda_ratio < PARTIAL else "full film"
+    state = regime(lambda_ratio)
+    return "conducting" if state == "touching" and quick != "touching" else state
