@@ -176,7 +176,7 @@ def unit_of_column(results: SweepPoints, key: str) -> str | None:
     return label_of(key, results.case).unit
 
 
-__all__ = ["Point", "Range", "Spacing", "Status", "SweepResults", "as_number", "flat"]
+__all__ = ["Point", "Range", "Spacing", "Status", "SweepResults", "as_number", "flat", "write_tables"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
