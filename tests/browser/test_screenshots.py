@@ -44,7 +44,7 @@ def contact(page):
 
 
 def contact_point(page):
-    page.get_by_test_id("number-formula-film_formulas.pan_hamrock.minimum_thickness").wait_for()
+    page.get_by_test_id("number-formula-film_formulas.chittenden.minimum_thickness").wait_for()
     page.get_by_test_id("solve").click()
     wait_until_solved(page)
 
