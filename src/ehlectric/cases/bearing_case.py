@@ -182,7 +182,7 @@ class _BearingCaseKeys(_Tables, BearingKeys, total=False):
     pass
 
 
-class BearingCase(CaseFile):
+class BearingCase(CaseFile, book="bearing_file"):
     """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from

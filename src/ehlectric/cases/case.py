@@ -57,7 +57,7 @@ class _PointCaseKeys(_Tables, PointKeys, total=False):
     pass
 
 
-class Case(CaseFile):
+class Case(CaseFile, book="case_file"):
     """Charged line or point contact: all inputs on which film and electric field depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from

@@ -18,7 +18,7 @@ from scipy.optimize import bisect
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import Amount, bounded
 from ehlectric.cases.library.library_oils import LibraryOil, Source, library_oil, values_of
 from ehlectric.cases.oil_inputs import (
     LAWS,
@@ -29,7 +29,6 @@ from ehlectric.cases.oil_inputs import (
     check_viscosity,
     estimated_alpha,
     of_base_oil,
-    quantity_of,
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
@@ -601,7 +600,7 @@ def _of_file(path: Path) -> NamedOil:
     kelvins = [
         _parsed(TEMPERATURE, tables, name, key) for name, keys in _TEMPERATURES.items() for key in keys
     ]
-    conductivity = _parsed(quantity_of(CONDUCTIVITY), tables, "discharge", "conductivity")
+    conductivity = _parsed(bounded(Amount, CONDUCTIVITY), tables, "discharge", "conductivity")
     if conductivity is not None:
         # It holds in place of that of the oil, as in a solution.
         others = {key: value for key, value in table.items() if key not in _CONDUCTION}

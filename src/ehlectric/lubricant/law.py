@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.quantity import Quantity, data_file
+from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 
 
 class PressureLaw(Protocol):
@@ -55,7 +55,7 @@ class Derivation:
 
 
 @dataclass(frozen=True)
-class Parameter:
+class Parameter(Bounds):
     """Parameter of a lubricant law: a key of ``[lubricant]`` with its unit, bounds and labels.
 
     Examples
@@ -71,18 +71,9 @@ class Parameter:
     # title and symbol: name and symbol on the axis of a figure.
     title: str = ""
     symbol: str = ""
-    # least and most: smallest and largest allowed values in ``unit``
-    least: float = -math.inf
-    most: float = math.inf
-    # above and below: bounds in ``unit`` that are not allowed themselves.
-    above: float = -math.inf
-    below: float = math.inf
-    reason: str = ""
     # For a parameter that changes with temperature: the relation that gives its value at the temperature of a
     # bearing, if the bearing file does not contain it.
     derivation: Derivation | None = None
-    # Whether the parameter is a difference of temperatures, for which a degree Celsius is a kelvin.
-    difference: bool = False
 
     @property
     def quantity(self) -> Quantity:
@@ -102,10 +93,10 @@ def parameter(name: str) -> Parameter:
     return _parameters()[name]
 
 
-def parameters_of(function: Callable[..., Any]) -> tuple[Parameter, ...]:
-    """Parameters of a law, which are the arguments of its function that are given by keyword."""
-    keywords = (one for one in signature(function).parameters.values() if one.kind is one.KEYWORD_ONLY)
-    return tuple(parameter(keyword.name) for keyword in keywords)
+def parameters_of(*functions: Callable[..., Any]) -> tuple[Parameter, ...]:
+    """Parameters of a law: arguments by keyword of its function, and of those to which it passes others."""
+    arguments = (one for function in functions for one in signature(function).parameters.values())
+    return tuple(parameter(one.name) for one in arguments if one.kind is one.KEYWORD_ONLY)
 
 
 @dataclass(frozen=True)

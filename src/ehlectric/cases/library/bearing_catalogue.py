@@ -10,12 +10,11 @@ from importlib import resources
 from typing import Any, Literal, get_args
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import Amount, amount_at
 from ehlectric.cases.library.library_oils import Kind, Source, sources_of, weakest
 from ehlectric.errors import InputError, shown, within
 
 ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5"]
-BORE = Amount("m", least=1e-4, most=10.0, reason="of a machine's bearing")
 CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 
@@ -94,7 +93,7 @@ def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if table.get("bore") is None:
         raise InputError.worded("bore", f"missing; clearance_class {name!r} needs the diameter of the bore")
     with within("bore"):
-        bore = BORE.parse(table["bore"])
+        bore = amount_at("bearing.bore").parse(table["bore"])
     middle = clearance_range(str(kind), name, bore).middle
     given = table.get("radial_clearance")
     if given is not None and given != middle:
