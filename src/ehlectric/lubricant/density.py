@@ -98,19 +98,9 @@ def tait_pressure(
 
 
 def _tait_warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure at which the volume of the law is held."""
-    parameters = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    parameters |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
     cap = float(tait_pressure(1.0 / LEAST_VOLUME, temperature, **parameters))
     if max_pressure > cap:
         yield ResultWarning(

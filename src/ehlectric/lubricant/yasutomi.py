@@ -79,12 +79,9 @@ def yasutomi_viscosity(
     *,
     yasutomi_glass_viscosity: float,
     yasutomi_glass_temperature: float,
-    yasutomi_a1: float,
-    yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
     yasutomi_c1: float,
     yasutomi_c2: float,
+    **_others: float,
 ) -> Array:
     """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
 
@@ -160,10 +157,7 @@ def _warnings(
     yasutomi_glass_temperature: float,
     yasutomi_a1: float,
     yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
+    **_others: float,
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure at which the oil is a glass."""
     distance = float(_above_glass(temperature, yasutomi_glass_temperature)) - yasutomi_glass_temperature
