@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
 from pydantic import (
     ModelWrapValidatorHandler,
@@ -144,27 +144,6 @@ _ROUNDING = 1e-9
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length",)
 
-# Advice for an insulated ring.
-_COATED = (
-    "give coating = 'alumina', a coating of the library, or the table [bearing.coating] with base or with "
-    "ring, thickness and relative_permittivity"
-)
-
-# Advice for unknown keys that belong to another table, or have another name.
-_ADVICE = {
-    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
-    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
-    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
-    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
-    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
-    "bearing.coating_thickness": _COATED,
-    "bearing.coating_material": _COATED,
-    "bearing.insulation": _COATED,
-    "bearing.insulated": _COATED,
-    "bearing.coated": _COATED,
-    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
-}
-
 
 class _Tables(TypedDict, total=False):
     """Keys and tables of a bearing file besides ``bearing``, as ``BearingCase.of`` takes them."""
@@ -217,8 +196,6 @@ class BearingCase(CaseFile, book="bearing_file"):
             solver: Solver | Keys = ...,
             ranges: Keys | None = ...,
         ) -> None: ...
-
-    ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
     contacts: Contacts = "solved"

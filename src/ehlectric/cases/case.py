@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, TypeVar, Unpack
 
 from pydantic import PrivateAttr, model_validator
 
@@ -96,11 +96,6 @@ class Case(CaseFile, book="case_file"):
             grid: Grid | Keys = ...,
             solver: Solver | Keys = ...,
         ) -> None: ...
-
-    ADVICE: ClassVar = {
-        f"lubricant.{key}": "it belongs to the table [lubricant.temperature]"
-        for key in ("iso_vg", "viscosity_index", "density_15")
-    } | {"lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg"}
 
     _laws: SampledLaws | None = PrivateAttr(default=None)
 

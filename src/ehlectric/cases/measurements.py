@@ -19,6 +19,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.quantity import data_file
 from ehlectric.runtime.reading import read_bytes
 
 if TYPE_CHECKING:
@@ -36,41 +37,10 @@ class Measurable(Amount):
 # Quantities of a measurement by the names of their columns in the program.
 COLUMNS: Mapping[str, Measurable] = MappingProxyType(
     {
-        "time": Measurable(
-            "s", least=0.0, most=1e9, reason="since the start of the measurement",
-            usual="s", names=("elapsed time",),
-        ),
-        "speed": Measurable(
-            units.ROTATION, above=0.0, most=1e5, reason="of the inner ring",
-            usual="rpm", names=("inner speed", "shaft speed", "rotational speed"),
-        ),
-        "entrainment_speed": Measurable(
-            "m/s", above=0.0, most=1e4, reason="(u1 + u2)/2",
-            usual="m/s", names=("rolling speed", "mean speed"),
-        ),
-        "temperature": Measurable(
-            "K", least=200.0, most=600.0, reason="absolute, of the oil",
-            usual="degC", names=("oil temperature",),
-        ),
-        "frequency": Measurable("Hz", above=0.0, most=1e10, reason="of the meter", usual="Hz"),
-        "capacitance": Measurable(
-            "F", above=0.0, most=1e-3, reason="of a bearing or contact",
-            usual="pF", names=("parallel capacitance", "cp"),
-        ),
-        "impedance": Measurable(
-            "ohm", above=0.0, most=1e15, reason="magnitude",
-            usual="ohm", names=("impedance magnitude", "|z|", "z"),
-        ),
-        "phase": Measurable(
-            "rad", least=-math.pi, most=math.pi, reason="negative for a capacitor",
-            usual="deg", names=("phase angle",),
-        ),
-        "film": Measurable(
-            "m", above=0.0, most=1e-3, reason="central film thickness",
-            usual="nm", names=("film thickness", "central film", "central film thickness"),
-        ),
+        name: Measurable(**{**column, "names": tuple(column.get("names", ()))})
+        for name, column in data_file("ehlectric.quantities", "measured_columns.toml")["measured"].items()
     }
-)  # fmt: skip
+)
 
 # Quantities by the names over a column, in small letters and with spaces.
 _NAMES = {name: key for key, one in COLUMNS.items() for name in (key.replace("_", " "), *one.names)}

@@ -27,7 +27,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
 from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, bounded
-from ehlectric.cases.key_names import ALIASES, refuse_deep, refuse_long_keys
+from ehlectric.cases.key_names import ADVICE, ALIASES, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.quantities.inputs import inputs
 from ehlectric.quantities.units import ROTATION
@@ -36,7 +36,6 @@ from ehlectric.runtime.values import Tabled
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
-    "ADVICE",
     "BOOK",
     "check_one_of",
     "check_over",
@@ -106,9 +105,6 @@ class Table(BaseModel, metaclass=_Listed):
 
     # Name of the table in the book of inputs.
     BOOK: ClassVar[str] = ""
-
-    # Advice for unknown dotted keys that users expect in this table or in a table within it.
-    ADVICE: ClassVar[Mapping[str, str]] = {}
 
     def __init__(self, /, **table: Any) -> None:
         refuse_deep(table)
@@ -394,7 +390,7 @@ def _advice(key: str, model: type[Table]) -> str | None:
     first, _, rest = key.partition(".")
     field = model.known_keys().get(first)
     inner = None if field is None else table_of(field.annotation)
-    return model.ADVICE.get(key) or (None if inner is None else inner.ADVICE.get(rest))
+    return ADVICE.get((model.BOOK, key)) or (None if inner is None else ADVICE.get((inner.BOOK, rest)))
 
 
 def _shown_key(key: str) -> str:
