@@ -105,19 +105,19 @@ class _Doolittle:
         """Free volume v - R0 w at zero pressure."""
         return self.expanded(warmer) - self.r0 * self.occupied(warmer)
 
-    def share(self, viscosity: float | Array) -> Array:
-        """Occupied over free volume, w/(v - R0 w), at which the oil has a viscosity [Pa s]."""
-        return np.asarray(np.log(viscosity / self.viscosity) / (self.b * self.r0) + 1.0 / (1.0 - self.r0))
+    def share(self) -> float:
+        """Occupied over free volume, w/(v - R0 w), at the glass transition."""
+        exponent = float(np.log(GLASS_VISCOSITY / self.viscosity))
+        return exponent / (self.b * self.r0) + 1.0 / (1.0 - self.r0)
 
     def least_free(self, occupied: Array) -> Array:
         """Free volume v - R0 w at the glass transition."""
-        return occupied / self.share(GLASS_VISCOSITY)
+        return occupied / self.share()
 
-    def difference(self, viscosity: float | Array) -> Array:
-        """Difference to the reference temperature [K] at which the oil has a viscosity at zero pressure."""
-        share = self.share(viscosity)
-        slope = self.expansion - self.r0 * self.epsilon
-        return np.asarray((share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope))
+    def glass(self) -> float:
+        """Temperature of the glass transition at zero pressure [K]."""
+        share, slope = self.share(), self.expansion - self.r0 * self.epsilon
+        return self.reference + (share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope)
 
     def warmer(self, temperature: ArrayLike | None) -> Array:
         """Difference of a temperature to the reference temperature [K], where the oil is a liquid."""
@@ -128,10 +128,9 @@ class _Doolittle:
                 got=f"{self.epsilon:g} 1/K",
                 takes=f"less than tait_expansion, {self.expansion:g} 1/K: viscosity falls with temperature",
             )
-        glass = self.reference + float(self.difference(GLASS_VISCOSITY))
         most = self.reference - 1.0 / self.epsilon if self.epsilon < 0.0 else math.inf
-        within(at, _NAME, glass, most, "its glass transition at ambient pressure, and an occupied volume")
-        return at - self.reference
+        reason = "its glass transition at ambient pressure, and an occupied volume"
+        return within(at, _NAME, self.glass(), most, reason) - self.reference
 
 
 def doolittle_ambient(
@@ -170,20 +169,6 @@ def doolittle_ambient(
     )
 
 
-def _coefficient(temperature: ArrayLike, **parameters: float) -> Array:
-    """Temperature coefficient of the viscosity at zero pressure, -d ln(eta0)/dT [1/K]."""
-    oil = _Doolittle(**parameters)
-    warmer = oil.warmer(temperature)
-    # w' v - w v' of the volumes at zero pressure does not depend on the temperature.
-    return np.asarray(oil.b * oil.r0 * (oil.expansion - oil.epsilon) / oil.free(warmer) ** 2)
-
-
-def _temperature(viscosity: ArrayLike, **parameters: float) -> Array:
-    """Temperature [K] at which the oil has a viscosity [Pa s] at zero pressure."""
-    oil = _Doolittle(**parameters)
-    return oil.reference + oil.difference(np.asarray(viscosity, dtype=float))
-
-
 def _warnings(
     max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
@@ -202,6 +187,4 @@ DOOLITTLE = Law(
     warnings=_warnings,
     needs_temperature=True,
     atmospheric=doolittle_ambient,
-    coefficient=_coefficient,
-    inverse=_temperature,
 )

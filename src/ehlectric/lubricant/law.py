@@ -123,13 +123,6 @@ class Law:
     atmospheric: Callable[..., Array] | None = None
     # Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
     thermal_expansion: str | None = None
-    # ``coefficient(temperature, **parameters)`` returns the temperature coefficient -d ln(eta0)/dT [1/K] at
-    # zero pressure, for a law that gives the viscosity at zero pressure.
-    coefficient: Callable[..., Array] | None = None
-    # ``inverse(value, **parameters)`` returns the temperature [K] at which a law at ambient pressure has a
-    # value. For a law of density it is ``inverse(ratio, temperature, **parameters)`` and returns the pressure
-    # [Pa] of a density ratio.
-    inverse: Callable[..., Array] | None = None
 
 
 def required(temperature: ArrayLike | None, law: str) -> Array:
@@ -158,21 +151,24 @@ def refused(values: Array, allowed: Mask, unit: str) -> str:
     return f"{float(wrong.flat[0]):.5g} {unit}".strip() if wrong.size else ""
 
 
-def within(temperature: Array, law: str, least: float, most: float, reason: str) -> None:
-    """Check that temperatures [K] lie in the range of a law, whose ends are not part of it. Raises InputError
-    if a temperature is outside; the message names the law and its range.
+def within(temperature: ArrayLike | None, law: str, least: float, most: float, reason: str) -> Array:
+    """Temperatures [K] that a law needs, as an array. Raises InputError if there is none, or one is outside
+    the range of the law, whose ends are not part of it; the message names the law and its range.
 
     Examples
     --------
-    >>> within(np.array(313.15), "viscosity_law 'yasutomi'", 190.0, np.inf, "its glass transition")
+    >>> float(within(313.15, "viscosity_law 'yasutomi'", 190.0, np.inf, "its glass transition"))
+    313.15
     """
-    if wrong := refused(temperature, (temperature > least) & (temperature < most), "K"):
+    at = required(temperature, law)
+    if wrong := refused(at, (at > least) & (at < most), "K"):
         ends = [f"above {least:.5g} K"] * math.isfinite(least) + [f"below {most:.5g} K"] * math.isfinite(most)
         raise InputError(
             "temperature",
             got=f"{wrong};",
             takes=f"{' and '.join(ends)}, the range of {law}: {reason}",
         )
+    return at
 
 
 # Viscosity at the glass transition [Pa s], by its usual definition. An oil that is as viscous does not flow

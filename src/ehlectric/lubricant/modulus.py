@@ -15,7 +15,6 @@ from ehlectric.lubricant.law import (
     Law,
     glass_warnings,
     parameters_of,
-    required,
     within,
 )
 
@@ -65,10 +64,15 @@ def _constants(
     temperature: ArrayLike | None, modulus_a1: float, modulus_a2: float, modulus_b1: float, modulus_b2: float
 ) -> tuple[Array, Array]:
     """A [Pa] and B at a temperature at which the viscosity rises with pressure."""
-    at = required(temperature, _NAME)
     reason = "the viscosity does not rise with pressure outside it"
     end = -modulus_a1 / modulus_a2 if modulus_a2 else math.nan
-    within(at, _NAME, end if modulus_a2 > 0.0 else -math.inf, end if modulus_a2 < 0.0 else math.inf, reason)
+    at = within(
+        temperature,
+        _NAME,
+        end if modulus_a2 > 0.0 else -math.inf,
+        end if modulus_a2 < 0.0 else math.inf,
+        reason,
+    )
     if modulus_a2 == 0.0 and modulus_a1 <= 0.0:
         raise InputError(
             "modulus_a1", got=f"{modulus_a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K"
