@@ -32,6 +32,7 @@ from ehlectric.cases.table import (
     CaseFile,
     Table,
     Title,
+    fields_within,
     nearest_key,
     parser_of,
     read_toml,
@@ -123,14 +124,10 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
 
 def _field(key: str, model: type[Table]) -> FieldInfo:
     """Field of a dotted key."""
-    field: FieldInfo | None = None
-    inner: type[Table] | None = model
-    for name in key.split("."):
-        field = None if inner is None else inner.known_keys().get(name)
-        if field is None or key == "ranges":
-            raise InputError.unknown(key, nearest_key(key, model))
-        inner = table_of(field.annotation)
-    if field is None or inner is not None:
+    field = fields_within(model).get(key)
+    if field is None or key == "ranges":
+        raise InputError.unknown(key, nearest_key(key, model))
+    if table_of(field.annotation) is not None:
         raise InputError(key, "is a table", takes="one of its keys with a list of two values")
     return field
 

@@ -5,7 +5,7 @@ summits.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from difflib import get_close_matches
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
@@ -101,7 +101,6 @@ class Summits(Table, book="bearing.summits"):
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
 
-_WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
 
 # Keys that only ball bearings have, and keys that only roller bearings have.
 _OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
@@ -127,20 +126,12 @@ _CHOICES = {
 }
 
 
-def _film_factor(value: Any) -> float | str:
-    if value in FILM_FACTORS:
-        return str(value)
+def _word_or_part(words: Collection[str], value: Any) -> float | str:
+    """One of some words, or a number above 0 and at most 1."""
+    if isinstance(value, str) and value in words:
+        return value
     if not is_number(value) or not 0.0 < value <= 1.0:
-        raise InputError(got=shown(value), takes=f"{_WORDS}, or a number above 0 and at most 1")
-    return float(value)
-
-
-def _supply(value: Any) -> float | str:
-    """Supply of oil: the name of a way, or the film over the fully flooded one."""
-    if isinstance(value, str) and value in SUPPLY_CONSTANTS:
-        return str(value)
-    if not is_number(value) or not 0.0 < value <= 1.0:
-        names = ", ".join(repr(name) for name in SUPPLY_CONSTANTS)
+        names = ", ".join(map(repr, words))
         raise InputError(got=shown(value), takes=f"{names}, or a number above 0 and at most 1")
     return float(value)
 
@@ -212,8 +203,8 @@ class Bearing(Table, book="bearing"):
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
     parallel_capacitance: float | None = None
     coating: Coating | None = None
-    film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
-    supply: Annotated[float | str, BeforeValidator(_supply)] = "flooded"
+    film_factor: Annotated[float | str, BeforeValidator(partial(_word_or_part, FILM_FACTORS))] = "none"
+    supply: Annotated[float | str, BeforeValidator(partial(_word_or_part, SUPPLY_CONSTANTS))] = "flooded"
     fits: Fits | None = None
 
     @model_validator(mode="before")
@@ -291,10 +282,7 @@ class Bearing(Table, book="bearing"):
         if self.radial_load == 0.0 and self.axial_load == 0.0:
             raise InputError.missing("radial_load", "a load, radial or axial")
         if self.by_supply_rule:
-            for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
-                if getattr(self, key) is None:
-                    takes = f"the {name} of the bearing, which supply {self.supply!r} needs"
-                    raise InputError.missing(key, takes)
+            self._check_diameters(f"supply {self.supply!r}")
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
             raise InputError.worded(
@@ -352,9 +340,7 @@ class Bearing(Table, book="bearing"):
         if (fits.unmounted_clearance is None) == (self.clearance_class is None):
             both = None if self.clearance_class is None else "it and clearance_class together"
             raise InputError("fits.unmounted_clearance", got=both, takes="either it or clearance_class")
-        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
-            if getattr(self, key) is None:
-                raise InputError.missing(key, f"the {name} of the bearing, which [bearing.fits] needs")
+        self._check_diameters("[bearing.fits]")
         assert self.bore is not None and self.outer_diameter is not None
         if fits.shaft_bore >= self.bore:
             takes = f"less than the bore of the bearing, {self.bore:g} m"
@@ -364,6 +350,12 @@ class Bearing(Table, book="bearing"):
             raise InputError("fits.housing_diameter", got=f"{fits.housing_diameter:g} m", takes=takes)
         if self.clearance_class is not None:
             clearance_range(self.kind, self.clearance_class, self.bore)
+
+    def _check_diameters(self, what: str) -> None:
+        """Check that both diameters of the bearing are given, which something needs."""
+        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+            if getattr(self, key) is None:
+                raise InputError.missing(key, f"the {name} of the bearing, which {what} needs")
 
     def _check_boundary(self) -> None:
         """Both rings have a thickness, and the element is not wider than the bearing."""

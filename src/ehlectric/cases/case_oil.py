@@ -5,7 +5,7 @@ their names.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -36,7 +36,7 @@ from ehlectric.errors import InputError, ResultWarning, shown, within
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
-from ehlectric.lubricant.law import Law
+from ehlectric.lubricant.law import Law, required
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
 from ehlectric.lubricant.over_temperature import Walther, density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
@@ -72,6 +72,8 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
         for name in ("viscosity_law", "density_law"):
             # A law that has no value at the temperature says so here, with the key of the temperature.
             laws[name](np.zeros(1))
+        ranges = (range_check(oil, key, temperature, viscosity) for key in names)
+        checks = (estimated_alpha(oil, temperature), *ranges)
         return Oil(
             viscosity=viscosity,
             relative_permittivity=permittivity,
@@ -82,7 +84,7 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
             thermal_conductivity_law=laws.get("thermal_conductivity_law") or sheet_conductivity(oil),
             heat_capacity_law=laws.get("heat_capacity_law"),
             laws={name.removesuffix("_law"): law for name, law in names.items()},
-            checks=tuple(_checks(oil, names, viscosity, temperature)),
+            checks=tuple(check for check in checks if check is not None),
             inputs=oil.model_dump(mode="json", exclude_none=True),
             name=oil.base or "",
             temperature=temperature,
@@ -109,7 +111,7 @@ def bound(
     assert name is not None
     law = LAWS[key][name]
     if law.needs_temperature:
-        _needs(temperature, f"{key} {name!r}")
+        required(temperature, f"{key} {name!r}")
     values = _parameters(oil, law, viscosity, temperature)
     own = {parameter.name for parameter in law.parameters}
     values |= {name: value for name, value in known.items() if name in own}
@@ -126,8 +128,8 @@ def conductivity_at(oil: Properties, temperature: float | None, law: BoundLaw | 
     """Electrical conductivity at a temperature [S/m], by the table or the law of an oil; None without one."""
     table = oil.conductivity_table
     if table is not None:
-        at = _needs(temperature, "lubricant.conductivity_table")
         name = "lubricant.conductivity_table"
+        at = required(temperature, name)
         return float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
     return None if law is None else float(law.function(temperature, **law.parameters))
 
@@ -148,13 +150,6 @@ def _held(temperature: Array, *, temperatures: Sequence[float], conductivities: 
     within = np.clip(temperature, temperatures[0], temperatures[-1])
     name = "lubricant.conductivity_table"
     return interpolated(within, temperatures, conductivities, table=name, arrhenius=True)
-
-
-def _needs(temperature: float | None, what: str) -> float:
-    """Temperature, which is needed for something. Raises InputError if there is none."""
-    if temperature is None:
-        raise InputError.worded("temperature", f"missing; {what} needs it", takes="a temperature")
-    return temperature
 
 
 def check_range(oil: Properties, temperature: float | None) -> None:
@@ -180,7 +175,7 @@ def viscosity_at(oil: Properties, temperature: float | None) -> float:
     if law is None:
         assert oil.viscosity is not None
         return oil.viscosity
-    return law(_needs(temperature, "the viscosity of the oil"))
+    return law(float(required(temperature, "the viscosity of the oil")))
 
 
 def viscosity_over_temperature(oil: Properties) -> Callable[[float], float] | None:
@@ -275,8 +270,8 @@ def permittivity_at(oil: Properties, temperature: float | None) -> float:
     """Relative permittivity at zero pressure and a temperature [K]."""
     table = oil.permittivity_table
     if table is not None:
-        at = _needs(temperature, "lubricant.permittivity_table")
         name = "lubricant.permittivity_table"
+        at = required(temperature, name)
         return float(interpolated(at, table.temperature, table.relative_permittivity, table=name))
     assert oil.relative_permittivity is not None
     ratio = density_over_reference(oil, temperature)
@@ -284,19 +279,6 @@ def permittivity_at(oil: Properties, temperature: float | None) -> float:
         return oil.relative_permittivity
     law = PERMITTIVITY_LAWS[oil.permittivity_law]
     return float(law.function(ratio, temperature, **_given(oil, law)))
-
-
-def _checks(
-    oil: Properties, names: Iterable[str], viscosity: float, temperature: float | None
-) -> Iterator[Callable[[float], Iterator[ResultWarning]]]:
-    """Checks of the ranges of those laws that have one, and the estimate of a coefficient."""
-    estimate = estimated_alpha(oil, temperature)
-    if estimate is not None:
-        yield estimate
-    for key in names:
-        check = range_check(oil, key, temperature, viscosity)
-        if check is not None:
-            yield check
 
 
 def range_check(oil: Properties, key: str, temperature: float | None, viscosity: float) -> RangeCheck | None:

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-# Probability of the interval.
-CONFIDENCE = 0.95
+# Probability of the interval, and degrees of freedom of a standard deviation that is known.
+CONFIDENCE, _MANY = 0.95, 1e9
 
 # Texts that say where the statistical part of an interval is from.
 STATED, RAISED, SCATTER = "stated uncertainty", "stated uncertainty, raised to the scatter", "scatter only"
@@ -90,7 +90,7 @@ def mean_factor(
         scatter = math.sqrt(float(np.sum(((logs - mean) / stated) ** 2)) / (n - 1)) if n > 1 else None
         raised = scatter is not None and scatter > 1.0
         statistical = own * (scatter or 1.0) if raised else own
-        basis, degrees = RAISED if raised else STATED, math.inf
+        basis, degrees = RAISED if raised else STATED, _MANY
     parts = [float(np.vdot(weights, change)) for change in (shared or {}).values()]
     systematic = math.hypot(*parts) if parts else 0.0
     low, high = _interval(mean, statistical, systematic, degrees)
@@ -104,8 +104,8 @@ def _interval(
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide = float(student.ppf(at, degrees)) if math.isfinite(degrees) else float(student.ppf(at, 1e9))
-    half = math.hypot(wide * statistical, float(student.ppf(at, 1e9)) * systematic)
+    wide, normal = (float(student.ppf(at, one)) for one in (degrees, _MANY))
+    half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 
 

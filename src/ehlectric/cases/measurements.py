@@ -77,18 +77,15 @@ class Column:
         ValueError if the unit is not one of the quantity, or the value is out of its bounds.
         """
         if self.uncertainty:
-            return self._positive(number * self.factor())
+            if not 0.0 < (value := number * self.factor()) < math.inf:
+                raise ValueError("an uncertainty above 0")
+            return value
         bounds = COLUMNS[self.name]
         value = units.absolute(number, self.unit) if bounds.unit == "K" else number * self.factor()
-        if not (bounds.above < value < bounds.below and bounds.least <= value <= bounds.most):
+        if not bounds.allow(value):
             least = f"above {bounds.above:g}" if math.isfinite(bounds.above) else f"at least {bounds.least:g}"
             unit = f" {bounds.unit}"
             raise ValueError(f"{least}{unit} and at most {bounds.most:g}{unit}: {bounds.reason}")
-        return value
-
-    def _positive(self, value: float) -> float:
-        if not 0.0 < value < math.inf:
-            raise ValueError("an uncertainty above 0")
         return value
 
 
@@ -481,19 +478,18 @@ def _uncertainties(
             raise InputError(source, f"has the column {shown(column.head)}", takes=f"a column {what} with it")
         if column.unit == "%":
             uncertainties[name] = numbers * np.abs(values[name])
-            continue
-        named = Column(name, column.head, column.unit, uncertainty=True)
-        uncertainties[name] = _absolute(source, named, numbers)
+        else:
+            uncertainties[name] = _absolute(source, column, name, numbers)
     return uncertainties
 
 
-def _absolute(source: str, column: Column, numbers: Array) -> Array:
-    """Uncertainties in the SI unit of their quantity, from numbers in the unit of the column."""
+def _absolute(source: str, column: Column, name: str, numbers: Array) -> Array:
+    """Uncertainties in the SI unit of a quantity, from numbers in the unit of the column."""
     unit = {"degC": "K", "°C": "K", "C": "K"}.get(column.unit, column.unit)
     try:
-        factor = Column(column.name, column.head, unit, uncertainty=True).factor()
+        factor = Column(name, column.head, unit).factor()
     except ValueError as error:
-        takes = f"per cent or a unit of {column.name.replace('_', ' ')}"
+        takes = f"per cent or a unit of {name.replace('_', ' ')}"
         raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None
     if not np.all(numbers > 0.0):
         raise InputError(source, f"column {shown(column.head)} has a value of 0 or below", takes="above 0")

@@ -69,17 +69,6 @@ def law_parameters(*choices: str) -> dict[str, Parameter]:
     return {parameter.name: parameter for law in laws for parameter in law.parameters}
 
 
-def is_parameter(name: str) -> bool:
-    """Whether a law of a lubricant has a parameter of this name.
-
-    Examples
-    --------
-    >>> is_parameter("roelands_z"), is_parameter("roelands_x")
-    (True, False)
-    """
-    return name in law_parameters()
-
-
 @dataclass(frozen=True)
 class Named(AfterValidator):
     """Pydantic annotation of a name, with the names that are allowed."""
@@ -90,15 +79,15 @@ class Named(AfterValidator):
 def law_name(laws: Mapping[str, object]) -> Named:
     """Pydantic annotation of the name of a law of this table."""
 
+    def takes() -> str:
+        return f"one of {', '.join(map(repr, laws))}"
+
     def known(name: str) -> str:
         if name not in laws:
-            known_names = ", ".join(repr(law) for law in laws)
-            raise InputError(
-                got=shown(name), takes=f"one of {known_names}; nearest is {nearest(name, laws)!r}"
-            )
+            raise InputError(got=shown(name), takes=f"{takes()}; nearest is {nearest(name, laws)!r}")
         return name
 
-    return Named(known, f"one of {', '.join(map(repr, laws))}")
+    return Named(known, takes())
 
 
 def library_choice(names: Callable[[], Sequence[str]], what: str = "one of the library") -> AfterValidator:
@@ -116,13 +105,10 @@ def library_name(base: Any, names: Sequence[str]) -> str:
     """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
     Raises InputError if the base is not a string, or not a name of the library.
     """
-    if not isinstance(base, str):
-        raise InputError(
-            "base", got=shown(base), takes=f"a name of the library, as a string: {', '.join(names)}"
-        )
-    if base not in names:
-        raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
-    return base
+    if isinstance(base, str) and base in names:
+        return base
+    as_text = "" if isinstance(base, str) else ", as a string"
+    raise InputError("base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}")
 
 
 def base_values(table: Any) -> dict[str, Any]:
@@ -399,7 +385,7 @@ class Properties(Table, book="lubricant"):
             try:
                 return super().__getattr__(name)
             except AttributeError:
-                if is_parameter(name):
+                if name in law_parameters():
                     return None
                 raise
 
@@ -568,7 +554,7 @@ def check_viscosity(oil: Properties) -> None:
                 )
         return
     ways = {
-        "viscosity": oil.viscosity is not None and not _is_parameter(oil, "viscosity"),
+        "viscosity": oil.viscosity is not None and not _has_viscosity(oil.atmospheric_law),
         "temperature": oil.temperature is not None,
         "atmospheric_law": oil.atmospheric_law is not None,
     }
@@ -597,14 +583,6 @@ def check_once(oil: Properties) -> None:
         raise InputError.missing(
             "reference_temperature", "the temperature at which there is no thermal_expansion"
         )
-
-
-def _is_parameter(oil: Properties, name: str) -> bool:
-    """Whether the law over temperature takes a key of the lubricant as a parameter."""
-    if oil.atmospheric_law is None:
-        return False
-    law = LAWS["atmospheric_law"][oil.atmospheric_law]
-    return any(parameter.name == name for parameter in law.parameters)
 
 
 def check_parameters(oil: Properties, key: str, law: Law) -> None:

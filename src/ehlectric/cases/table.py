@@ -357,7 +357,7 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
 
 def _missing(key: str, model: type[Table], given: Any) -> InputError:
     """Error of a required key, with the values that it takes."""
-    field = _fields(model).get(key)
+    field = fields_within(model).get(key)
     sign = model.sign_of(key, given) if isinstance(given, Mapping) else ""
     return InputError.missing(key, _takes(key, field, model) + sign)
 
@@ -422,7 +422,7 @@ def meant(key: str, model: type[Table]) -> list[str]:
     key in the same table.
     """
     table, _, leaf = key.rpartition(".")
-    known = list(_fields(model))
+    known = list(fields_within(model))
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
@@ -439,20 +439,20 @@ def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> str:
     return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
 
 
-def _fields(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
+def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
     """Fields of a table and of the tables in it, by dotted key."""
     fields: dict[str, FieldInfo] = {}
     for name, field in model.known_keys().items():
         fields[prefix + name] = field
         inner = table_of(field.annotation)
         if inner is not None:
-            fields |= _fields(inner, f"{prefix}{name}.")
+            fields |= fields_within(inner, f"{prefix}{name}.")
     return fields
 
 
 def _kind(key: str, model: type[Table]) -> str:
     """Kind of a key: "table" or "value"."""
-    return "table" if any(name.startswith(key + ".") for name in _fields(model)) else "value"
+    return "table" if any(name.startswith(key + ".") for name in fields_within(model)) else "value"
 
 
 def parser_of(field: FieldInfo, key: str) -> Callable[..., Table]:
