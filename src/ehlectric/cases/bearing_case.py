@@ -76,8 +76,8 @@ class InputRange:
 
 
 def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
-    """Ranges of inputs, from dotted keys or nested tables with lists of two values. Returns ranges in the
-    order of the tables, SI units. Raises InputError where a key is unknown or is not a number, or its values
+    """Ranges of inputs in SI units, from dotted keys or nested tables with lists of two values.
+    Raises InputError where a key is unknown or is not a number, or its values
     are not two that increase.
 
     Examples

@@ -429,7 +429,7 @@ def check_heat(bearing: Bearing, oil: Lubricant) -> None:
 
 def missing_conductivity(tables: Any) -> InputError | None:
     """Error of a thermal conductivity that is missing in a bearing file whose oil lacks other values, too.
-    Returns error with its key in the table of the oil; None if nothing is missing for the film factor.
+    Its key is that in the table of the oil. It is None if nothing is missing for the film factor.
     """
     if not isinstance(tables, Mapping):
         return None

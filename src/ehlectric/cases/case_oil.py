@@ -316,9 +316,8 @@ class Lubricant(Properties):
         return self
 
     def at(self, temperature: float | None, key: str = "contact.temperature") -> Oil:
-        """Return the oil at a temperature. ``temperature`` [K]. Returns numbers and laws of the oil at this
-        temperature. Raises InputError if the oil needs a temperature and gets none, or has no value at this
-        temperature.
+        """Numbers and laws of the oil at a temperature [K]. Raises InputError if the oil needs a temperature
+        and none is given, or if a law has no value at this temperature.
 
         Examples
         --------
@@ -418,10 +417,10 @@ def _beyond(check: RangeCheck, pressure: float) -> bool:
 def known_oil(table: Properties, temperature: float | None, key: str = "temperature") -> KnownOil:
     """Oil at a temperature as far as its table goes.
 
-    ``temperature``, absolute temperature [K]; None for an oil whose values hold at the temperature of its
-    contact. Returns properties that are known, and errors of the values that are missing. Raises InputError
-    if a temperature is needed and missing, or outside the range of the oil or of a law, or if the table
-    contradicts itself.
+    ``temperature`` is the absolute temperature [K]; it is None for an oil whose values hold at the
+    temperature of its contact. The oil has the properties that are known, and an error for each value that
+    is missing. Raises InputError if a temperature is needed and missing, or outside the range of the oil or
+    of a law, or if the table contradicts itself.
     """
     with of_table(key):
         check_range(table, temperature)
@@ -554,8 +553,8 @@ class NamedOil:
 
 
 def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
-    """Oil of the library by its name, or of a file or table of a user. Returns oil with its table, in which
-    values may be missing. Raises InputError if there is no oil of this name, the file cannot be read or has
+    """Oil of the library by its name, or of a file or table of a user. Values may be missing in its table.
+    Raises InputError if there is no oil of this name, the file cannot be read or has
     no table ``lubricant``, or a value of the table is wrong.
     """
     if isinstance(source, Mapping):

@@ -146,9 +146,8 @@ class BearingDischarge(Discharge):
             )
 
     def at(self, temperature: float, key: str = "bearing.temperature") -> Discharge:
-        """Return the inputs of the discharge at a temperature. ``temperature`` [K]. Returns inputs of the
-        discharge, with this temperature for a strength table over temperature. Raises InputError if the
-        temperature is outside a strength table over temperature.
+        """Inputs of the discharge at a temperature [K], at which a strength table over temperature is read.
+        Raises InputError if the temperature is outside this table.
 
         Examples
         --------

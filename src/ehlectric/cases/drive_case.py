@@ -255,8 +255,8 @@ def swept_case_of_file(path: str | Path) -> SweptCase:
 
 
 def with_found_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a case of any kind whose files lie relative to a folder. Returns tables with absolute names
-    of surfaces and waveforms, and with the bearings of bearing files. Raises InputError if a bearing file of
+    """Tables of a case of any kind whose files lie relative to a folder. They get absolute names of surfaces
+    and waveforms, and the bearings of bearing files. Raises InputError if a bearing file of
     a drive cannot be read or is not valid.
     """
     find_files(table, folder)

@@ -58,7 +58,7 @@ class Source(Table, book="source"):
         machine. With ``base_frequency`` the index is ``modulation_index`` from this frequency on, and below
         it falls in proportion to the frequency, for a constant flux.
 
-        ``speed`` [rad/s]. Returns source with its frequency and its index, and without those two keys. Raises
+        The source for this speed [rad/s] has its frequency and its index, and not those two keys. Raises
         InputError if the frequency or an edge does not fit the carrier.
         """
         frequency, index, base = self.fundamental_frequency, self.modulation_index, self.base_frequency

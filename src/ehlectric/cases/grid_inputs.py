@@ -252,8 +252,7 @@ class Grid(Table, book="grid"):
 
 
 def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Table of a point contact's grid, completed by the defaults of point contacts. Returns given keys, and
-    the defaults that only the grid of a point contact has.
+    """Table of a point contact's grid: the given keys, and the defaults that only such a grid has.
 
     Examples
     --------

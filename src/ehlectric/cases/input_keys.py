@@ -149,9 +149,8 @@ def plain_text(text: str) -> str:
 
 
 def input_field(key: str) -> FieldInfo:
-    """Field of an input, with its annotation and default. Returns field of the table that the key belongs to.
-    Raises InputError if the key is unknown or is a table; the message names the nearest known key, or a key
-    of the table.
+    """Field of an input in its table, with its annotation and default. Raises InputError if the key is
+    unknown or is a table; the message names the nearest known key, or a key of the table.
 
     Examples
     --------
@@ -261,8 +260,6 @@ def unit_of(key: str) -> str:
     """SI unit of an input, as pint writes it.
 
     It is empty for a dimensionless number, a text or an unknown key.
-
-    Returns unit such as "N/m".
 
     Examples
     --------

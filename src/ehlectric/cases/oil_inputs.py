@@ -57,8 +57,9 @@ OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_
 
 
 def law_parameters(*choices: str) -> dict[str, Parameter]:
-    """Parameters of the laws of a lubricant, by name. ``*choices``, keys of ``LAWS``, such as "density_law";
-    all keys if none is given. Returns parameters of the laws that are in the tables at the time of the call.
+    """Parameters of the laws of a lubricant, by name, as the tables of laws are at the time of the call.
+
+    ``choices`` are keys of ``LAWS``, such as "density_law"; without any, the laws of all keys count.
 
     Examples
     --------

@@ -76,8 +76,8 @@ def _in_place_of(table: Properties) -> str:
 
 
 def law_behind(name: str, table: Properties, pressure: float) -> str:
-    """Name of the law of a property at pressure, or of that over temperature at ambient pressure.
-    ``pressure`` [Pa]. Returns name of the law, "table" for a measured table, or empty for a given number.
+    """Name of the law of a property at a pressure [Pa], or of that over temperature at ambient pressure. It
+    is "table" for a measured table, and empty for a given number.
     """
     match name:
         case "viscosity" | "kinematic_viscosity" if pressure == 0.0:
@@ -478,9 +478,8 @@ def oil_report(
     temperatures: Sequence[str | float] = (),
     pressures: Sequence[str | float] = (),
 ) -> OilReport:
-    """Report on an oil of the library, of a file or of a table. Returns every property of the oil; those of
-    which a value is missing are marked. Raises InputError if there is no such oil, or a temperature is
-    outside the range of the oil.
+    """Report on every property of an oil of the library, of a file or of a table. Properties of which a value
+    is missing are marked. Raises InputError if there is no such oil, or a temperature is outside its range.
 
     Examples
     --------

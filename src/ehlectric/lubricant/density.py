@@ -187,9 +187,8 @@ def dowson_higginson(
 
 
 def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
-    """Density ratio of an incompressible lubricant, which is one, and its derivative, which is zero.
-    ``pressure`` [Pa], shape (...); ``temperature`` [K]. Returns ones, dimensionless, and zeros [1/Pa],
-    shape (...).
+    """Density ratio of an incompressible lubricant, which is one, and its derivative by pressure [1/Pa],
+    which is zero, at pressures [Pa] of shape (...).
 
     Examples
     --------

@@ -126,8 +126,7 @@ class Law:
 
 
 def required(temperature: ArrayLike | None, law: str) -> Array:
-    """Temperature [K] that a law needs, as an array. ``temperature`` [K]. Raises InputError if the
-    temperature is None.
+    """Temperature [K] that a law needs, as an array. Raises InputError if there is none.
 
     Examples
     --------

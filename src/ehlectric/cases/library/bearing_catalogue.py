@@ -41,9 +41,8 @@ def _rows() -> tuple[dict[str, str], ...]:
 
 
 def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> ClearanceRange:
-    """Range of the radial internal clearance of a new, unmounted bearing with a cylindrical bore. ``bore``
-    [m]. Returns smallest and largest clearance [m]. Raises InputError if the table of the kind has no bearing
-    of this bore.
+    """Range of the radial internal clearance [m] of a new, unmounted bearing with a cylindrical bore [m].
+    Raises InputError if the table of the kind has no bearing of this bore.
 
     The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree.
 
@@ -149,7 +148,7 @@ class CatalogueBearing:
 
 
 def catalogue_bearing(name: str) -> CatalogueBearing:
-    """Bearing of the library by its name. Returns dimensions and ratings in SI units.
+    """Bearing of the library by its name, with its dimensions and ratings in SI units.
 
     Examples
     --------
