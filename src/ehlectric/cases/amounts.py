@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.quantity import Bounds
 
 # Temperatures without a unit whose size is below this are meant in degC [K].
 _COLDEST_BARE = 200.0
@@ -45,20 +47,10 @@ def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], 
 
 
 @dataclass(frozen=True)
-class Amount:
+class Amount(Bounds):
     """Pydantic annotation of a physical quantity: SI number or string with its unit, within bounds."""
 
     unit: str  # SI unit as pint writes it; empty for a dimensionless quantity
-    # above and below: bounds in ``unit`` that are not allowed themselves.
-    above: float = -math.inf
-    below: float = math.inf
-    # least and most: smallest and largest value allowed, in ``unit``
-    least: float = -math.inf
-    most: float = math.inf
-    reason: str = ""  # reason for the bounds, or a description of the quantity, for messages
-    fraction: bool = False  # whether the value may be a string in percent
-    # Whether the value is a difference of temperatures, which has no zero of a scale.
-    difference: bool = False
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(_with_context(self.parse))
@@ -89,7 +81,7 @@ class Amount:
             value = self._number(item)
             if not math.isfinite(value):
                 raise ValueError("it is not finite")
-            if not (self.above < value < self.below and self.least <= value <= self.most):
+            if not self.allow(value):
                 raise ValueError("")
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
@@ -226,3 +218,23 @@ class Count:
         if not (whole and self.least <= int(item) <= self.most):  # type: ignore[call-overload]
             raise InputError(got=shown(entry), takes=self.takes)
         return int(item)  # type: ignore[call-overload, no-any-return]
+
+
+N = TypeVar("N", Amount, Count)
+
+
+def bounded(kind: type[N], entry: object) -> N:
+    """Amount or count with the unit and the bounds of an entry of the book, or of a parameter of a law."""
+    names = (field.name for field in fields(kind))
+    return kind(**{name: getattr(entry, name) for name in names})
+
+
+def amount_at(key: str) -> Amount:
+    """Unit and bounds of the input with a dotted key.
+
+    Examples
+    --------
+    >>> amount_at("bearing.bore").least
+    0.0001
+    """
+    return bounded(Amount, input_at(key))

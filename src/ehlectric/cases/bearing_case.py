@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
 from pydantic import (
     ModelWrapValidatorHandler,
@@ -32,6 +32,7 @@ from ehlectric.cases.table import (
     CaseFile,
     Table,
     Title,
+    fields_within,
     nearest_key,
     parser_of,
     read_toml,
@@ -75,8 +76,8 @@ class InputRange:
 
 
 def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
-    """Ranges of inputs, from dotted keys or nested tables with lists of two values. Returns ranges in the
-    order of the tables, SI units. Raises InputError where a key is unknown or is not a number, or its values
+    """Ranges of inputs in SI units, from dotted keys or nested tables with lists of two values.
+    Raises InputError where a key is unknown or is not a number, or its values
     are not two that increase.
 
     Examples
@@ -123,14 +124,10 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
 
 def _field(key: str, model: type[Table]) -> FieldInfo:
     """Field of a dotted key."""
-    field: FieldInfo | None = None
-    inner: type[Table] | None = model
-    for name in key.split("."):
-        field = None if inner is None else inner.known_keys().get(name)
-        if field is None or key == "ranges":
-            raise InputError.unknown(key, nearest_key(key, model))
-        inner = table_of(field.annotation)
-    if field is None or inner is not None:
+    field = fields_within(model).get(key)
+    if field is None or key == "ranges":
+        raise InputError.unknown(key, nearest_key(key, model))
+    if table_of(field.annotation) is not None:
         raise InputError(key, "is a table", takes="one of its keys with a list of two values")
     return field
 
@@ -143,27 +140,6 @@ _ROUNDING = 1e-9
 
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length",)
-
-# Advice for an insulated ring.
-_COATED = (
-    "give coating = 'alumina', a coating of the library, or the table [bearing.coating] with base or with "
-    "ring, thickness and relative_permittivity"
-)
-
-# Advice for unknown keys that belong to another table, or have another name.
-_ADVICE = {
-    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
-    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
-    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
-    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
-    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
-    "bearing.coating_thickness": _COATED,
-    "bearing.coating_material": _COATED,
-    "bearing.insulation": _COATED,
-    "bearing.insulated": _COATED,
-    "bearing.coated": _COATED,
-    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
-}
 
 
 class _Tables(TypedDict, total=False):
@@ -182,7 +158,7 @@ class _BearingCaseKeys(_Tables, BearingKeys, total=False):
     pass
 
 
-class BearingCase(CaseFile):
+class BearingCase(CaseFile, book="bearing_file"):
     """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
@@ -217,8 +193,6 @@ class BearingCase(CaseFile):
             solver: Solver | Keys = ...,
             ranges: Keys | None = ...,
         ) -> None: ...
-
-    ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
     contacts: Contacts = "solved"

@@ -5,7 +5,7 @@ summits.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from difflib import get_close_matches
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
@@ -13,14 +13,13 @@ from typing import Annotated, Any, Literal, Self, TypedDict
 from pydantic import BeforeValidator, model_validator
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.amounts import amount_at
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.defaults import FILM_FACTORS
 from ehlectric.cases.film_inputs import check_thermal_oil
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.library.bearing_catalogue import (
-    BORE,
     ClearanceClass,
     clearance_range,
     with_class,
@@ -33,52 +32,42 @@ from ehlectric.formulas.inlet_supply import SUPPLY_CONSTANTS
 from ehlectric.quantities.units import to_fraction
 from ehlectric.runtime.values import is_number
 
-TEMPERATURE = Amount("K", least=200.0, most=600.0, reason="absolute")
-PLAY = Amount("m", least=-1e-3, most=1e-2, reason="full diametral play")
-_Interference = Annotated[
-    float, Amount("m", least=-1e-2, most=1e-2, reason="on the diameter, negative for a loose fit")
-]
+# Full diametral play of a bearing.
+PLAY = amount_at("bearing.radial_clearance")
 
 
 _Solid = Annotated[str, library_choice(library.solid_names)]
 
 
-class Fits(Table):
+class Fits(Table, book="bearing.fits"):
     """Clearance before mounting, fits on shaft and in housing, and their temperatures.
 
     The clearance in operation follows from them. All dimensions are those at ``reference_temperature``.
     """
 
-    unmounted_clearance: Annotated[float, PLAY] | None = None
-    shaft_interference: _Interference
-    housing_interference: _Interference
-    shaft_bore: Annotated[float, Amount("m", least=0.0, most=10.0, reason="of a hollow shaft")] = 0.0
-    housing_diameter: Annotated[float, BORE] | None = None
+    unmounted_clearance: float | None = None
+    shaft_interference: float
+    housing_interference: float
+    shaft_bore: float = 0.0
+    housing_diameter: float | None = None
     shaft_material: _Solid = "steel"
     housing_material: _Solid
-    element_temperature: Annotated[float, TEMPERATURE] | None = None
-    shaft_temperature: Annotated[float, TEMPERATURE] | None = None
-    housing_temperature: Annotated[float, TEMPERATURE] | None = None
+    element_temperature: float | None = None
+    shaft_temperature: float | None = None
+    housing_temperature: float | None = None
     # Standard reference temperature of dimensions, ISO 1.
-    reference_temperature: Annotated[float, TEMPERATURE] = 293.15
+    reference_temperature: float = 293.15
 
 
-_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
-
-
-class Motor(Table):
+class Motor(Table, book="motor"):
     """Common-mode voltage and capacitances of the motor around the bearing."""
 
-    common_mode_voltage: Annotated[float, Amount("V", above=0.0, most=1e6, reason="peak")]
-    winding_rotor_capacitance: _Capacitance
-    rotor_frame_capacitance: _Capacitance
-    second_bearing_capacitance: _Capacitance | None = None
-    switching_frequency: (
-        Annotated[float, Amount("Hz", least=1.0, most=1e8, reason="of the inverter")] | None
-    ) = None
-    rise_time: (
-        Annotated[float, Amount("s", least=1e-11, most=1.0, reason="of an edge of the inverter")] | None
-    ) = None
+    common_mode_voltage: float
+    winding_rotor_capacitance: float
+    rotor_frame_capacitance: float
+    second_bearing_capacitance: float | None = None
+    switching_frequency: float | None = None
+    rise_time: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -93,23 +82,14 @@ class Motor(Table):
         return self
 
 
-_Density = Annotated[
-    float, Amount("1/m**2", least=1e6, most=1e16, reason="of the sum of both surfaces' heights")
-]
-_Radius = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of the caps")]
-_Height = Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of the summit heights")]
-_Highest = Annotated[float, Amount("", above=0.0, most=100.0, reason="in deviations of the heights")]
-_Bandwidth = Annotated[float, Amount("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
-
-
-class Summits(Table):
+class Summits(Table, book="bearing.summits"):
     """Density, radius and heights of the summits of both surfaces together, at one sampling interval."""
 
-    density: _Density
-    radius: _Radius
-    height_deviation: _Height | None = None
-    bandwidth: _Bandwidth | None = None
-    highest: _Highest | None = None
+    density: float
+    radius: float
+    height_deviation: float | None = None
+    bandwidth: float | None = None
+    highest: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -121,12 +101,6 @@ class Summits(Table):
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
 
-_WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
-_Length = Annotated[float, BORE]
-_Groove = Annotated[float, Amount("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
-_Parallel = Annotated[float, Amount("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
-_Ohm = Annotated[float, Amount("ohm", above=0.0, most=1e9, reason="of one contact with metallic spots")]
-_Load = Annotated[float, Amount("N", least=0.0, most=1e8, reason="on the inner ring")]
 
 # Keys that only ball bearings have, and keys that only roller bearings have.
 _OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
@@ -152,20 +126,12 @@ _CHOICES = {
 }
 
 
-def _film_factor(value: Any) -> float | str:
-    if value in FILM_FACTORS:
-        return str(value)
+def _word_or_part(words: Collection[str], value: Any) -> float | str:
+    """One of some words, or a number above 0 and at most 1."""
+    if isinstance(value, str) and value in words:
+        return value
     if not is_number(value) or not 0.0 < value <= 1.0:
-        raise InputError(got=shown(value), takes=f"{_WORDS}, or a number above 0 and at most 1")
-    return float(value)
-
-
-def _supply(value: Any) -> float | str:
-    """Supply of oil: the name of a way, or the film over the fully flooded one."""
-    if isinstance(value, str) and value in SUPPLY_CONSTANTS:
-        return str(value)
-    if not is_number(value) or not 0.0 < value <= 1.0:
-        names = ", ".join(repr(name) for name in SUPPLY_CONSTANTS)
+        names = ", ".join(map(repr, words))
         raise InputError(got=shown(value), takes=f"{names}, or a number above 0 and at most 1")
     return float(value)
 
@@ -203,48 +169,42 @@ def _bearing_name(base: Any) -> str:
         raise InputError(error.key, got=shown(base), takes=takes) from None
 
 
-class Bearing(Table):
+class Bearing(Table, book="bearing"):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
     base: str | None = None
     kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
-    elements: Annotated[int, Count(3, 1000, "rolling elements of one row")]
-    bore: _Length | None = None
-    outer_diameter: _Length | None = None
-    width: _Length | None = None
-    element_diameter: _Length
-    pitch_diameter: _Length
-    inner_groove: _Groove | None = None
-    outer_groove: _Groove | None = None
-    roller_length: _Length | None = None
+    elements: int
+    bore: float | None = None
+    outer_diameter: float | None = None
+    width: float | None = None
+    element_diameter: float
+    pitch_diameter: float
+    inner_groove: float | None = None
+    outer_groove: float | None = None
+    roller_length: float | None = None
     profile: Literal["none", "logarithmic"] | None = None
-    shoulder_height: (
-        Annotated[float, Amount("", above=0.0, most=0.5, reason="of the element diameter")] | None
-    ) = None
-    radial_clearance: Annotated[float, PLAY] | None = None
+    shoulder_height: float | None = None
+    radial_clearance: float | None = None
     clearance_class: ClearanceClass | None = None
-    contact_angle: (
-        Annotated[float, Amount("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
-    ) = None
+    contact_angle: float | None = None
     element_material: _Material = "steel"
     ring_material: _Material = "steel"
-    element_capacitance: _Capacitance | None = None
-    radial_load: _Load = 0.0
-    axial_load: _Load = 0.0
-    inner_speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
-    temperature: (
-        Annotated[float, Amount("K", least=200.0, most=600.0, reason="absolute, of the oil")] | None
-    ) = None
-    inner_ring_temperature: Annotated[float, TEMPERATURE] | None = None
-    outer_ring_temperature: Annotated[float, TEMPERATURE] | None = None
-    composite_rq: Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    element_capacitance: float | None = None
+    radial_load: float = 0.0
+    axial_load: float = 0.0
+    inner_speed: float
+    temperature: float | None = None
+    inner_ring_temperature: float | None = None
+    outer_ring_temperature: float | None = None
+    composite_rq: float
     summits: Summits | None = None
-    contact_resistance: _Ohm | None = None
+    contact_resistance: float | None = None
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
-    parallel_capacitance: _Parallel | None = None
+    parallel_capacitance: float | None = None
     coating: Coating | None = None
-    film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
-    supply: Annotated[float | str, BeforeValidator(_supply)] = "flooded"
+    film_factor: Annotated[float | str, BeforeValidator(partial(_word_or_part, FILM_FACTORS))] = "none"
+    supply: Annotated[float | str, BeforeValidator(partial(_word_or_part, SUPPLY_CONSTANTS))] = "flooded"
     fits: Fits | None = None
 
     @model_validator(mode="before")
@@ -322,10 +282,7 @@ class Bearing(Table):
         if self.radial_load == 0.0 and self.axial_load == 0.0:
             raise InputError.missing("radial_load", "a load, radial or axial")
         if self.by_supply_rule:
-            for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
-                if getattr(self, key) is None:
-                    takes = f"the {name} of the bearing, which supply {self.supply!r} needs"
-                    raise InputError.missing(key, takes)
+            self._check_diameters(f"supply {self.supply!r}")
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
             raise InputError.worded(
@@ -383,9 +340,7 @@ class Bearing(Table):
         if (fits.unmounted_clearance is None) == (self.clearance_class is None):
             both = None if self.clearance_class is None else "it and clearance_class together"
             raise InputError("fits.unmounted_clearance", got=both, takes="either it or clearance_class")
-        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
-            if getattr(self, key) is None:
-                raise InputError.missing(key, f"the {name} of the bearing, which [bearing.fits] needs")
+        self._check_diameters("[bearing.fits]")
         assert self.bore is not None and self.outer_diameter is not None
         if fits.shaft_bore >= self.bore:
             takes = f"less than the bore of the bearing, {self.bore:g} m"
@@ -395,6 +350,12 @@ class Bearing(Table):
             raise InputError("fits.housing_diameter", got=f"{fits.housing_diameter:g} m", takes=takes)
         if self.clearance_class is not None:
             clearance_range(self.kind, self.clearance_class, self.bore)
+
+    def _check_diameters(self, what: str) -> None:
+        """Check that both diameters of the bearing are given, which something needs."""
+        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+            if getattr(self, key) is None:
+                raise InputError.missing(key, f"the {name} of the bearing, which {what} needs")
 
     def _check_boundary(self) -> None:
         """Both rings have a thickness, and the element is not wider than the bearing."""
@@ -468,7 +429,7 @@ def check_heat(bearing: Bearing, oil: Lubricant) -> None:
 
 def missing_conductivity(tables: Any) -> InputError | None:
     """Error of a thermal conductivity that is missing in a bearing file whose oil lacks other values, too.
-    Returns error with its key in the table of the oil; None if nothing is missing for the film factor.
+    Its key is that in the table of the oil. It is None if nothing is missing for the film factor.
     """
     if not isinstance(tables, Mapping):
         return None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, TypeVar, Unpack
 
 from pydantic import PrivateAttr, model_validator
 
@@ -57,7 +57,7 @@ class _PointCaseKeys(_Tables, PointKeys, total=False):
     pass
 
 
-class Case(CaseFile):
+class Case(CaseFile, book="case_file"):
     """Charged line or point contact: all inputs on which film and electric field depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
@@ -96,11 +96,6 @@ class Case(CaseFile):
             grid: Grid | Keys = ...,
             solver: Solver | Keys = ...,
         ) -> None: ...
-
-    ADVICE: ClassVar = {
-        f"lubricant.{key}": "it belongs to the table [lubricant.temperature]"
-        for key in ("iso_vg", "viscosity_index", "density_15")
-    } | {"lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg"}
 
     _laws: SampledLaws | None = PrivateAttr(default=None)
 

@@ -5,7 +5,7 @@ their names.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -18,7 +18,7 @@ from scipy.optimize import bisect
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import Amount, bounded
 from ehlectric.cases.library.library_oils import LibraryOil, Source, library_oil, values_of
 from ehlectric.cases.oil_inputs import (
     LAWS,
@@ -29,7 +29,6 @@ from ehlectric.cases.oil_inputs import (
     check_viscosity,
     estimated_alpha,
     of_base_oil,
-    quantity_of,
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
@@ -37,7 +36,7 @@ from ehlectric.errors import InputError, ResultWarning, shown, within
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
-from ehlectric.lubricant.law import Law
+from ehlectric.lubricant.law import Law, required
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
 from ehlectric.lubricant.over_temperature import Walther, density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
@@ -73,6 +72,8 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
         for name in ("viscosity_law", "density_law"):
             # A law that has no value at the temperature says so here, with the key of the temperature.
             laws[name](np.zeros(1))
+        ranges = (range_check(oil, key, temperature, viscosity) for key in names)
+        checks = (estimated_alpha(oil, temperature), *ranges)
         return Oil(
             viscosity=viscosity,
             relative_permittivity=permittivity,
@@ -83,7 +84,7 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
             thermal_conductivity_law=laws.get("thermal_conductivity_law") or sheet_conductivity(oil),
             heat_capacity_law=laws.get("heat_capacity_law"),
             laws={name.removesuffix("_law"): law for name, law in names.items()},
-            checks=tuple(_checks(oil, names, viscosity, temperature)),
+            checks=tuple(check for check in checks if check is not None),
             inputs=oil.model_dump(mode="json", exclude_none=True),
             name=oil.base or "",
             temperature=temperature,
@@ -110,7 +111,7 @@ def bound(
     assert name is not None
     law = LAWS[key][name]
     if law.needs_temperature:
-        _needs(temperature, f"{key} {name!r}")
+        required(temperature, f"{key} {name!r}")
     values = _parameters(oil, law, viscosity, temperature)
     own = {parameter.name for parameter in law.parameters}
     values |= {name: value for name, value in known.items() if name in own}
@@ -127,8 +128,8 @@ def conductivity_at(oil: Properties, temperature: float | None, law: BoundLaw | 
     """Electrical conductivity at a temperature [S/m], by the table or the law of an oil; None without one."""
     table = oil.conductivity_table
     if table is not None:
-        at = _needs(temperature, "lubricant.conductivity_table")
         name = "lubricant.conductivity_table"
+        at = required(temperature, name)
         return float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
     return None if law is None else float(law.function(temperature, **law.parameters))
 
@@ -149,13 +150,6 @@ def _held(temperature: Array, *, temperatures: Sequence[float], conductivities: 
     within = np.clip(temperature, temperatures[0], temperatures[-1])
     name = "lubricant.conductivity_table"
     return interpolated(within, temperatures, conductivities, table=name, arrhenius=True)
-
-
-def _needs(temperature: float | None, what: str) -> float:
-    """Temperature, which is needed for something. Raises InputError if there is none."""
-    if temperature is None:
-        raise InputError.worded("temperature", f"missing; {what} needs it", takes="a temperature")
-    return temperature
 
 
 def check_range(oil: Properties, temperature: float | None) -> None:
@@ -181,7 +175,7 @@ def viscosity_at(oil: Properties, temperature: float | None) -> float:
     if law is None:
         assert oil.viscosity is not None
         return oil.viscosity
-    return law(_needs(temperature, "the viscosity of the oil"))
+    return law(float(required(temperature, "the viscosity of the oil")))
 
 
 def viscosity_over_temperature(oil: Properties) -> Callable[[float], float] | None:
@@ -276,8 +270,8 @@ def permittivity_at(oil: Properties, temperature: float | None) -> float:
     """Relative permittivity at zero pressure and a temperature [K]."""
     table = oil.permittivity_table
     if table is not None:
-        at = _needs(temperature, "lubricant.permittivity_table")
         name = "lubricant.permittivity_table"
+        at = required(temperature, name)
         return float(interpolated(at, table.temperature, table.relative_permittivity, table=name))
     assert oil.relative_permittivity is not None
     ratio = density_over_reference(oil, temperature)
@@ -285,19 +279,6 @@ def permittivity_at(oil: Properties, temperature: float | None) -> float:
         return oil.relative_permittivity
     law = PERMITTIVITY_LAWS[oil.permittivity_law]
     return float(law.function(ratio, temperature, **_given(oil, law)))
-
-
-def _checks(
-    oil: Properties, names: Iterable[str], viscosity: float, temperature: float | None
-) -> Iterator[Callable[[float], Iterator[ResultWarning]]]:
-    """Checks of the ranges of those laws that have one, and the estimate of a coefficient."""
-    estimate = estimated_alpha(oil, temperature)
-    if estimate is not None:
-        yield estimate
-    for key in names:
-        check = range_check(oil, key, temperature, viscosity)
-        if check is not None:
-            yield check
 
 
 def range_check(oil: Properties, key: str, temperature: float | None, viscosity: float) -> RangeCheck | None:
@@ -335,9 +316,8 @@ class Lubricant(Properties):
         return self
 
     def at(self, temperature: float | None, key: str = "contact.temperature") -> Oil:
-        """Return the oil at a temperature. ``temperature`` [K]. Returns numbers and laws of the oil at this
-        temperature. Raises InputError if the oil needs a temperature and gets none, or has no value at this
-        temperature.
+        """Numbers and laws of the oil at a temperature [K]. Raises InputError if the oil needs a temperature
+        and none is given, or if a law has no value at this temperature.
 
         Examples
         --------
@@ -437,10 +417,10 @@ def _beyond(check: RangeCheck, pressure: float) -> bool:
 def known_oil(table: Properties, temperature: float | None, key: str = "temperature") -> KnownOil:
     """Oil at a temperature as far as its table goes.
 
-    ``temperature``, absolute temperature [K]; None for an oil whose values hold at the temperature of its
-    contact. Returns properties that are known, and errors of the values that are missing. Raises InputError
-    if a temperature is needed and missing, or outside the range of the oil or of a law, or if the table
-    contradicts itself.
+    ``temperature`` is the absolute temperature [K]; it is None for an oil whose values hold at the
+    temperature of its contact. The oil has the properties that are known, and an error for each value that
+    is missing. Raises InputError if a temperature is needed and missing, or outside the range of the oil or
+    of a law, or if the table contradicts itself.
     """
     with of_table(key):
         check_range(table, temperature)
@@ -573,8 +553,8 @@ class NamedOil:
 
 
 def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
-    """Oil of the library by its name, or of a file or table of a user. Returns oil with its table, in which
-    values may be missing. Raises InputError if there is no oil of this name, the file cannot be read or has
+    """Oil of the library by its name, or of a file or table of a user. Values may be missing in its table.
+    Raises InputError if there is no oil of this name, the file cannot be read or has
     no table ``lubricant``, or a value of the table is wrong.
     """
     if isinstance(source, Mapping):
@@ -601,7 +581,7 @@ def _of_file(path: Path) -> NamedOil:
     kelvins = [
         _parsed(TEMPERATURE, tables, name, key) for name, keys in _TEMPERATURES.items() for key in keys
     ]
-    conductivity = _parsed(quantity_of(CONDUCTIVITY), tables, "discharge", "conductivity")
+    conductivity = _parsed(bounded(Amount, CONDUCTIVITY), tables, "discharge", "conductivity")
     if conductivity is not None:
         # It holds in place of that of the oil, as in a solution.
         others = {key: value for key, value in table.items() if key not in _CONDUCTION}

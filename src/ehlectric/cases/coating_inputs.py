@@ -4,23 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import model_validator
 from scipy.constants import epsilon_0
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.oil_inputs import library_name
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
-
-_Thickness = Annotated[float, Amount("m", above=0.0, most=1e-2, reason="of the coating")]
-_Permittivity = Annotated[float, Amount("", least=1.0, most=1e3, reason="of the coating")]
-_Area = Annotated[float, Amount("m**2", above=0.0, most=1e2, reason="of the coated surface on its seat")]
-_Strength = Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="of the coating")]
-_Voltage = Annotated[float, Amount("V", above=0.0, most=1e7, reason="of the whole coating")]
-_Resistance = Annotated[float, Amount("ohm", above=0.0, most=1e18, reason="through the coating")]
 
 
 def _named(name: str) -> str:
@@ -35,17 +27,17 @@ def _named(name: str) -> str:
     return name
 
 
-class Coating(Table):
+class Coating(Table, book="bearing.coating"):
     """Insulating coating between a ring and its seat; no property of it has a default."""
 
     base: str | None = None
     ring: Literal["inner", "outer"]
-    thickness: _Thickness
-    relative_permittivity: _Permittivity
-    area: _Area | None = None
-    strength: _Strength | None = None
-    breakdown_voltage: _Voltage | None = None
-    resistance: _Resistance | None = None
+    thickness: float
+    relative_permittivity: float
+    area: float | None = None
+    strength: float | None = None
+    breakdown_voltage: float | None = None
+    resistance: float | None = None
 
     @model_validator(mode="before")
     @classmethod

@@ -10,7 +10,6 @@ from typing import Annotated, Any, Literal, Self, TypedDict
 from pydantic import model_validator
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.oil_inputs import library_choice
@@ -65,37 +64,22 @@ def warn_of(contact: Contact, *, level: int) -> None:
         warnings.warn(text, stacklevel=level + 1)
 
 
-_Radius = Annotated[float, Amount("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
-_SignedRadius = Annotated[float, Amount("m", least=-1e3, most=1e3, reason="negative for a concave body")]
-_Modulus = Annotated[float, Amount("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
-_Speed = Annotated[float, Amount("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
-_Surface = Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
-
-
 _THERMAL = library_choice(
     partial(library.solid_names, thermal=True), "a solid with thermal properties in the library"
 )
 
 
-class Body(Table):
+class Body(Table, book="contact.body"):
     """Elastic and thermal properties of one body and, for a point contact, its radii in both planes."""
 
-    youngs_modulus: _Modulus | None = None
-    poissons_ratio: (
-        Annotated[float, Amount("", above=-1.0, most=0.5, reason="0.5 is an incompressible body")] | None
-    ) = None
-    radius_x: _SignedRadius | None = None
-    radius_y: _SignedRadius | None = None
+    youngs_modulus: float | None = None
+    poissons_ratio: float | None = None
+    radius_x: float | None = None
+    radius_y: float | None = None
     material: Annotated[str, _THERMAL] | None = None
-    thermal_conductivity: (
-        Annotated[float, Amount("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
-    ) = None
-    heat_capacity: (
-        Annotated[float, Amount("J/kg/K", least=100.0, most=5000.0, reason="of a solid, per mass")] | None
-    ) = None
-    density: (
-        Annotated[float, Amount("kg/m**3", least=500.0, most=23e3, reason="from polymers to osmium")] | None
-    ) = None
+    thermal_conductivity: float | None = None
+    heat_capacity: float | None = None
+    density: float | None = None
 
 
 # Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
@@ -104,56 +88,32 @@ _ATOM = 5e-11
 OTHER = {"line": "point", "point": "line"}
 
 
-class Contact(Table):
+class Contact(Table, book="contact"):
     """Geometry, elasticity, load and speed of a contact."""
 
     geometry: Literal["line", "point"] = "line"
-    radius_x: _Radius | None = None
-    radius_y: _Radius | None = None
-    reduced_radius: _Radius | None = None
-    radius_1: _SignedRadius | None = None
-    radius_2: _SignedRadius | None = None
-    reduced_modulus: _Modulus | None = None
+    radius_x: float | None = None
+    radius_y: float | None = None
+    reduced_radius: float | None = None
+    radius_1: float | None = None
+    radius_2: float | None = None
+    reduced_modulus: float | None = None
     body_1: Body | None = None
     body_2: Body | None = None
-    load: Annotated[float, Amount("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None = (
-        None
-    )
-    load_per_length: (
-        Annotated[float, Amount("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
-    ) = None
-    max_hertz_pressure: (
-        Annotated[float, Amount("Pa", least=1e4, most=2e10, reason="twice what any solid carries")] | None
-    ) = None
-    entrainment_speed: (
-        Annotated[
-            float,
-            Amount("m/s", least=1e-9, most=1e4, reason="(u1 + u2)/2, positive along x"),
-        ]
-        | None
-    ) = None
-    temperature: (
-        Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
-        | None
-    ) = None
-    temperature_1: _Surface | None = None
-    temperature_2: _Surface | None = None
-    slide_to_roll_ratio: (
-        Annotated[float, Amount("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
-    ) = None
-    speed_1: _Speed | None = None
-    speed_2: _Speed | None = None
-    boundary_film: (
-        Annotated[float, Amount("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
-        | None
-    ) = None
-    boundary_friction: (
-        Annotated[float, Amount("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
-    ) = None
+    load: float | None = None
+    load_per_length: float | None = None
+    max_hertz_pressure: float | None = None
+    entrainment_speed: float | None = None
+    temperature: float | None = None
+    temperature_1: float | None = None
+    temperature_2: float | None = None
+    slide_to_roll_ratio: float | None = None
+    speed_1: float | None = None
+    speed_2: float | None = None
+    boundary_film: float | None = None
+    boundary_friction: float | None = None
 
-    hardness: (
-        Annotated[float, Amount("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
-    ) = None
+    hardness: float | None = None
 
     @property
     def touching_gap(self) -> float:

@@ -4,29 +4,24 @@ pit.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
-
-_STRENGTH = Amount("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
-_PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the film")
-_TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the film")
 
 # Keys that need the length of a line contact.
 _OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
 
 
-class StrengthTable(Table):
+class StrengthTable(Table, book="discharge.strength_table"):
     """Dielectric strength over the pressure or the temperature of the film, interpolated linearly."""
 
-    pressure: Annotated[tuple[float, ...], Amounts(_PRESSURE, least=2)] | None = None
-    temperature: Annotated[tuple[float, ...], Amounts(_TEMPERATURE, least=2)] | None = None
-    strength: Annotated[tuple[float, ...], Amounts(_STRENGTH, least=2)]
+    pressure: tuple[float, ...] | None = None
+    temperature: tuple[float, ...] | None = None
+    strength: tuple[float, ...]
 
     @property
     def over(self) -> Literal["pressure", "temperature"]:
@@ -43,59 +38,36 @@ class StrengthTable(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         self.check_one_of(("pressure", "temperature"), "either pressure or temperature", needed=True)
-        if any(b <= a for a, b in zip(self.places, self.places[1:], strict=False)):
-            raise InputError(self.over, got=list(self.places), takes="increasing values")
-        if len(self.strength) != len(self.places):
-            raise InputError(
-                "strength",
-                got=f"{len(self.strength)} values over {len(self.places)} of {self.over}",
-                takes="as many",
-            )
-        return self
+        return self.check_over(self.over, "strength")
 
 
-class Weibull(Table):
+class Weibull(Table, book="discharge.weibull"):
     """Weibull law of breakdown, probability 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
 
-    scale: Annotated[float, _STRENGTH]
-    shape: Annotated[float, Amount("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
-    reference_area: Annotated[
-        float, Amount("m**2", least=1e-18, most=1.0, reason="at which the scale was measured")
-    ]
+    scale: float
+    shape: float
+    reference_area: float
 
 
-class Pit(Table):
+class Pit(Table, book="discharge.pit"):
     """Efficiency and melting energy, from which the volume that a discharge melts is computed."""
 
-    efficiency: Annotated[
-        float,
-        Amount("", above=0.0, most=1.0, reason="part of the energy that melts one surface", fraction=True),
-    ]
-    melting_energy: Annotated[
-        float, Amount("J/m**3", least=1e8, most=1e12, reason="to heat and melt a volume of the surface")
-    ]
+    efficiency: float
+    melting_energy: float
 
 
-class Discharge(Table):
+class Discharge(Table, book="discharge"):
     """Inputs of the assessment of a discharge; no property of a material has a default."""
 
-    dielectric_strength: Annotated[float, _STRENGTH] | None = None
+    dielectric_strength: float | None = None
     strength_table: StrengthTable | None = None
     weibull: Weibull | None = None
-    temperature: Annotated[float, _TEMPERATURE] | None = None
+    temperature: float | None = None
     outlet: Literal["full", "fingers", "layers"] = "full"
-    conductivity: (
-        Annotated[float, Amount("S/m", least=1e-20, most=1e2, reason="of the lubricant, at its temperature")]
-        | None
-    ) = None
-    external_capacitance: (
-        Annotated[float, Amount("F", least=0.0, most=1.0, reason="discharged with the contact: the rotor")]
-        | None
-    ) = None
-    length: Annotated[float, Amount("m", least=1e-6, most=1e2, reason="of a line contact")] | None = None
-    peak_current: Annotated[float, Amount("A", least=0.0, most=1e6, reason="through the contact")] | None = (
-        None
-    )
+    conductivity: float | None = None
+    external_capacitance: float | None = None
+    length: float | None = None
+    peak_current: float | None = None
     pit: Pit | None = None
 
     @property
@@ -174,9 +146,8 @@ class BearingDischarge(Discharge):
             )
 
     def at(self, temperature: float, key: str = "bearing.temperature") -> Discharge:
-        """Return the inputs of the discharge at a temperature. ``temperature`` [K]. Returns inputs of the
-        discharge, with this temperature for a strength table over temperature. Raises InputError if the
-        temperature is outside a strength table over temperature.
+        """Inputs of the discharge at a temperature [K], at which a strength table over temperature is read.
+        Raises InputError if the temperature is outside this table.
 
         Examples
         --------

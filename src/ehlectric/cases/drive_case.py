@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field, model_validator
 
-from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearing_case import BearingCase, bearing_key
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import displace, flattened, set_keys
@@ -25,19 +24,17 @@ from ehlectric.quantities.units import rpm
 from ehlectric.runtime.values import headline
 
 
-class Operation(Table):
+class Operation(Table, book="drive"):
     """Operating point of the drive, and how long it is looked at."""
 
-    speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the rotor")] | None = None
-    temperature: (
-        Annotated[float, Amount("K", least=150.0, most=600.0, reason="of the oil of both bearings")] | None
-    ) = None
+    speed: float | None = None
+    temperature: float | None = None
     contacts: Contacts | None = None
-    duration: Annotated[float, Amount("s", above=0.0, most=1e4, reason="of simulated time")] | None = None
-    seed: Annotated[int, Count(least=0, most=2**53, reason="of the random numbers")] = 0
+    duration: float | None = None
+    seed: int = 0
 
 
-class Remedy(Table):
+class Remedy(Table, book="remedies"):
     """Changed copy of the drive that is computed beside it."""
 
     title: Title
@@ -51,7 +48,7 @@ class Remedy(Table):
         return self
 
 
-class DriveCase(CaseFile):
+class DriveCase(CaseFile, book="drive_file"):
     """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
 
     A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
@@ -258,8 +255,8 @@ def swept_case_of_file(path: str | Path) -> SweptCase:
 
 
 def with_found_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a case of any kind whose files lie relative to a folder. Returns tables with absolute names
-    of surfaces and waveforms, and with the bearings of bearing files. Raises InputError if a bearing file of
+    """Tables of a case of any kind whose files lie relative to a folder. They get absolute names of surfaces
+    and waveforms, and the bearings of bearing files. Raises InputError if a bearing file of
     a drive cannot be read or is not valid.
     """
     find_files(table, folder)

@@ -6,19 +6,15 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.formulas.capacitances import Machine, MachineCapacitances, machine_capacitances
 from ehlectric.quantities.alternatives import DESCRIBED, MEASURED
 from ehlectric.quantities.formats import amount
-
-_Hertz = Amount("Hz", least=1e-3, most=1e9, reason="of an inverter")
-_Time = Amount("s", least=1e-12, most=1.0, reason="of an edge of an inverter")
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
 _NEEDED = ("dc_link", "modulation", "rise_time")
@@ -27,32 +23,28 @@ _ONLY_BY_CARRIER = (*_NEEDED_BY_CARRIER, "base_frequency")
 _RINGING = ("ringing_frequency", "overshoot", "ringing_time")
 
 
-class Source(Table):
+class Source(Table, book="source"):
     """Common-mode voltage of the inverter: from its modulation, or a measured waveform."""
 
-    dc_link: Annotated[float, Amount("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None = None
+    dc_link: float | None = None
     modulation: Literal["sinusoidal", "space-vector", "six-step"] | None = None
-    switching_frequency: Annotated[float, _Hertz] | None = None
-    fundamental_frequency: Annotated[float, _Hertz] | None = None
-    pole_pairs: Annotated[int, Count(least=1, most=1000, reason="of the machine")] | None = None
-    modulation_index: (
-        Annotated[float, Amount("", least=0.0, most=1.5, reason="1 without overmodulation")] | None
-    ) = None
-    base_frequency: Annotated[float, _Hertz] | None = None
-    rise_time: Annotated[float, Amount("s", least=0.0, most=1.0, reason="of an edge")] | None = None
-    ringing_frequency: Annotated[float, _Hertz] | None = None
-    overshoot: (
-        Annotated[float, Amount("", least=0.0, most=1.0, reason="part of the step", fraction=True)] | None
-    ) = None
-    ringing_time: Annotated[float, _Time] | None = None
+    switching_frequency: float | None = None
+    fundamental_frequency: float | None = None
+    pole_pairs: int | None = None
+    modulation_index: float | None = None
+    base_frequency: float | None = None
+    rise_time: float | None = None
+    ringing_frequency: float | None = None
+    overshoot: float | None = None
+    ringing_time: float | None = None
     file: str | None = None
     column: str | int | None = None
     time_column: str | int | None = None
-    step: Annotated[float, _Time] | None = None
+    step: float | None = None
     time_unit: str | None = None
     value_unit: str | None = None
-    scale: Annotated[float, Amount("", least=-1e9, most=1e9, reason="such as that of a probe")] = 1.0
-    resample: Annotated[float, _Time] | None = None
+    scale: float = 1.0
+    resample: float | None = None
 
     @property
     def measured(self) -> bool:
@@ -66,7 +58,7 @@ class Source(Table):
         machine. With ``base_frequency`` the index is ``modulation_index`` from this frequency on, and below
         it falls in proportion to the frequency, for a constant flux.
 
-        ``speed`` [rad/s]. Returns source with its frequency and its index, and without those two keys. Raises
+        The source for this speed [rad/s] has its frequency and its index, and not those two keys. Raises
         InputError if the frequency or an edge does not fit the carrier.
         """
         frequency, index, base = self.fundamental_frequency, self.modulation_index, self.base_frequency
@@ -131,23 +123,19 @@ class Source(Table):
             )
 
 
-_Length = Annotated[float, Amount("m", above=0.0, most=100.0, reason="of an electric machine")]
-_Permittivity = Annotated[float, Amount("", least=1.0, most=100.0, reason="1 for air")]
-
-
-class Geometry(Table):
+class Geometry(Table, book="circuit.machine"):
     """Active part of a machine: stator with slots, and a rotor that is smooth for the field."""
 
-    stack_length: _Length
-    bore_diameter: _Length
-    air_gap: _Length
-    slots: Annotated[int, Count(least=3, most=2000, reason="of the stator")]
-    slot_opening: _Length
-    copper_depth: _Length
-    slot_permittivity: _Permittivity
-    liner_width: _Length
-    liner_thickness: _Length
-    liner_permittivity: _Permittivity
+    stack_length: float
+    bore_diameter: float
+    air_gap: float
+    slots: int
+    slot_opening: float
+    copper_depth: float
+    slot_permittivity: float
+    liner_width: float
+    liner_thickness: float
+    liner_permittivity: float
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -179,11 +167,6 @@ class Geometry(Table):
         )
 
 
-_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
-_Inductance = Annotated[float, Amount("H", above=0.0, most=1e3, reason="of a path of the current")]
-_Resistance = Annotated[float, Amount("ohm", least=0.0, most=1e12, reason="of a path of the current")]
-
-
 # Capacitances that a geometry gives where they are not given themselves, and their names there.
 _FROM_GEOMETRY = {
     "winding_rotor_capacitance": "winding_rotor",
@@ -192,21 +175,19 @@ _FROM_GEOMETRY = {
 }
 
 
-class Circuit(Table):
+class Circuit(Table, book="circuit"):
     """Circuit of the machine around its bearings."""
 
-    winding_rotor_capacitance: _Capacitance | None = None
-    rotor_frame_capacitance: _Capacitance | None = None
-    winding_frame_capacitance: _Capacitance | None = None
-    frame_earth_capacitance: _Capacitance | None = None
-    cable_capacitance: _Capacitance | None = None
-    common_mode_inductance: _Inductance | None = None
-    common_mode_resistance: _Resistance = 0.0
-    ground_inductance: _Inductance | None = None
-    ground_resistance: _Resistance = 0.0
-    grounding_ring_resistance: (
-        Annotated[float, Amount("ohm", above=0.0, most=1e12, reason="from the shaft to the frame")] | None
-    ) = None
+    winding_rotor_capacitance: float | None = None
+    rotor_frame_capacitance: float | None = None
+    winding_frame_capacitance: float | None = None
+    frame_earth_capacitance: float | None = None
+    cable_capacitance: float | None = None
+    common_mode_inductance: float | None = None
+    common_mode_resistance: float = 0.0
+    ground_inductance: float | None = None
+    ground_resistance: float = 0.0
+    grounding_ring_resistance: float | None = None
     machine: Geometry | None = None
 
     @model_validator(mode="after")
@@ -241,27 +222,16 @@ class Circuit(Table):
         return {key: value for key, value in found.items() if value is not None}
 
 
-class Breakdown(Table):
+class Breakdown(Table, book="breakdown"):
     """Arc and threshold of a film."""
 
-    arc_resistance: Annotated[float, Amount("ohm", least=1e-6, most=1e9, reason="of a burning arc")]
-    extinction_current: (
-        Annotated[float, Amount("A", above=0.0, most=1e6, reason="at which an arc goes out")] | None
-    ) = None
-    extinction_voltage: (
-        Annotated[float, Amount("V", above=0.0, most=1e6, reason="at which an arc goes out")] | None
-    ) = None
-    recovery_time: Annotated[float, Amount("s", least=0.0, most=1.0, reason="until the film insulates")]
-    weibull_shape: (
-        Annotated[float, Amount("", least=0.5, most=200.0, reason="the larger, the less it scatters")] | None
-    ) = None
-    renewal_time: (
-        Annotated[float, Amount("s", least=1e-6, most=1e6, reason="after which other oil is in the contact")]
-        | None
-    ) = None
-    touch_time: (
-        Annotated[float, Amount("s", above=0.0, most=1e3, reason="for which asperities touch")] | None
-    ) = None
+    arc_resistance: float
+    extinction_current: float | None = None
+    extinction_voltage: float | None = None
+    recovery_time: float
+    weibull_shape: float | None = None
+    renewal_time: float | None = None
+    touch_time: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -15,6 +15,7 @@ from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.measurements import Measurement
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import ResultWarning, texts_and_codes
+from ehlectric.quantities.quantity import Keys, Quantity, data_file
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-# Probability of the interval.
-CONFIDENCE = 0.95
+# Probability of the interval, and degrees of freedom of a standard deviation that is known.
+CONFIDENCE, _MANY = 0.95, 1e9
 
 # Texts that say where the statistical part of an interval is from.
 STATED, RAISED, SCATTER = "stated uncertainty", "stated uncertainty, raised to the scatter", "scatter only"
@@ -89,7 +90,7 @@ def mean_factor(
         scatter = math.sqrt(float(np.sum(((logs - mean) / stated) ** 2)) / (n - 1)) if n > 1 else None
         raised = scatter is not None and scatter > 1.0
         statistical = own * (scatter or 1.0) if raised else own
-        basis, degrees = RAISED if raised else STATED, math.inf
+        basis, degrees = RAISED if raised else STATED, _MANY
     parts = [float(np.vdot(weights, change)) for change in (shared or {}).values()]
     systematic = math.hypot(*parts) if parts else 0.0
     low, high = _interval(mean, statistical, systematic, degrees)
@@ -103,8 +104,8 @@ def _interval(
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide = float(student.ppf(at, degrees)) if math.isfinite(degrees) else float(student.ppf(at, 1e9))
-    half = math.hypot(wide * statistical, float(student.ppf(at, 1e9)) * systematic)
+    wide, normal = (float(student.ppf(at, one)) for one in (degrees, _MANY))
+    half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 
 
@@ -194,28 +195,9 @@ FILES = (SUMMARY, ROWS)
 SCHEMA = "ehlectric.measured/1"
 
 # SI unit and meaning of the columns of measured.csv.
-COLUMNS: Mapping[str, tuple[str, str]] = {
-    "line": ("", "line of the row in the file of the measurement"),
-    "time": ("s", "time of the row"),
-    "speed": ("rad/s", "speed of the inner ring"),
-    "entrainment_speed": ("m/s", "entrainment speed of the contact"),
-    "temperature": ("K", "temperature of the oil"),
-    "measured_capacitance": ("F", "parallel capacitance as measured"),
-    "parallel_resistance": ("ohm", "parallel resistance as measured"),
-    "capacitance": ("F", "measured capacitance without the background"),
-    "capacitance_uncertainty": ("F", "its standard uncertainty"),
-    "film": ("m", "measured central film thickness"),
-    "film_uncertainty": ("m", "its standard uncertainty"),
-    "computed": ("", "computed value for isothermal, fully flooded films"),
-    "formula": ("", "central film thickness by a formula"),
-    "film_factor": ("", "film factor that explains the row"),
-    "factor_uncertainty": ("", "its standard uncertainty from the measurement"),
-    "factor_systematic": ("", "its standard uncertainty from the ranges of the case"),
-    "fitted": ("", "computed value at the mean film factor"),
-    "fitted_low": ("", "computed value at the low end of the mean film factor"),
-    "fitted_high": ("", "computed value at the high end of the mean film factor"),
-    "minimum_thickness": ("m", "smallest film of the bearing at the film factor of the row"),
-    "lambda_ratio": ("", "this film over the composite roughness"),
+COLUMNS: Keys = {
+    name: Quantity(**column)
+    for name, column in data_file("ehlectric.quantities", "measured_columns.toml")["written"].items()
 }
 
 # Columns in the unit of the measured quantity.
@@ -282,7 +264,7 @@ class FilmFactors(Shown):
     def units(self) -> dict[str, str]:
         """SI unit of each column."""
         unit = "F" if self.quantity == "capacitance" else "m"
-        return {name: unit if name in _OF_QUANTITY else COLUMNS[name][0] for name in self.columns}
+        return {name: unit if name in _OF_QUANTITY else COLUMNS[name].unit for name in self.columns}
 
     def summary(self) -> dict[str, Any]:
         """Values as in measured.json, SI units; None in place of NaN."""
@@ -319,7 +301,7 @@ class FilmFactors(Shown):
         frame["line"] = frame["line"].astype(int)
         frame["reason"] = list(self.reasons)
         frame.attrs["units"] = self.units()
-        frame.attrs["descriptions"] = {name: COLUMNS[name][1] for name in self.columns}
+        frame.attrs["descriptions"] = {name: COLUMNS[name].meaning for name in self.columns}
         return frame
 
     def contents(self) -> dict[str, Content]:

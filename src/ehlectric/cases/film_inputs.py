@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
 from pydantic import model_validator
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.case_oil import Lubricant, density_at, viscosity_over_temperature
 from ehlectric.cases.contact_inputs import Body, Contact
 from ehlectric.cases.table import Table
@@ -16,27 +15,19 @@ from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.units import to_si
 
-_THICKNESS = Amount("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
-_ACROSS = Amount("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
 
-
-class LayerTable(Table):
+class LayerTable(Table, book="inlet.layer_table"):
     """Layer of oil at the inlet of a point contact over the position across entrainment, linear between."""
 
-    y: Annotated[tuple[float, ...], Amounts(_ACROSS, least=2)]
-    thickness: Annotated[tuple[float, ...], Amounts(_THICKNESS, least=2)]
+    y: tuple[float, ...]
+    thickness: tuple[float, ...]
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if any(b <= a for a, b in zip(self.y, self.y[1:], strict=False)):
-            raise InputError("y", got=list(self.y), takes="increasing values")
-        if len(self.thickness) != len(self.y):
-            got = f"{len(self.thickness)} values over {len(self.y)} of y"
-            raise InputError("thickness", got=got, takes="as many")
-        return self
+        return self.check_over("y", "thickness")
 
 
-class Inlet(Table):
+class Inlet(Table, book="inlet"):
     """Oil that is supplied to a contact: a layer on its surfaces, or the film that it gives without motion.
 
     Examples
@@ -45,15 +36,9 @@ class Inlet(Table):
     2e-07
     """
 
-    oil_layer: Annotated[float, _THICKNESS] | None = None
+    oil_layer: float | None = None
     layer_table: LayerTable | None = None
-    film_ratio: (
-        Annotated[
-            float,
-            Amount("", least=1e-3, most=1.0, reason="starved over flooded central film", fraction=True),
-        ]
-        | None
-    ) = None
+    film_ratio: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -97,7 +82,7 @@ CONSTANTS: Mapping[str, tuple[str, ...]] = {
 _OF_BODIES = {"thermal_conductivity": "W/m/K", "heat_capacity": "J/kg/K", "density": "kg/m**3"}
 
 
-class FilmPhysics(Table):
+class FilmPhysics(Table, book="film"):
     """Heat and shear of the oil in the film; without the table it is isothermal and Newtonian.
 
     Examples

@@ -10,27 +10,20 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import DEFAULT_ERROR
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
 
-class Electric(Table):
+class Electric(Table, book="electric"):
     """Potentials of the two surfaces, the lower one first, and what conducts where they touch."""
 
-    potential_1: Annotated[float, Amount("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
-    potential_2: Annotated[float, Amount("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
-    resistivity: (
-        Annotated[float, Amount("ohm*m", least=1e-9, most=1e6, reason="of the bodies, both alike")] | None
-    ) = None
-    mean_free_path: (
-        Annotated[float, Amount("m", least=0.0, most=1e-6, reason="of the electrons in the bodies")] | None
-    ) = None
-    tribofilm_resistance: (
-        Annotated[float, Amount("ohm*m**2", least=0.0, most=1e6, reason="its resistivity times thickness")]
-        | None
-    ) = None
+    potential_1: float = -1.0
+    potential_2: float = 1.0
+    resistivity: float | None = None
+    mean_free_path: float | None = None
+    tribofilm_resistance: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -53,10 +46,6 @@ MOST_DEGREE = 40
 
 # Smallest number of film nodes in the field range that resolve the field.
 _LEAST_COLUMNS = 16
-_Nodes = Annotated[int, Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart")]
-_Error = Annotated[
-    float, Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True)
-]
 _FieldEnd = Annotated[float, Amount("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Ends of the domain where they are not given, of a line and of a point contact; half-widths or semi-axes.
@@ -80,42 +69,27 @@ LEAST_ACROSS = 16
 _MOST_AXIS = 4097
 
 
-class Grid(Table):
+class Grid(Table, book="grid"):
     """Discretisation of the film and of the field.
 
     The unit of length is the half-width of a line contact. For a point contact it is the semi-axis along
     entrainment; for ``side`` and ``field_side`` it is the semi-axis across.
     """
 
-    nodes: _Nodes | None = None
-    error: _Error | None = None
-    nodes_y: (
-        Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
-        | None
-    ) = None
-    inlet: (
-        Annotated[float, Amount("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] | None
-    ) = None
-    outlet: Annotated[float, Amount("", above=1.0, most=1000.0, reason="behind the Hertz zone")] | None = None
-    side: Annotated[float, Amount("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
+    nodes: int | None = None
+    error: float | None = None
+    nodes_y: int | None = None
+    inlet: float | None = None
+    outlet: float | None = None
+    side: float | None = None
     wedge: Literal["third-order", "second-order", "first-order"] = "third-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
-    field_side: (
-        Annotated[float, Amount("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")] | None
-    ) = None
-    field_nodes: (
-        Annotated[
-            int,
-            Count(17, 10_000_001, "fewer do not resolve the exit, more are atoms apart"),
-        ]
-        | None
-    ) = None
-    field_nodes_y: (
-        Annotated[int, Count(17, _MOST_AXIS, "fewer do not resolve the sides, more fill the memory")] | None
-    ) = None
-    field_degree: Annotated[int, Count(2, MOST_DEGREE, "the potential is nearly linear across the film")] = 6
-    refine: _Error | None = None
-    most_nodes: _Nodes | None = None
+    field_side: float | None = None
+    field_nodes: int | None = None
+    field_nodes_y: int | None = None
+    field_degree: int = 6
+    refine: float | None = None
+    most_nodes: int | None = None
 
     @property
     def of_point(self) -> bool:
@@ -278,8 +252,7 @@ class Grid(Table):
 
 
 def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Table of a point contact's grid, completed by the defaults of point contacts. Returns given keys, and
-    the defaults that only the grid of a point contact has.
+    """Table of a point contact's grid: the given keys, and the defaults that only such a grid has.
 
     Examples
     --------
@@ -290,16 +263,14 @@ def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
     return {**_POINT_GRID, **table}
 
 
-class Solver(Table):
+class Solver(Table, book="solver"):
     """Stopping rule of the film solver."""
 
-    tolerance: Annotated[
-        float, Amount("", least=1e-11, most=1e-3, reason="of the largest scaled residual")
-    ] = 1e-9
-    max_iterations: Annotated[int, Count(1, 1000, "Newton steps on each grid")] = 30
+    tolerance: float = 1e-9
+    max_iterations: int = 30
 
 
-class Motion(Table):
+class Motion(Table, book="motion"):
     """Duration, time steps and recorded instants of a contact with moving roughness.
 
     Examples
@@ -308,13 +279,10 @@ class Motion(Table):
     0.002
     """
 
-    passes: (
-        Annotated[float, Amount("", above=0.0, most=1e4, reason="lengths of the domain at the mean speed")]
-        | None
-    ) = None
-    duration: Annotated[float, Amount("s", above=0.0, most=1e4, reason="of the motion")] | None = None
-    steps: Annotated[int, Count(1, 100_000_000, "of time")] | None = None
-    record: Annotated[int, Count(2, 100_000, "stored instants")] = 200
+    passes: float | None = None
+    duration: float | None = None
+    steps: int | None = None
+    record: int = 200
 
     @model_validator(mode="after")
     def _check(self) -> Self:

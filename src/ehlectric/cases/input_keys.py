@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, get_args, get_origin
 
@@ -11,19 +11,9 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import Bearing, Fits, Motor, Summits
 from ehlectric.cases.case import Case
-from ehlectric.cases.case_oil import Lubricant
-from ehlectric.cases.coating_inputs import Coating as RingCoating
-from ehlectric.cases.contact_inputs import Body, Contact
-from ehlectric.cases.discharge_inputs import Discharge, Pit, StrengthTable, Weibull
-from ehlectric.cases.drive_case import DriveCase, Operation, Remedy
-from ehlectric.cases.drive_inputs import Breakdown, Circuit, Geometry, Source
-from ehlectric.cases.film_inputs import FilmPhysics, Inlet, LayerTable
-from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver
-from ehlectric.cases.meter_inputs import Coating, Meter
-from ehlectric.cases.oil_inputs import ConductivityTable, OilTemperature, PermittivityTable, law_parameters
-from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at, inputs, table_and_key
@@ -36,43 +26,19 @@ _OF_BEARINGS = ("bearing", "motor", "contacts")
 # Tables that only a drive file has, beside those of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
+
+def _tables_in(model: type[Table]) -> Iterator[type[Table]]:
+    """A table and all tables within it."""
+    yield model
+    for field in model.known_keys().values():
+        if inner := table_of(field.annotation):
+            yield from _tables_in(inner)
+
+
 # Tables of case, bearing and drive files by their names in the book of inputs. That of sweep files is in the
 # package sweep.
 TABLES: Mapping[str, type[Table]] = {
-    "case_file": Case,
-    "bearing_file": BearingCase,
-    "contact": Contact,
-    "contact.body": Body,
-    "film": FilmPhysics,
-    "lubricant": Lubricant,
-    "roughness": Roughness,
-    "electric": Electric,
-    "discharge": Discharge,
-    "discharge.strength_table": StrengthTable,
-    "discharge.weibull": Weibull,
-    "discharge.pit": Pit,
-    "meter": Meter,
-    "meter.coating": Coating,
-    "inlet": Inlet,
-    "inlet.layer_table": LayerTable,
-    "motion": Motion,
-    "grid": Grid,
-    "solver": Solver,
-    "bearing": Bearing,
-    "bearing.fits": Fits,
-    "bearing.coating": RingCoating,
-    "bearing.summits": Summits,
-    "lubricant.temperature": OilTemperature,
-    "lubricant.permittivity_table": PermittivityTable,
-    "lubricant.conductivity_table": ConductivityTable,
-    "motor": Motor,
-    "drive_file": DriveCase,
-    "drive": Operation,
-    "source": Source,
-    "circuit": Circuit,
-    "circuit.machine": Geometry,
-    "breakdown": Breakdown,
-    "remedies": Remedy,
+    table.BOOK: table for file in (DriveCase, BearingCase, Case) for table in _tables_in(file)
 }
 
 
@@ -183,9 +149,8 @@ def plain_text(text: str) -> str:
 
 
 def input_field(key: str) -> FieldInfo:
-    """Field of an input, with its annotation and default. Returns field of the table that the key belongs to.
-    Raises InputError if the key is unknown or is a table; the message names the nearest known key, or a key
-    of the table.
+    """Field of an input in its table, with its annotation and default. Raises InputError if the key is
+    unknown or is a table; the message names the nearest known key, or a key of the table.
 
     Examples
     --------
@@ -295,8 +260,6 @@ def unit_of(key: str) -> str:
     """SI unit of an input, as pint writes it.
 
     It is empty for a dimensionless number, a text or an unknown key.
-
-    Returns unit such as "N/m".
 
     Examples
     --------

@@ -19,6 +19,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.quantity import data_file
 from ehlectric.runtime.reading import read_bytes
 
 if TYPE_CHECKING:
@@ -36,41 +37,10 @@ class Measurable(Amount):
 # Quantities of a measurement by the names of their columns in the program.
 COLUMNS: Mapping[str, Measurable] = MappingProxyType(
     {
-        "time": Measurable(
-            "s", least=0.0, most=1e9, reason="since the start of the measurement",
-            usual="s", names=("elapsed time",),
-        ),
-        "speed": Measurable(
-            units.ROTATION, above=0.0, most=1e5, reason="of the inner ring",
-            usual="rpm", names=("inner speed", "shaft speed", "rotational speed"),
-        ),
-        "entrainment_speed": Measurable(
-            "m/s", above=0.0, most=1e4, reason="(u1 + u2)/2",
-            usual="m/s", names=("rolling speed", "mean speed"),
-        ),
-        "temperature": Measurable(
-            "K", least=200.0, most=600.0, reason="absolute, of the oil",
-            usual="degC", names=("oil temperature",),
-        ),
-        "frequency": Measurable("Hz", above=0.0, most=1e10, reason="of the meter", usual="Hz"),
-        "capacitance": Measurable(
-            "F", above=0.0, most=1e-3, reason="of a bearing or contact",
-            usual="pF", names=("parallel capacitance", "cp"),
-        ),
-        "impedance": Measurable(
-            "ohm", above=0.0, most=1e15, reason="magnitude",
-            usual="ohm", names=("impedance magnitude", "|z|", "z"),
-        ),
-        "phase": Measurable(
-            "rad", least=-math.pi, most=math.pi, reason="negative for a capacitor",
-            usual="deg", names=("phase angle",),
-        ),
-        "film": Measurable(
-            "m", above=0.0, most=1e-3, reason="central film thickness",
-            usual="nm", names=("film thickness", "central film", "central film thickness"),
-        ),
+        name: Measurable(**{**column, "names": tuple(column.get("names", ()))})
+        for name, column in data_file("ehlectric.quantities", "measured_columns.toml")["measured"].items()
     }
-)  # fmt: skip
+)
 
 # Quantities by the names over a column, in small letters and with spaces.
 _NAMES = {name: key for key, one in COLUMNS.items() for name in (key.replace("_", " "), *one.names)}
@@ -107,18 +77,15 @@ class Column:
         ValueError if the unit is not one of the quantity, or the value is out of its bounds.
         """
         if self.uncertainty:
-            return self._positive(number * self.factor())
+            if not 0.0 < (value := number * self.factor()) < math.inf:
+                raise ValueError("an uncertainty above 0")
+            return value
         bounds = COLUMNS[self.name]
         value = units.absolute(number, self.unit) if bounds.unit == "K" else number * self.factor()
-        if not (bounds.above < value < bounds.below and bounds.least <= value <= bounds.most):
+        if not bounds.allow(value):
             least = f"above {bounds.above:g}" if math.isfinite(bounds.above) else f"at least {bounds.least:g}"
             unit = f" {bounds.unit}"
             raise ValueError(f"{least}{unit} and at most {bounds.most:g}{unit}: {bounds.reason}")
-        return value
-
-    def _positive(self, value: float) -> float:
-        if not 0.0 < value < math.inf:
-            raise ValueError("an uncertainty above 0")
         return value
 
 
@@ -233,8 +200,8 @@ def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[
 
 
 def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> MeasuredCapacitance:
-    """Parallel capacitance of all rows of a measurement. Returns capacitance with its uncertainty; columns of
-    the measurement win over ``uncertainty``. Raises InputError if the measurement has neither, or has both.
+    """Parallel capacitance of all rows of a measurement, with its uncertainty. Columns of the measurement
+    count more than ``uncertainty``. Raises InputError if the measurement has neither, or has both.
     """
     if measured.has("capacitance") and measured.has("impedance"):
         raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")
@@ -511,19 +478,18 @@ def _uncertainties(
             raise InputError(source, f"has the column {shown(column.head)}", takes=f"a column {what} with it")
         if column.unit == "%":
             uncertainties[name] = numbers * np.abs(values[name])
-            continue
-        named = Column(name, column.head, column.unit, uncertainty=True)
-        uncertainties[name] = _absolute(source, named, numbers)
+        else:
+            uncertainties[name] = _absolute(source, column, name, numbers)
     return uncertainties
 
 
-def _absolute(source: str, column: Column, numbers: Array) -> Array:
-    """Uncertainties in the SI unit of their quantity, from numbers in the unit of the column."""
+def _absolute(source: str, column: Column, name: str, numbers: Array) -> Array:
+    """Uncertainties in the SI unit of a quantity, from numbers in the unit of the column."""
     unit = {"degC": "K", "°C": "K", "C": "K"}.get(column.unit, column.unit)
     try:
-        factor = Column(column.name, column.head, unit, uncertainty=True).factor()
+        factor = Column(name, column.head, unit).factor()
     except ValueError as error:
-        takes = f"per cent or a unit of {column.name.replace('_', ' ')}"
+        takes = f"per cent or a unit of {name.replace('_', ' ')}"
         raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None
     if not np.all(numbers > 0.0):
         raise InputError(source, f"column {shown(column.head)} has a value of 0 or below", takes="above 0")

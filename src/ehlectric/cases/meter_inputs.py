@@ -36,15 +36,12 @@ class _Share(Amount):
         return f"'oil', 'air', or {super().takes}"
 
 
-class Coating(Table):
+class Coating(Table, book="meter.coating"):
     """Insulating coating of one body, or of both bodies together, in series with the gap."""
 
-    thickness: Annotated[float, Amount("m", least=1e-9, most=1e-2, reason="of a coating of both together")]
-    relative_permittivity: Annotated[float, Amount("", least=1.0, most=1e4, reason="of the coating")]
-    strength: (
-        Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="at which the coating breaks down")]
-        | None
-    ) = None
+    thickness: float
+    relative_permittivity: float
+    strength: float | None = None
 
     @property
     def thickness_in_vacuum(self) -> float:
@@ -52,7 +49,7 @@ class Coating(Table):
         return self.thickness / self.relative_permittivity
 
 
-class Meter(Table):
+class Meter(Table, book="meter"):
     """Surroundings of the film that a capacitance meter at the two bodies sees too."""
 
     fill: (
@@ -61,18 +58,10 @@ class Meter(Table):
         ]
         | None
     ) = None
-    oil_radius: (
-        Annotated[float, Amount("m", least=0.0, most=1e2, reason="from the contact to the edge of the oil")]
-        | None
-    ) = None
-    length: Annotated[float, Amount("m", least=1e-6, most=1e2, reason="across entrainment")] | None = None
-    parallel_capacitance: (
-        Annotated[float, Amount("F", least=0.0, most=1e-3, reason="of holder, shields and cables")] | None
-    ) = None
-    rq: (
-        Annotated[float, Amount("m", least=0.0, most=1e-4, reason="of both surfaces in the loaded contact")]
-        | None
-    ) = None
+    oil_radius: float | None = None
+    length: float | None = None
+    parallel_capacitance: float | None = None
+    rq: float | None = None
     coating: Coating | None = None
 
     @model_validator(mode="after")

@@ -5,9 +5,8 @@ checks.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache, partial
-from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, Self
 
 from pydantic import (
@@ -25,7 +24,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, InitErrorDetails
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, Amounts
+from ehlectric.cases.amounts import Amount, Amounts, amount_at, bounded
 from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import Table, details_of, nearest
 from ehlectric.errors import InputError, shown
@@ -58,8 +57,9 @@ OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_
 
 
 def law_parameters(*choices: str) -> dict[str, Parameter]:
-    """Parameters of the laws of a lubricant, by name. ``*choices``, keys of ``LAWS``, such as "density_law";
-    all keys if none is given. Returns parameters of the laws that are in the tables at the time of the call.
+    """Parameters of the laws of a lubricant, by name, as the tables of laws are at the time of the call.
+
+    ``choices`` are keys of ``LAWS``, such as "density_law"; without any, the laws of all keys count.
 
     Examples
     --------
@@ -68,17 +68,6 @@ def law_parameters(*choices: str) -> dict[str, Parameter]:
     """
     laws = (law for key in choices or LAWS for law in LAWS[key].values())
     return {parameter.name: parameter for law in laws for parameter in law.parameters}
-
-
-def is_parameter(name: str) -> bool:
-    """Whether a law of a lubricant has a parameter of this name.
-
-    Examples
-    --------
-    >>> is_parameter("roelands_z"), is_parameter("roelands_x")
-    (True, False)
-    """
-    return name in law_parameters()
 
 
 @dataclass(frozen=True)
@@ -91,21 +80,15 @@ class Named(AfterValidator):
 def law_name(laws: Mapping[str, object]) -> Named:
     """Pydantic annotation of the name of a law of this table."""
 
+    def takes() -> str:
+        return f"one of {', '.join(map(repr, laws))}"
+
     def known(name: str) -> str:
         if name not in laws:
-            known_names = ", ".join(repr(law) for law in laws)
-            raise InputError(
-                got=shown(name), takes=f"one of {known_names}; nearest is {nearest(name, laws)!r}"
-            )
+            raise InputError(got=shown(name), takes=f"{takes()}; nearest is {nearest(name, laws)!r}")
         return name
 
-    return Named(known, f"one of {', '.join(map(repr, laws))}")
-
-
-def quantity_of(parameter: Parameter) -> Amount:
-    """Quantity with the unit and the bounds of a parameter, which parses its values."""
-    common = {field.name for field in fields(Amount)} & {field.name for field in fields(Parameter)}
-    return Amount(**{name: getattr(parameter, name) for name in common})
+    return Named(known, takes())
 
 
 def library_choice(names: Callable[[], Sequence[str]], what: str = "one of the library") -> AfterValidator:
@@ -123,13 +106,10 @@ def library_name(base: Any, names: Sequence[str]) -> str:
     """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
     Raises InputError if the base is not a string, or not a name of the library.
     """
-    if not isinstance(base, str):
-        raise InputError(
-            "base", got=shown(base), takes=f"a name of the library, as a string: {', '.join(names)}"
-        )
-    if base not in names:
-        raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
-    return base
+    if isinstance(base, str) and base in names:
+        return base
+    as_text = "" if isinstance(base, str) else ", as a string"
+    raise InputError("base", got=shown(base), takes=f"a name of the library{as_text}: {', '.join(names)}")
 
 
 def base_values(table: Any) -> dict[str, Any]:
@@ -141,40 +121,32 @@ def base_values(table: Any) -> dict[str, Any]:
     return library.lubricant(library_name(table["base"], library.lubricant_names()))
 
 
-TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the oil")
-
-_Temperatures = Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)]
+TEMPERATURE = amount_at("lubricant.reference_temperature")
 
 
-class _OverTemperature(Table):
-    """Measured property of an oil over temperature, whose other key has as many values."""
+class PermittivityTable(Table, book="lubricant.permittivity_table"):
+    """Measured relative permittivity over temperature at ambient pressure, interpolated linearly."""
 
-    temperature: _Temperatures
+    temperature: tuple[float, ...]
+    relative_permittivity: Annotated[
+        tuple[float, ...], Amounts(bounded(Amount, RELATIVE_PERMITTIVITY), least=2)
+    ]
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        (name,) = set(type(self).model_fields) - {"temperature"}
-        if any(b <= a for a, b in pairwise(self.temperature)):
-            raise InputError("temperature", got=list(self.temperature), takes="increasing values")
-        if (count := len(getattr(self, name))) != len(self.temperature):
-            got = f"{count} values over {len(self.temperature)} of temperature"
-            raise InputError(name, got=got, takes="as many")
-        return self
+        return self.check_over("temperature", "relative_permittivity")
 
 
-class PermittivityTable(_OverTemperature):
-    """Measured relative permittivity over temperature at ambient pressure, interpolated linearly."""
-
-    relative_permittivity: Annotated[tuple[float, ...], Amounts(quantity_of(RELATIVE_PERMITTIVITY), least=2)]
-
-
-class ConductivityTable(_OverTemperature):
+class ConductivityTable(Table, book="lubricant.conductivity_table"):
     """Measured electrical conductivity over temperature; its logarithm is interpolated over 1/T."""
 
-    conductivity: Annotated[tuple[float, ...], Amounts(quantity_of(CONDUCTIVITY), least=2)]
+    temperature: tuple[float, ...]
+    conductivity: Annotated[tuple[float, ...], Amounts(bounded(Amount, CONDUCTIVITY), least=2)]
 
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        return self.check_over("temperature", "conductivity")
 
-_Viscosity = Annotated[float, Amount("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
 
 # Keys that give the viscosity.
 SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
@@ -183,26 +155,18 @@ SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100"
 _at_100 = lru_cache(maxsize=64)(viscosity_at_100)
 
 
-class OilTemperature(Table):
+class OilTemperature(Table, book="lubricant.temperature"):
     """Viscosity, density, thermal expansion and thermal conductivity of an oil over temperature."""
 
-    kinematic_viscosity_40: _Viscosity | None = None
+    kinematic_viscosity_40: float | None = None
     iso_vg: Annotated[int, Grade()] | None = None
-    kinematic_viscosity_100: _Viscosity | None = None
-    viscosity_index: (
-        Annotated[
-            float,
-            Amount("", least=0.0, most=400.0, reason="ASTM D2270; 95 to 100 is usual for mineral oils"),
-        ]
-        | None
-    ) = None
-    density_15: Annotated[float, Amount("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
+    kinematic_viscosity_100: float | None = None
+    viscosity_index: float | None = None
+    density_15: float
     # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
-    expansion: Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
+    expansion: float = 6.5e-4
     base_oil: Literal["mineral-paraffinic", "mineral-naphthenic", "pao", "ester", "polyglycol"] | None = None
-    thermal_conductivity: (
-        Annotated[float, Amount("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
-    ) = None
+    thermal_conductivity: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -378,7 +342,7 @@ def _has_viscosity(name: Any) -> bool:
     return law is not None and any(parameter.name == "viscosity" for parameter in law.parameters)
 
 
-class Properties(Table):
+class Properties(Table, book="lubricant"):
     """Keys of a lubricant: its properties, the names of its laws, and the parameters of these laws.
 
     The parameters of the laws are keys of this table, but not fields of the class. Their names, units and
@@ -389,41 +353,27 @@ class Properties(Table):
     model_config = ConfigDict(extra="allow")
 
     base: str | None = None
-    viscosity: Annotated[float, Amount("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")] | None = (
-        None
-    )
+    viscosity: float | None = None
     atmospheric_law: Annotated[str, law_name(ATMOSPHERIC_LAWS)] | None = None
     viscosity_law: Annotated[str, law_name(VISCOSITY_LAWS)]
     density_law: Annotated[str, law_name(DENSITY_LAWS)]
     permittivity_law: Annotated[str, law_name(PERMITTIVITY_LAWS)] = "clausius-mossotti"
-    relative_permittivity: Annotated[float, quantity_of(RELATIVE_PERMITTIVITY)] | None = None
+    relative_permittivity: Annotated[float, bounded(Amount, RELATIVE_PERMITTIVITY)] | None = None
     permittivity_table: PermittivityTable | None = None
     conductivity_law: Annotated[str, law_name(CONDUCTIVITY_LAWS)] | None = None
     conductivity_table: ConductivityTable | None = None
     thermal_conductivity_law: Annotated[str, law_name(THERMAL_CONDUCTIVITY_LAWS)] | None = None
     heat_capacity_law: Annotated[str, law_name(HEAT_CAPACITY_LAWS)] | None = None
-    density: Annotated[float, Amount("kg/m**3", least=500.0, most=3000.0, reason="of an oil")] | None = None
-    thermal_expansion: (
-        Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="of the volume of an oil")] | None
-    ) = None
-    reference_temperature: Annotated[float, TEMPERATURE] | None = None
-    eyring_stress: (
-        Annotated[float, Amount("Pa", least=1e4, most=1e9, reason="oils have 2 to 20 MPa")] | None
-    ) = None
-    carreau_stress: (
-        Annotated[float, Amount("Pa", least=1e2, most=1e9, reason="10 kPa of thickened oils to 10 MPa")]
-        | None
-    ) = None
-    carreau_exponent: (
-        Annotated[float, Amount("", least=0.1, most=1.0, reason="1 is a Newtonian oil")] | None
-    ) = None
-    limiting_coefficient: (
-        Annotated[float, Amount("", least=1e-3, most=0.5, reason="limiting shear stress over pressure")]
-        | None
-    ) = None
-    temperature_range: Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)] | None = None
+    density: float | None = None
+    thermal_expansion: float | None = None
+    reference_temperature: float | None = None
+    eyring_stress: float | None = None
+    carreau_stress: float | None = None
+    carreau_exponent: float | None = None
+    limiting_coefficient: float | None = None
+    temperature_range: tuple[float, ...] | None = None
     temperature: OilTemperature | None = None
-    ambient_pressure: Annotated[float, Amount("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
+    ambient_pressure: float = 1e5
 
     if TYPE_CHECKING:
         # Parameters that users and other packages read as attributes.
@@ -436,7 +386,7 @@ class Properties(Table):
             try:
                 return super().__getattr__(name)
             except AttributeError:
-                if is_parameter(name):
+                if name in law_parameters():
                     return None
                 raise
 
@@ -446,7 +396,7 @@ class Properties(Table):
         schema = super().__get_pydantic_json_schema__(core, handler)
         for name, parameter in law_parameters().items():
             if name not in schema["properties"]:
-                quantity = quantity_of(parameter)
+                quantity = bounded(Amount, parameter)
                 schema["properties"][name] = quantity.__get_pydantic_json_schema__(core, handler)
         for name, laws in LAWS.items():
             schema["properties"][name]["enum"] = list(laws)
@@ -492,7 +442,7 @@ class Properties(Table):
             known[name] = field
             for parameter in law_parameters(name).values() if name in LAWS else ():
                 if parameter.name not in cls.model_fields:
-                    annotation = Annotated[float, quantity_of(parameter)]
+                    annotation = Annotated[float, bounded(Amount, parameter)]
                     known[parameter.name] = FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
         return known
 
@@ -551,7 +501,7 @@ def _parsed(
             if name not in known:
                 errors.append(InitErrorDetails(type="extra_forbidden", loc=(name,), input=value))
             elif value is not None:
-                parsed[name] = quantity_of(known[name]).parse(value)
+                parsed[name] = bounded(Amount, known[name]).parse(value)
         except ValueError as error:
             errors.append(
                 InitErrorDetails(type="value_error", loc=(name,), input=value, ctx={"error": error})
@@ -605,7 +555,7 @@ def check_viscosity(oil: Properties) -> None:
                 )
         return
     ways = {
-        "viscosity": oil.viscosity is not None and not _is_parameter(oil, "viscosity"),
+        "viscosity": oil.viscosity is not None and not _has_viscosity(oil.atmospheric_law),
         "temperature": oil.temperature is not None,
         "atmospheric_law": oil.atmospheric_law is not None,
     }
@@ -634,14 +584,6 @@ def check_once(oil: Properties) -> None:
         raise InputError.missing(
             "reference_temperature", "the temperature at which there is no thermal_expansion"
         )
-
-
-def _is_parameter(oil: Properties, name: str) -> bool:
-    """Whether the law over temperature takes a key of the lubricant as a parameter."""
-    if oil.atmospheric_law is None:
-        return False
-    law = LAWS["atmospheric_law"][oil.atmospheric_law]
-    return any(parameter.name == name for parameter in law.parameters)
 
 
 def check_parameters(oil: Properties, key: str, law: Law) -> None:

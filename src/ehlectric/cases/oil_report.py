@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -75,8 +76,8 @@ def _in_place_of(table: Properties) -> str:
 
 
 def law_behind(name: str, table: Properties, pressure: float) -> str:
-    """Name of the law of a property at pressure, or of that over temperature at ambient pressure.
-    ``pressure`` [Pa]. Returns name of the law, "table" for a measured table, or empty for a given number.
+    """Name of the law of a property at a pressure [Pa], or of that over temperature at ambient pressure. It
+    is "table" for a measured table, and empty for a given number.
     """
     match name:
         case "viscosity" | "kinematic_viscosity" if pressure == 0.0:
@@ -338,14 +339,14 @@ def _behind(named: NamedOil, key: str) -> Iterator[Source | None]:
         yield relation
 
 
-def _at(oil: KnownOil, choice: str, pressure: float) -> float | None:
+def _at(oil: KnownOil, pressure: float, choice: str) -> float | None:
     """Value of a law of an oil at a pressure; None if it has none."""
     law = oil.laws.get(choice)
     return None if law is None else float(law(np.array([pressure]))[0][0])
 
 
 def _viscosity(oil: KnownOil, pressure: float) -> float | None:
-    exponent = _at(oil, "viscosity_law", pressure) if pressure > 0.0 else 0.0
+    exponent = _at(oil, pressure, "viscosity_law") if pressure > 0.0 else 0.0
     if oil.viscosity is None or exponent is None:
         return None
     return oil.viscosity * float(np.exp(exponent))
@@ -356,37 +357,42 @@ def _kinematic(oil: KnownOil, _: float) -> float | None:
 
 
 def _density(oil: KnownOil, pressure: float) -> float | None:
-    ratio = _at(oil, "density_law", pressure) if pressure > 0.0 else 1.0
+    ratio = _at(oil, pressure, "density_law") if pressure > 0.0 else 1.0
     return None if oil.density is None or ratio is None else oil.density * ratio
 
 
 def _permittivity(oil: KnownOil, pressure: float) -> float | None:
     if pressure == 0.0:
         return oil.relative_permittivity
-    law, ratio = oil.laws.get("permittivity_law"), _at(oil, "density_law", pressure)
+    law, ratio = oil.laws.get("permittivity_law"), _at(oil, pressure, "density_law")
     return None if law is None or ratio is None else float(law(ratio))
 
 
+def _of_law(
+    name: str,
+    title: str,
+    unit: str,
+    choice: str,
+    keys: Callable[[Properties, float], Iterable[str]] | None = None,
+) -> OilProperty:
+    """Property that is the value of a law over pressure; its keys are those of the law if none are given."""
+    value = partial(_at, choice=choice)
+    return OilProperty(name, title, unit, value, keys or partial(_law_keys, choice), (choice,))
+
+
+def _law_keys(choice: str, table: Properties, _: float) -> Iterator[str]:
+    """Keys of a law, whatever the pressure."""
+    return of_law(table, choice)
+
+
+_CONDUCTIVITY, _CAPACITY = "thermal_conductivity_law", "heat_capacity_law"
 _ALL = (
     OilProperty("viscosity", "viscosity", "Pa*s", _viscosity, viscosity_keys, ("viscosity_law",)),
     OilProperty("kinematic_viscosity", "kinematic viscosity", "m**2/s", _kinematic, kinematic_keys),
-    OilProperty(
-        "pressure_viscosity_coefficient",
-        "alpha (initial slope)",
-        "1/Pa",
-        lambda oil, _: oil.alpha,
-        alpha_keys,
-    ),
+    OilProperty(ALPHA, "alpha (initial slope)", "1/Pa", lambda oil, _: oil.alpha, alpha_keys),
     OilProperty("alpha_star", "alpha* (film formulas)", "1/Pa", lambda oil, _: oil.alpha_star, alpha_keys),
     OilProperty("density", "density", "kg/m**3", _density, density_keys, ("density_law",)),
-    OilProperty(
-        "density_ratio",
-        "density over ambient",
-        "",
-        lambda oil, pressure: _at(oil, "density_law", pressure),
-        lambda table, _: of_law(table, "density_law"),
-        ("density_law",),
-    ),
+    _of_law("density_ratio", "density over ambient", "", "density_law"),
     OilProperty(
         "relative_permittivity",
         "relative permittivity",
@@ -396,22 +402,8 @@ _ALL = (
         ("permittivity_law", "density_law"),
     ),
     OilProperty("conductivity", "conductivity", "S/m", lambda oil, _: oil.conductivity, conductivity_keys),
-    OilProperty(
-        "thermal_conductivity",
-        "thermal conductivity",
-        "W/m/K",
-        lambda oil, pressure: _at(oil, "thermal_conductivity_law", pressure),
-        thermal_keys,
-        ("thermal_conductivity_law",),
-    ),
-    OilProperty(
-        "heat_capacity",
-        "volumetric heat capacity",
-        "J/m**3/K",
-        lambda oil, pressure: _at(oil, "heat_capacity_law", pressure),
-        lambda table, _: of_law(table, "heat_capacity_law"),
-        ("heat_capacity_law",),
-    ),
+    _of_law("thermal_conductivity", "thermal conductivity", "W/m/K", _CONDUCTIVITY, thermal_keys),
+    _of_law("heat_capacity", "volumetric heat capacity", "J/m**3/K", _CAPACITY),
 )
 
 # Properties of an oil by name, in the order of tables.
@@ -486,9 +478,8 @@ def oil_report(
     temperatures: Sequence[str | float] = (),
     pressures: Sequence[str | float] = (),
 ) -> OilReport:
-    """Report on an oil of the library, of a file or of a table. Returns every property of the oil; those of
-    which a value is missing are marked. Raises InputError if there is no such oil, or a temperature is
-    outside the range of the oil.
+    """Report on every property of an oil of the library, of a file or of a table. Properties of which a value
+    is missing are marked. Raises InputError if there is no such oil, or a temperature is outside its range.
 
     Examples
     --------

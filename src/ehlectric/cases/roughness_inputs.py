@@ -8,19 +8,11 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
 
-_Height = Annotated[float, Amount("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
-_Length = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
 _LengthUnit = Annotated[str, AfterValidator(length_unit)]
-_Place = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
-_Side = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="across entrainment, 0 at the centre")]
-_Angle = Annotated[
-    float, Amount("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
-]
 
 # Required keys and optional keys of each generator.
 GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -36,43 +28,43 @@ _POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
 _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
 
 
-class Roughness(Table):
+class Roughness(Table, book="roughness"):
     """One rough surface, read from a file or generated, and its processing steps."""
 
     surface: Literal[1, 2]
     file: str | None = None
     x_unit: _LengthUnit | None = None
     z_unit: _LengthUnit | None = None
-    line: Annotated[int, Count(0, 1_000_000, "of a map, from 0")] | None = None
+    line: int | None = None
     along: Literal["row", "column"] = "row"
     direction: Literal["x", "y"] = "x"
     assume_transverse: bool = False
     generator: str | None = None
-    amplitude: _Height | None = None
-    wavelength: _Length | None = None
-    phase: Annotated[float, Amount("", least=-1e3, most=1e3, reason="in rad")] | None = None
-    rq: _Height | None = None
-    correlation_length: _Length | None = None
-    correlation_length_y: _Length | None = None
-    orientation: _Angle | None = None
-    hurst: Annotated[float, Amount("", least=0.0, most=1.0, reason="1 is the smoothest")] | None = None
-    rolloff_wavelength: _Length | None = None
-    shortest_wavelength: _Length | None = None
-    seed: Annotated[int, Count(0, 2**32, "of the random numbers")] | None = None
-    depth: _Height | None = None
-    height: _Height | None = None
-    width: _Length | None = None
-    rim: Annotated[float, Amount("m", least=0.0, most=1e-3, reason="height of the rim")] | None = None
-    position: _Place | None = None
-    position_y: _Side | None = None
+    amplitude: float | None = None
+    wavelength: float | None = None
+    phase: float | None = None
+    rq: float | None = None
+    correlation_length: float | None = None
+    correlation_length_y: float | None = None
+    orientation: float | None = None
+    hurst: float | None = None
+    rolloff_wavelength: float | None = None
+    shortest_wavelength: float | None = None
+    seed: int | None = None
+    depth: float | None = None
+    height: float | None = None
+    width: float | None = None
+    rim: float | None = None
+    position: float | None = None
+    position_y: float | None = None
     form: Literal["none", "mean", "line", "parabola"] = "none"
-    cutoff_long: _Length | None = None
-    cutoff_short: _Length | None = None
-    trim: Annotated[float, Amount("m", least=0.0, most=1.0, reason="taken off each end")] | None = None
-    rescale_rq: _Height | None = None
-    truncate: _Height | None = None
-    shift: _Place = 0.0
-    shift_y: _Side = 0.0
+    cutoff_long: float | None = None
+    cutoff_short: float | None = None
+    trim: float | None = None
+    rescale_rq: float | None = None
+    truncate: float | None = None
+    shift: float = 0.0
+    shift_y: float = 0.0
     extend: Literal["mirror", "repeat", "flat"] = "mirror"
 
     @model_validator(mode="after")

@@ -9,6 +9,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from inspect import Parameter, Signature
+from itertools import pairwise
 from pathlib import Path
 from types import UnionType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
@@ -25,17 +26,19 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
-from ehlectric.cases.amounts import WRITTEN
-from ehlectric.cases.key_names import ALIASES, refuse_deep, refuse_long_keys
+from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, bounded
+from ehlectric.cases.key_names import ADVICE, ALIASES, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
+from ehlectric.quantities.inputs import inputs
 from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.reading import read_text
 from ehlectric.runtime.values import Tabled
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
-    "ADVICE",
+    "BOOK",
     "check_one_of",
+    "check_over",
     "first_grid",
     "from_written",
     "known_keys",
@@ -52,12 +55,44 @@ class _Unstated:
         return "..."
 
 
+# Types of numbers as fields have them, without "| None".
+_NUMBERS = ("float", "int", "tuple[float, ...]")
+
+
+def _with_bounds(annotation: str, table: str, key: str) -> Any:
+    """Annotation of a field; that of a number gets the unit and the bounds of the book."""
+    plain = annotation.removesuffix(" | None")
+    if plain not in _NUMBERS:
+        return annotation
+    about = inputs()[table][key]
+    number: Any
+    match plain:
+        case "float":
+            number = Annotated[float, bounded(Amount, about)]
+        case "int":
+            number = Annotated[int, bounded(Count, about)]
+        case _:
+            number = Annotated[tuple[float, ...], Amounts(bounded(Amount, about), least=2)]
+    return number if plain == annotation else number | None
+
+
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass as _Listed
 else:
 
     class _Listed(type(BaseModel)):
-        """Class of tables, of which ``dir`` and ``help`` list what is theirs and not what is pydantic's."""
+        """Class of tables, of which ``dir`` and ``help`` list what is theirs and not what is pydantic's.
+
+        ``book`` is the name of the table in the book of inputs, which has units and bounds of its numbers.
+        """
+
+        def __new__(mcs, name: str, bases: Any, namespace: dict[str, Any], *, book: str = "", **kwargs: Any):
+            if book:
+                namespace["BOOK"] = book
+                annotations = namespace["__annotations__"]
+                for key, annotation in annotations.items():
+                    annotations[key] = _with_bounds(annotation, book, key)
+            return super().__new__(mcs, name, bases, namespace, **kwargs)
 
         def __dir__(cls) -> list[str]:
             return [name for name in super().__dir__() if name not in _HIDDEN and not name.startswith("_")]
@@ -68,8 +103,8 @@ class Table(BaseModel, metaclass=_Listed):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    # Advice for unknown dotted keys that users expect in this table or in a table within it.
-    ADVICE: ClassVar[Mapping[str, str]] = {}
+    # Name of the table in the book of inputs.
+    BOOK: ClassVar[str] = ""
 
     def __init__(self, /, **table: Any) -> None:
         refuse_deep(table)
@@ -81,7 +116,11 @@ class Table(BaseModel, metaclass=_Listed):
     # Pydantic makes tables within tables without calling __init__, so that an error has its whole key.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
-    if not TYPE_CHECKING:
+    if TYPE_CHECKING:
+
+        def __init_subclass__(cls, *, book: str = "", **kwargs: Any) -> None: ...
+
+    else:
 
         def __setattr__(self, name: str, value: Any) -> None:
             if not name.startswith("__"):
@@ -154,6 +193,16 @@ class Table(BaseModel, metaclass=_Listed):
             return cls.model_validate(dict(table), context={WRITTEN: written})
         except ValidationError as error:
             raise first_error(error, cls) from None
+
+    def check_over(self, key: str, values: str) -> Self:
+        """Table itself, if the numbers of a key increase, and another key has as many values."""
+        places, found = getattr(self, key), getattr(self, values)
+        if any(b <= a for a, b in pairwise(places)):
+            raise InputError(key, got=list(places), takes="increasing values")
+        if len(found) != len(places):
+            got = f"{len(found)} values over {len(places)} of {key}"
+            raise InputError(values, got=got, takes="as many")
+        return self
 
     def check_one_of(self, keys: Sequence[str], takes: str, *, needed: bool = False) -> None:
         """Raise an InputError where several of some keys are given, or none though one is needed."""
@@ -308,7 +357,7 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
 
 def _missing(key: str, model: type[Table], given: Any) -> InputError:
     """Error of a required key, with the values that it takes."""
-    field = _fields(model).get(key)
+    field = fields_within(model).get(key)
     sign = model.sign_of(key, given) if isinstance(given, Mapping) else ""
     return InputError.missing(key, _takes(key, field, model) + sign)
 
@@ -341,7 +390,7 @@ def _advice(key: str, model: type[Table]) -> str | None:
     first, _, rest = key.partition(".")
     field = model.known_keys().get(first)
     inner = None if field is None else table_of(field.annotation)
-    return model.ADVICE.get(key) or (None if inner is None else inner.ADVICE.get(rest))
+    return ADVICE.get((model.BOOK, key)) or (None if inner is None else ADVICE.get((inner.BOOK, rest)))
 
 
 def _shown_key(key: str) -> str:
@@ -373,7 +422,7 @@ def meant(key: str, model: type[Table]) -> list[str]:
     key in the same table.
     """
     table, _, leaf = key.rpartition(".")
-    known = list(_fields(model))
+    known = list(fields_within(model))
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
@@ -390,20 +439,20 @@ def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> str:
     return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
 
 
-def _fields(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
+def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
     """Fields of a table and of the tables in it, by dotted key."""
     fields: dict[str, FieldInfo] = {}
     for name, field in model.known_keys().items():
         fields[prefix + name] = field
         inner = table_of(field.annotation)
         if inner is not None:
-            fields |= _fields(inner, f"{prefix}{name}.")
+            fields |= fields_within(inner, f"{prefix}{name}.")
     return fields
 
 
 def _kind(key: str, model: type[Table]) -> str:
     """Kind of a key: "table" or "value"."""
-    return "table" if any(name.startswith(key + ".") for name in _fields(model)) else "value"
+    return "table" if any(name.startswith(key + ".") for name in fields_within(model)) else "value"
 
 
 def parser_of(field: FieldInfo, key: str) -> Callable[..., Table]:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import Law, parameters_of, refused, required
+from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.law import Law, parameters_of, required
 
 # Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
 # no contact compresses a liquid to its half.
@@ -98,19 +98,9 @@ def tait_pressure(
 
 
 def _tait_warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure at which the volume of the law is held."""
-    parameters = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    parameters |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
     cap = float(tait_pressure(1.0 / LEAST_VOLUME, temperature, **parameters))
     if max_pressure > cap:
         yield ResultWarning(
@@ -158,46 +148,18 @@ def murnaghan(
     return ratio, ratio / (modulus + murnaghan_k0_prime * p)
 
 
-def murnaghan_pressure(
-    density_ratio: ArrayLike,
-    temperature: ArrayLike | None = None,
-    *,
-    murnaghan_k0_prime: float,
-    murnaghan_k00: float,
-    murnaghan_beta_k: float,
-    murnaghan_expansion: float,
-    reference_temperature: float,
-) -> Array:
-    """Pressure [Pa] at which Murnaghan's equation has a density ratio; the inverse of ``murnaghan``.
-    ``density_ratio``, density over that at zero pressure and the same temperature, dimensionless, >= 1,
-    shape (...); ``temperature`` [K].
-
-    Examples
-    --------
-    >>> oil = dict(murnaghan_k0_prime=10.545, murnaghan_k00=9.234e9, murnaghan_beta_k=6.09e-3)
-    >>> oil |= dict(murnaghan_expansion=7.734e-4, reference_temperature=298.15)
-    >>> round(float(murnaghan_pressure(1.2182, 298.15, **oil)) / 1e9, 2)
-    1.0
-    """
-    modulus = tait_modulus(temperature, murnaghan_k00, murnaghan_beta_k, "murnaghan")
-    logarithm = np.log(np.asarray(density_ratio, dtype=float))
-    return np.asarray(modulus * np.expm1(murnaghan_k0_prime * logarithm) / murnaghan_k0_prime)
-
-
 TAIT = Law(
     tait,
     parameters_of(tait),
     warnings=_tait_warnings,
     needs_temperature=True,
     thermal_expansion="tait_expansion",
-    inverse=tait_pressure,
 )
 MURNAGHAN = Law(
     murnaghan,
     parameters_of(murnaghan),
     needs_temperature=True,
     thermal_expansion="murnaghan_expansion",
-    inverse=murnaghan_pressure,
 )
 
 
@@ -224,32 +186,9 @@ def dowson_higginson(
     return (density_c1 + density_c2 * p) / total, (density_c2 - 1.0) * density_c1 / total**2
 
 
-def dowson_higginson_pressure(
-    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
-) -> Array:
-    """Pressure [Pa] of a density ratio after Dowson and Higginson; the inverse of ``dowson_higginson``.
-    ``density_ratio``, density over that at zero pressure, dimensionless, from 1 to below C2, shape (...);
-    ``temperature`` [K]. Raises InputError if no pressure has the density ratio.
-
-    Examples
-    --------
-    >>> round(float(dowson_higginson_pressure(1.2138, density_c1=0.59e9, density_c2=1.34)) / 1e9, 2)
-    1.0
-    """
-    ratio = np.asarray(density_ratio, dtype=float)
-    if wrong := refused(ratio, (ratio >= 1.0) & (ratio < density_c2), ""):
-        raise InputError(
-            "density_ratio",
-            got=f"{wrong};",
-            takes=f"from 1 to below {density_c2:g}, the range of density_law 'dowson-higginson'",
-        )
-    return density_c1 * (ratio - 1.0) / (density_c2 - ratio)
-
-
 def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
-    """Density ratio of an incompressible lubricant, which is one, and its derivative, which is zero.
-    ``pressure`` [Pa], shape (...); ``temperature`` [K]. Returns ones, dimensionless, and zeros [1/Pa],
-    shape (...).
+    """Density ratio of an incompressible lubricant, which is one, and its derivative by pressure [1/Pa],
+    which is zero, at pressures [Pa] of shape (...).
 
     Examples
     --------
@@ -261,9 +200,7 @@ def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) ->
 
 
 DENSITY_LAWS = {
-    "dowson-higginson": Law(
-        dowson_higginson, parameters_of(dowson_higginson), inverse=dowson_higginson_pressure
-    ),
+    "dowson-higginson": Law(dowson_higginson, parameters_of(dowson_higginson)),
     "incompressible": Law(incompressible),
     "tait": TAIT,
     "murnaghan": MURNAGHAN,

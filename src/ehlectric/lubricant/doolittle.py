@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,11 +31,7 @@ def doolittle(
     doolittle_b: float,
     doolittle_r0: float,
     doolittle_epsilon: float,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    **state: float,
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Doolittle's free-volume law, and its derivative by pressure.
 
@@ -46,10 +42,11 @@ def doolittle(
     pressure and the reference temperature [Pa s]; ``doolittle_b``, doolittle's constant B, dimensionless;
     ``doolittle_r0``, occupied volume over the volume at zero pressure and the reference temperature, R0,
     dimensionless; ``doolittle_epsilon``, thermal expansion epsilon of the occupied volume [1/K];
-    ``tait_expansion``, thermal expansion a_V of the volume at zero pressure [1/K]: V/V_R = (1 + a_V (T -
-    T_R)) V/V0; ``reference_temperature``, reference temperature T_R [K]. Returns ln(eta/eta0), dimensionless,
-    with the viscosity eta0 of ``doolittle_ambient``, and its derivative by pressure [1/Pa], shape (...).
-    Raises InputError if the temperature is missing, or the oil is a glass at it and at zero pressure.
+    ``**state``, parameters of ``tait``, with the thermal expansion a_V of the volume at zero pressure [1/K],
+    V/V_R = (1 + a_V (T - T_R)) V/V0, and the reference temperature T_R [K]. Returns ln(eta/eta0),
+    dimensionless, with the viscosity eta0 of ``doolittle_ambient``, and its derivative by pressure [1/Pa],
+    shape (...). Raises InputError if the temperature is missing, or the oil is a glass at it and at zero
+    pressure.
 
     A. K. Doolittle, J. Appl. Phys. 22 (1951) 1471, doi:10.1063/1.1699894, in the form of S. Bair,
     High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later works quote it. The
@@ -65,9 +62,7 @@ def doolittle(
     >>> exponent.round(2).tolist(), round(float(slope[0]) * 1e9, 1)
     ([0.0, 9.71, 30.99], 25.8)
     """
-    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
-    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, **state)
     warmer = oil.warmer(temperature)
     density, density_slope = tait(pressure, temperature, **state)
     occupied, ambient = oil.occupied(warmer), oil.expanded(warmer)
@@ -87,9 +82,15 @@ class _Doolittle:
     """Volumes of Doolittle's law over the difference to the reference temperature."""
 
     def __init__(
-        self, viscosity: float, b: float, r0: float, epsilon: float, state: Mapping[str, float]
+        self,
+        doolittle_viscosity: float,
+        doolittle_b: float,
+        doolittle_r0: float,
+        doolittle_epsilon: float,
+        **state: float,
     ) -> None:
-        self.b, self.r0, self.epsilon, self.viscosity = b, r0, epsilon, viscosity
+        self.viscosity, self.epsilon = doolittle_viscosity, doolittle_epsilon
+        self.b, self.r0, self.state = doolittle_b, doolittle_r0, state
         self.expansion, self.reference = state["tait_expansion"], state["reference_temperature"]
 
     def occupied(self, warmer: Array) -> Array:
@@ -100,19 +101,23 @@ class _Doolittle:
         """Volume v at zero pressure."""
         return 1.0 + self.expansion * warmer
 
-    def share(self, viscosity: float | Array) -> Array:
-        """Occupied over free volume, w/(v - R0 w), at which the oil has a viscosity [Pa s]."""
-        return np.asarray(np.log(viscosity / self.viscosity) / (self.b * self.r0) + 1.0 / (1.0 - self.r0))
+    def free(self, warmer: Array) -> Array:
+        """Free volume v - R0 w at zero pressure."""
+        return self.expanded(warmer) - self.r0 * self.occupied(warmer)
+
+    def share(self) -> float:
+        """Occupied over free volume, w/(v - R0 w), at the glass transition."""
+        exponent = float(np.log(GLASS_VISCOSITY / self.viscosity))
+        return exponent / (self.b * self.r0) + 1.0 / (1.0 - self.r0)
 
     def least_free(self, occupied: Array) -> Array:
         """Free volume v - R0 w at the glass transition."""
-        return occupied / self.share(GLASS_VISCOSITY)
+        return occupied / self.share()
 
-    def difference(self, viscosity: float | Array) -> Array:
-        """Difference to the reference temperature [K] at which the oil has a viscosity at zero pressure."""
-        share = self.share(viscosity)
-        slope = self.expansion - self.r0 * self.epsilon
-        return np.asarray((share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope))
+    def glass(self) -> float:
+        """Temperature of the glass transition at zero pressure [K]."""
+        share, slope = self.share(), self.expansion - self.r0 * self.epsilon
+        return self.reference + (share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope)
 
     def warmer(self, temperature: ArrayLike | None) -> Array:
         """Difference of a temperature to the reference temperature [K], where the oil is a liquid."""
@@ -123,10 +128,9 @@ class _Doolittle:
                 got=f"{self.epsilon:g} 1/K",
                 takes=f"less than tait_expansion, {self.expansion:g} 1/K: viscosity falls with temperature",
             )
-        glass = self.reference + float(self.difference(GLASS_VISCOSITY))
         most = self.reference - 1.0 / self.epsilon if self.epsilon < 0.0 else math.inf
-        within(at, _NAME, glass, most, "its glass transition at ambient pressure, and an occupied volume")
-        return at - self.reference
+        reason = "its glass transition at ambient pressure, and an occupied volume"
+        return within(at, _NAME, self.glass(), most, reason) - self.reference
 
 
 def doolittle_ambient(
@@ -136,20 +140,16 @@ def doolittle_ambient(
     doolittle_b: float,
     doolittle_r0: float,
     doolittle_epsilon: float,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    **state: float,
 ) -> Array:
     """Viscosity at zero pressure after Doolittle's free-volume law.
 
     eta0 = eta_R exp(B R0 (w/(1 + a_V (T - T_R) - R0 w) - 1/(1 - R0))) with w = 1 + epsilon (T - T_R).
 
     ``temperature`` [K], shape (...); ``doolittle_viscosity``, ``doolittle_b``, ``doolittle_r0`` and
-    ``doolittle_epsilon``, constants eta_R [Pa s], B, R0, dimensionless, and epsilon [1/K]; ``tait_expansion``
-    and ``reference_temperature``, thermal expansion a_V [1/K] and reference temperature T_R [K]. Returns
-    viscosity eta0 [Pa s], shape (...). Raises InputError if the oil is a glass at the temperature.
+    ``doolittle_epsilon``, constants eta_R [Pa s], B, R0, dimensionless, and epsilon [1/K]; ``**state``,
+    parameters of ``tait``, with the thermal expansion a_V [1/K] and the reference temperature T_R [K].
+    Returns viscosity eta0 [Pa s], shape (...). Raises InputError if the oil is a glass at the temperature.
 
     Sources of ``doolittle``.
 
@@ -161,79 +161,30 @@ def doolittle_ambient(
     >>> doolittle_ambient([323.15, 353.15], **oil).round(4).tolist()
     [0.0348, 0.0087]
     """
-    state = {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
-    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, **state)
     warmer = oil.warmer(temperature)
-    occupied = oil.occupied(warmer)
-    share = occupied / (oil.expanded(warmer) - doolittle_r0 * occupied)
+    share = oil.occupied(warmer) / oil.free(warmer)
     return np.asarray(
         doolittle_viscosity * np.exp(doolittle_b * doolittle_r0 * (share - 1.0 / (1.0 - doolittle_r0)))
     )
 
 
-def _coefficient(
-    temperature: ArrayLike,
-    *,
-    doolittle_viscosity: float,
-    doolittle_b: float,
-    doolittle_r0: float,
-    doolittle_epsilon: float,
-    **state: float,
-) -> Array:
-    """Temperature coefficient of the viscosity at zero pressure, -d ln(eta0)/dT [1/K]."""
-    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
-    warmer = oil.warmer(temperature)
-    free = oil.expanded(warmer) - doolittle_r0 * oil.occupied(warmer)
-    # w' v - w v' of the volumes at zero pressure does not depend on the temperature.
-    return np.asarray(doolittle_b * doolittle_r0 * (oil.expansion - doolittle_epsilon) / free**2)
-
-
-def _temperature(
-    viscosity: ArrayLike,
-    *,
-    doolittle_viscosity: float,
-    doolittle_b: float,
-    doolittle_r0: float,
-    doolittle_epsilon: float,
-    **state: float,
-) -> Array:
-    """Temperature [K] at which the oil has a viscosity [Pa s] at zero pressure."""
-    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
-    return oil.reference + oil.difference(np.asarray(viscosity, dtype=float))
-
-
 def _warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    doolittle_viscosity: float,
-    doolittle_b: float,
-    doolittle_r0: float,
-    doolittle_epsilon: float,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure at which the oil is a glass."""
-    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
-    oil = _Doolittle(doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon, state)
+    oil = _Doolittle(**parameters)
     warmer = oil.warmer(temperature)
     occupied = oil.occupied(warmer)
-    volume = float((doolittle_r0 * occupied + oil.least_free(occupied)) / oil.expanded(warmer))
-    cap = float(tait_pressure(1.0 / volume, temperature, **state)) if volume > LEAST_VOLUME else math.inf
+    volume = float((oil.r0 * occupied + oil.least_free(occupied)) / oil.expanded(warmer))
+    cap = float(tait_pressure(1.0 / volume, temperature, **oil.state)) if volume > LEAST_VOLUME else math.inf
     yield from glass_warnings("doolittle", max_pressure, cap, f"{GLASS_VISCOSITY:g} Pa s")
 
 
 DOOLITTLE = Law(
     doolittle,
-    parameters_of(doolittle),
+    parameters_of(doolittle, tait),
     warnings=_warnings,
     needs_temperature=True,
     atmospheric=doolittle_ambient,
-    coefficient=_coefficient,
-    inverse=_temperature,
 )

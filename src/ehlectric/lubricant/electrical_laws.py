@@ -4,15 +4,13 @@ temperature.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import R as GAS_CONSTANT
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.lubricant.law import Law, parameter, parameters_of, refused, required
+from ehlectric.lubricant.law import Law, parameter, parameters_of, required
 
 
 def clausius_mossotti(
@@ -113,34 +111,7 @@ def arrhenius(
     )
 
 
-def arrhenius_temperature(
-    value: ArrayLike, *, conductivity: float, conductivity_activation: float, conductivity_temperature: float
-) -> Array:
-    """Temperature [K] at which an oil has an electrical conductivity; the inverse of ``arrhenius``.
-    ``value``, electrical conductivity [S/m], shape (...). Raises InputError if no temperature has the
-    conductivity.
-
-    Examples
-    --------
-    >>> oil = dict(conductivity=1e-10, conductivity_activation=5e4, conductivity_temperature=313.15)
-    >>> round(float(arrhenius_temperature(1e-10, **oil)), 2)
-    313.15
-    """
-    sigma = np.asarray(value, dtype=float)
-    logarithm = np.log(sigma / conductivity)
-    reciprocal = 1.0 / conductivity_temperature - GAS_CONSTANT / conductivity_activation * logarithm
-    if wrong := refused(sigma, reciprocal > 0.0, "S/m"):
-        most = conductivity * math.exp(conductivity_activation / (GAS_CONSTANT * conductivity_temperature))
-        raise InputError(
-            "conductivity",
-            got=f"{wrong};",
-            takes=f"below {most:.3g} S/m, the range of conductivity_law 'arrhenius'",
-        )
-    return np.asarray(1.0 / reciprocal)
-
-
 CONDUCTIVITY = parameter("conductivity")
-_TEMPERATURE = parameter("conductivity_temperature")
 
 CONDUCTIVITY_LAWS = {
     "constant": Law(constant_conductivity, parameters_of(constant_conductivity)),
@@ -148,6 +119,5 @@ CONDUCTIVITY_LAWS = {
         arrhenius,
         parameters_of(arrhenius),
         needs_temperature=True,
-        inverse=arrhenius_temperature,
     ),
 }

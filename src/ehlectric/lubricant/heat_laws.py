@@ -7,6 +7,7 @@ contains and which the sources print. The specific heat capacity c is this value
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +28,9 @@ def volume(pressure: ArrayLike, temperature: Array, state: dict[str, float]) -> 
     return ambient / ratio, -ambient * slope / ratio**2
 
 
-def beyond_larsson(law: str, max_pressure: float, temperature: float | None) -> Iterator[ResultWarning]:
+def _beyond_larsson(
+    law: str, max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
+) -> Iterator[ResultWarning]:
     """Warning that a contact is outside the measurements behind a law of Larsson et al."""
     hot = temperature is not None and temperature > LARSSON_TEMPERATURE
     if max_pressure > LARSSON_PRESSURE or hot:
@@ -94,20 +97,17 @@ def scaled_thermal_conductivity(
     scaling_k_exponent: float,
     scaling_a: float,
     scaling_q: float,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    **state: float,
 ) -> tuple[Array, Array]:
     """Thermal conductivity as a function of temperature and volume, and its derivative by pressure.
 
     k = B + C kappa^-s with kappa = v (1 + A (T/T_R) v^q) and the volume v = V/V_R of Tait's equation.
 
-    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``scaling_k_base`` and ``scaling_k_factor``,
-    constants B and C [W/(m K)]; ``scaling_k_exponent``, ``scaling_a`` and ``scaling_q``, constants s, A and
-    q, dimensionless. Returns thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)],
-    shape (...). Raises InputError if the temperature is missing, or kappa is not positive.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``**state``, parameters of ``tait``, with the
+    reference temperature T_R [K]; ``scaling_k_base`` and ``scaling_k_factor``, constants B and C [W/(m K)];
+    ``scaling_k_exponent``, ``scaling_a`` and ``scaling_q``, constants s, A and q, dimensionless. Returns
+    thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)], shape (...). Raises
+    InputError if the temperature is missing, or kappa is not positive.
 
     Habchi and others, Tribol. Int. 43 (2010) 1842, for the mineral oil Shell T9, as later works quote it. The
     constants A and q have not been compared with the printed ones.
@@ -120,11 +120,9 @@ def scaled_thermal_conductivity(
     >>> scaled_thermal_conductivity([0.0, 1e9], 298.15, **t9)[0].round(3).tolist()
     [0.112, 0.248]
     """
-    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
     at = required(temperature, "thermal_conductivity_law 'scaling'")
     v, v_slope = volume(pressure, at, state)
-    part = scaling_a * at / reference_temperature * v**scaling_q
+    part = scaling_a * at / state["reference_temperature"] * v**scaling_q
     if not np.all(part > -1.0):
         raise InputError(
             "scaling_a",
@@ -137,28 +135,16 @@ def scaled_thermal_conductivity(
     return scaling_k_base + rise, -scaling_k_exponent * rise / kappa * kappa_slope
 
 
-def _conductivity_warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    thermal_conductivity: float,
-    larsson_c1: float,
-    larsson_c2: float,
-) -> Iterator[ResultWarning]:
-    yield from beyond_larsson("thermal_conductivity_law", max_pressure, temperature)
-
-
 THERMAL_CONDUCTIVITY_LAWS = {
     "constant": Law(constant_thermal_conductivity, parameters_of(constant_thermal_conductivity)),
     "larsson": Law(
         larsson_thermal_conductivity,
         parameters_of(larsson_thermal_conductivity),
-        warnings=_conductivity_warnings,
+        warnings=partial(_beyond_larsson, "thermal_conductivity_law"),
     ),
     "scaling": Law(
         scaled_thermal_conductivity,
-        parameters_of(scaled_thermal_conductivity),
+        parameters_of(scaled_thermal_conductivity, tait),
         needs_temperature=True,
     ),
 }
@@ -237,20 +223,16 @@ def scaled_heat_capacity(
     scaling_c_base: float,
     scaling_c_factor: float,
     scaling_c_exponent: float,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    **state: float,
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity as a function of temperature and volume, and its derivative by pressure.
 
     rho c = C0 + m chi with chi = (T/T_R) v^-g and the volume v = V/V_R of Tait's equation.
 
     ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``scaling_c_base`` and ``scaling_c_factor``,
-    constants C0 and m [J/(m^3 K)]; ``scaling_c_exponent``, constant g, dimensionless. Returns volumetric heat
-    capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)], shape (...). Raises InputError if the
-    temperature is missing.
+    constants C0 and m [J/(m^3 K)]; ``scaling_c_exponent``, constant g, dimensionless; ``**state``, parameters
+    of ``tait``, with the reference temperature T_R [K]. Returns volumetric heat capacity [J/(m^3 K)], and its
+    derivative by pressure [J/(m^3 K Pa)], shape (...). Raises InputError if the temperature is missing.
 
     Source of ``scaled_thermal_conductivity``; the exponent g has not been compared with the printed one.
 
@@ -262,28 +244,10 @@ def scaled_heat_capacity(
     >>> (scaled_heat_capacity([0.0, 1e9], 298.15, **t9)[0] / 1e6).round(2).tolist()
     [1.56, 2.06]
     """
-    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
-    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
     at = required(temperature, "heat_capacity_law 'scaling'")
     v, v_slope = volume(pressure, at, state)
-    rise = scaling_c_factor * at / reference_temperature * v**-scaling_c_exponent
+    rise = scaling_c_factor * at / state["reference_temperature"] * v**-scaling_c_exponent
     return scaling_c_base + rise, -scaling_c_exponent * rise / v * v_slope
-
-
-def _capacity_warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    volumetric_heat_capacity: float,
-    larsson_temperature: float,
-    larsson_beta: float,
-    larsson_b1: float,
-    larsson_b2: float,
-    larsson_k1: float,
-    larsson_k2: float,
-) -> Iterator[ResultWarning]:
-    yield from beyond_larsson("heat_capacity_law", max_pressure, temperature)
 
 
 HEAT_CAPACITY_LAWS = {
@@ -291,12 +255,12 @@ HEAT_CAPACITY_LAWS = {
     "larsson": Law(
         larsson_heat_capacity,
         parameters_of(larsson_heat_capacity),
-        warnings=_capacity_warnings,
+        warnings=partial(_beyond_larsson, "heat_capacity_law"),
         needs_temperature=True,
     ),
     "scaling": Law(
         scaled_heat_capacity,
-        parameters_of(scaled_heat_capacity),
+        parameters_of(scaled_heat_capacity, tait),
         needs_temperature=True,
     ),
 }

@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.quantity import Quantity, data_file
+from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 
 
 class PressureLaw(Protocol):
@@ -55,7 +55,7 @@ class Derivation:
 
 
 @dataclass(frozen=True)
-class Parameter:
+class Parameter(Bounds):
     """Parameter of a lubricant law: a key of ``[lubricant]`` with its unit, bounds and labels.
 
     Examples
@@ -71,18 +71,9 @@ class Parameter:
     # title and symbol: name and symbol on the axis of a figure.
     title: str = ""
     symbol: str = ""
-    # least and most: smallest and largest allowed values in ``unit``
-    least: float = -math.inf
-    most: float = math.inf
-    # above and below: bounds in ``unit`` that are not allowed themselves.
-    above: float = -math.inf
-    below: float = math.inf
-    reason: str = ""
     # For a parameter that changes with temperature: the relation that gives its value at the temperature of a
     # bearing, if the bearing file does not contain it.
     derivation: Derivation | None = None
-    # Whether the parameter is a difference of temperatures, for which a degree Celsius is a kelvin.
-    difference: bool = False
 
     @property
     def quantity(self) -> Quantity:
@@ -102,10 +93,10 @@ def parameter(name: str) -> Parameter:
     return _parameters()[name]
 
 
-def parameters_of(function: Callable[..., Any]) -> tuple[Parameter, ...]:
-    """Parameters of a law, which are the arguments of its function that are given by keyword."""
-    keywords = (one for one in signature(function).parameters.values() if one.kind is one.KEYWORD_ONLY)
-    return tuple(parameter(keyword.name) for keyword in keywords)
+def parameters_of(*functions: Callable[..., Any]) -> tuple[Parameter, ...]:
+    """Parameters of a law: arguments by keyword of its function, and of those to which it passes others."""
+    arguments = (one for function in functions for one in signature(function).parameters.values())
+    return tuple(parameter(one.name) for one in arguments if one.kind is one.KEYWORD_ONLY)
 
 
 @dataclass(frozen=True)
@@ -132,18 +123,10 @@ class Law:
     atmospheric: Callable[..., Array] | None = None
     # Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
     thermal_expansion: str | None = None
-    # ``coefficient(temperature, **parameters)`` returns the temperature coefficient -d ln(eta0)/dT [1/K] at
-    # zero pressure, for a law that gives the viscosity at zero pressure.
-    coefficient: Callable[..., Array] | None = None
-    # ``inverse(value, **parameters)`` returns the temperature [K] at which a law at ambient pressure has a
-    # value. For a law of density it is ``inverse(ratio, temperature, **parameters)`` and returns the pressure
-    # [Pa] of a density ratio.
-    inverse: Callable[..., Array] | None = None
 
 
 def required(temperature: ArrayLike | None, law: str) -> Array:
-    """Temperature [K] that a law needs, as an array. ``temperature`` [K]. Raises InputError if the
-    temperature is None.
+    """Temperature [K] that a law needs, as an array. Raises InputError if there is none.
 
     Examples
     --------
@@ -167,21 +150,24 @@ def refused(values: Array, allowed: Mask, unit: str) -> str:
     return f"{float(wrong.flat[0]):.5g} {unit}".strip() if wrong.size else ""
 
 
-def within(temperature: Array, law: str, least: float, most: float, reason: str) -> None:
-    """Check that temperatures [K] lie in the range of a law, whose ends are not part of it. Raises InputError
-    if a temperature is outside; the message names the law and its range.
+def within(temperature: ArrayLike | None, law: str, least: float, most: float, reason: str) -> Array:
+    """Temperatures [K] that a law needs, as an array. Raises InputError if there is none, or one is outside
+    the range of the law, whose ends are not part of it; the message names the law and its range.
 
     Examples
     --------
-    >>> within(np.array(313.15), "viscosity_law 'yasutomi'", 190.0, np.inf, "its glass transition")
+    >>> float(within(313.15, "viscosity_law 'yasutomi'", 190.0, np.inf, "its glass transition"))
+    313.15
     """
-    if wrong := refused(temperature, (temperature > least) & (temperature < most), "K"):
+    at = required(temperature, law)
+    if wrong := refused(at, (at > least) & (at < most), "K"):
         ends = [f"above {least:.5g} K"] * math.isfinite(least) + [f"below {most:.5g} K"] * math.isfinite(most)
         raise InputError(
             "temperature",
             got=f"{wrong};",
             takes=f"{' and '.join(ends)}, the range of {law}: {reason}",
         )
+    return at
 
 
 # Viscosity at the glass transition [Pa s], by its usual definition. An oil that is as viscous does not flow

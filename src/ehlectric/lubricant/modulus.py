@@ -15,7 +15,6 @@ from ehlectric.lubricant.law import (
     Law,
     glass_warnings,
     parameters_of,
-    required,
     within,
 )
 
@@ -62,29 +61,30 @@ def modulus(
 
 
 def _constants(
-    temperature: ArrayLike | None, a1: float, a2: float, b1: float, b2: float
+    temperature: ArrayLike | None, modulus_a1: float, modulus_a2: float, modulus_b1: float, modulus_b2: float
 ) -> tuple[Array, Array]:
     """A [Pa] and B at a temperature at which the viscosity rises with pressure."""
-    at = required(temperature, _NAME)
     reason = "the viscosity does not rise with pressure outside it"
-    within(at, _NAME, -a1 / a2 if a2 > 0.0 else -math.inf, -a1 / a2 if a2 < 0.0 else math.inf, reason)
-    if a2 == 0.0 and a1 <= 0.0:
-        raise InputError("modulus_a1", got=f"{a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K")
-    return a1 + a2 * at, b1 + b2 * at
+    end = -modulus_a1 / modulus_a2 if modulus_a2 else math.nan
+    at = within(
+        temperature,
+        _NAME,
+        end if modulus_a2 > 0.0 else -math.inf,
+        end if modulus_a2 < 0.0 else math.inf,
+        reason,
+    )
+    if modulus_a2 == 0.0 and modulus_a1 <= 0.0:
+        raise InputError(
+            "modulus_a1", got=f"{modulus_a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K"
+        )
+    return modulus_a1 + modulus_a2 * at, modulus_b1 + modulus_b2 * at
 
 
 def _warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    modulus_a1: float,
-    modulus_a2: float,
-    modulus_b1: float,
-    modulus_b2: float,
+    max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure above the cap of the law."""
-    a, b = _constants(temperature, modulus_a1, modulus_a2, modulus_b1, modulus_b2)
+    a, b = _constants(temperature, **parameters)
     share = 1.0 - LARGEST_EXPONENT * float(b)
     cap = LARGEST_EXPONENT * float(a) / share if share > 0.0 else math.inf
     limit = f"{math.exp(LARGEST_EXPONENT) * viscosity:.1g} Pa s"

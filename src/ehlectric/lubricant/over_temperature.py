@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.lubricant.law import Law, parameters_of, refused, required, within
+from ehlectric.lubricant.law import Law, parameters_of, refused, within
 from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
 
 # Temperature of the pole of Roelands' law [K], -135 degC.
@@ -35,51 +35,8 @@ def vogel(temperature: ArrayLike | None, *, vogel_viscosity: float, vogel_b: flo
     >>> (1e3 * vogel([313.15, 333.15, 353.15, 373.15], **fva3)).round(2).tolist()
     [84.54, 34.59, 17.24, 9.86]
     """
-    return np.asarray(vogel_viscosity * np.exp(vogel_b / (_above_pole(temperature, vogel_c) - vogel_c)))
-
-
-def _above_pole(temperature: ArrayLike | None, vogel_c: float) -> Array:
-    """Temperature [K] above the pole of Vogel's law."""
-    at = required(temperature, "atmospheric_law 'vogel'")
-    within(at, "atmospheric_law 'vogel'", vogel_c, math.inf, "its pole is vogel_c")
-    return at
-
-
-def vogel_coefficient(
-    temperature: ArrayLike, *, vogel_viscosity: float, vogel_b: float, vogel_c: float
-) -> Array:
-    """Temperature coefficient of the viscosity after Vogel, -d ln(eta)/dT = B/(T - C)^2, in 1/K.
-    ``temperature`` [K], shape (...).
-
-    Examples
-    --------
-    >>> fva3 = dict(vogel_viscosity=6.2e-5, vogel_b=1021.7, vogel_c=171.5983)
-    >>> round(float(vogel_coefficient(353.15, **fva3)), 4)
-    0.031
-    """
-    return np.asarray(vogel_b / (_above_pole(temperature, vogel_c) - vogel_c) ** 2)
-
-
-def vogel_temperature(
-    viscosity: ArrayLike, *, vogel_viscosity: float, vogel_b: float, vogel_c: float
-) -> Array:
-    """Temperature [K] at which an oil of Vogel's law has a viscosity; the inverse of ``vogel``. ``viscosity``
-    [Pa s], shape (...). Raises InputError if no temperature has the viscosity.
-
-    Examples
-    --------
-    >>> fva3 = dict(vogel_viscosity=6.2e-5, vogel_b=1021.7, vogel_c=171.5983)
-    >>> round(float(vogel_temperature(0.08454, **fva3)), 2)
-    313.15
-    """
-    eta = np.asarray(viscosity, dtype=float)
-    if wrong := refused(eta, eta > vogel_viscosity, "Pa s"):
-        raise InputError(
-            "viscosity",
-            got=f"{wrong};",
-            takes=f"above {vogel_viscosity:g} Pa s, the range of atmospheric_law 'vogel'",
-        )
-    return np.asarray(vogel_c + vogel_b / np.log(eta / vogel_viscosity))
+    at = within(temperature, "atmospheric_law 'vogel'", vogel_c, math.inf, "its pole is vogel_c")
+    return np.asarray(vogel_viscosity * np.exp(vogel_b / (at - vogel_c)))
 
 
 def roelands_over_temperature(
@@ -104,91 +61,23 @@ def roelands_over_temperature(
     >>> roelands_over_temperature([313.15, 353.15], **oil).round(4).tolist()
     [0.04, 0.0108]
     """
-    reduced = _reduced(viscosity)
-    ratio = (_above_138(temperature) - ROELANDS_TEMPERATURE) / (_distance(reference_temperature))
+    law, least = "atmospheric_law 'roelands'", math.exp(-ROELANDS_CONSTANT)
+    if not viscosity > least:
+        takes = f"above {least:.2g} Pa s, the range of {law}"
+        raise InputError("viscosity", got=f"{viscosity:.5g} Pa s;", takes=takes)
+    at = within(temperature, law, ROELANDS_TEMPERATURE, math.inf, "its pole")
+    if reference_temperature <= ROELANDS_TEMPERATURE:
+        takes = f"above {ROELANDS_TEMPERATURE:g} K, the pole of {law}"
+        raise InputError("reference_temperature", got=f"{reference_temperature:g} K", takes=takes)
+    ratio = (at - ROELANDS_TEMPERATURE) / (reference_temperature - ROELANDS_TEMPERATURE)
+    reduced = np.log(viscosity) + ROELANDS_CONSTANT
     return np.asarray(np.exp(reduced * ratio**-roelands_s0 - ROELANDS_CONSTANT))
 
 
-def _above_138(temperature: ArrayLike | None) -> Array:
-    """Temperature [K] above the pole of Roelands' law."""
-    at = required(temperature, "atmospheric_law 'roelands'")
-    within(at, "atmospheric_law 'roelands'", ROELANDS_TEMPERATURE, math.inf, "its pole")
-    return at
-
-
-def _distance(reference_temperature: float) -> float:
-    """Difference of the reference temperature to the pole of Roelands' law [K]."""
-    if reference_temperature <= ROELANDS_TEMPERATURE:
-        raise InputError(
-            "reference_temperature",
-            got=f"{reference_temperature:g} K",
-            takes=f"above {ROELANDS_TEMPERATURE:g} K, the pole of atmospheric_law 'roelands'",
-        )
-    return reference_temperature - ROELANDS_TEMPERATURE
-
-
-def _reduced(viscosity: float | Array) -> Array:
-    """Ln eta + 9.67 of Roelands' laws."""
-    least = math.exp(-ROELANDS_CONSTANT)
-    eta = np.asarray(viscosity, dtype=float)
-    if wrong := refused(eta, eta > least, "Pa s"):
-        raise InputError(
-            "viscosity",
-            got=f"{wrong};",
-            takes=f"above {least:.2g} Pa s, the range of atmospheric_law 'roelands'",
-        )
-    return np.asarray(np.log(eta) + ROELANDS_CONSTANT)
-
-
-def roelands_coefficient(
-    temperature: ArrayLike, *, viscosity: float, reference_temperature: float, roelands_s0: float
-) -> Array:
-    """Temperature coefficient after Roelands, -d ln(eta)/dT = S0 (ln eta + 9.67)/(T - 138 K), in 1/K.
-    ``temperature`` [K], shape (...).
-
-    Examples
-    --------
-    >>> oil = dict(viscosity=0.04, reference_temperature=313.15, roelands_s0=1.1)
-    >>> round(float(roelands_coefficient(313.15, **oil)), 4)
-    0.0405
-    """
-    at = _above_138(temperature)
-    eta = roelands_over_temperature(
-        at, viscosity=viscosity, reference_temperature=reference_temperature, roelands_s0=roelands_s0
-    )
-    return np.asarray(roelands_s0 * (np.log(eta) + ROELANDS_CONSTANT) / (at - ROELANDS_TEMPERATURE))
-
-
-def roelands_temperature(
-    value: ArrayLike, *, viscosity: float, reference_temperature: float, roelands_s0: float
-) -> Array:
-    """Temperature [K] at which an oil has a viscosity; the inverse of ``roelands_over_temperature``.
-    ``value`` [Pa s], shape (...). Raises InputError if no temperature has the viscosity.
-
-    Examples
-    --------
-    >>> oil = dict(viscosity=0.04, reference_temperature=313.15, roelands_s0=1.1)
-    >>> round(float(roelands_temperature(0.04, **oil)), 2)
-    313.15
-    """
-    ratio = _reduced(np.asarray(value, dtype=float)) / _reduced(viscosity)
-    return np.asarray(ROELANDS_TEMPERATURE + _distance(reference_temperature) * ratio ** (-1.0 / roelands_s0))
-
-
 ATMOSPHERIC_LAWS = {
-    "vogel": Law(
-        vogel,
-        parameters_of(vogel),
-        needs_temperature=True,
-        coefficient=vogel_coefficient,
-        inverse=vogel_temperature,
-    ),
+    "vogel": Law(vogel, parameters_of(vogel), needs_temperature=True),
     "roelands": Law(
-        roelands_over_temperature,
-        parameters_of(roelands_over_temperature),
-        needs_temperature=True,
-        coefficient=roelands_coefficient,
-        inverse=roelands_temperature,
+        roelands_over_temperature, parameters_of(roelands_over_temperature), needs_temperature=True
     ),
 }
 
@@ -257,11 +146,6 @@ class Walther:
                 "short form",
             )
         return 1e-6 * nu
-
-    def slope(self, temperature: float) -> float:
-        """Temperature coefficient of the kinematic viscosity, -d ln(nu)/dT [1/K], at a temperature [K]."""
-        total = 1e6 * self.viscosity(temperature) + _ADDED
-        return math.log(total) * self.b * total / ((total - _ADDED) * temperature)
 
 
 def density(at_15: float, expansion: float, temperature: float) -> float:

@@ -134,11 +134,7 @@ def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None
 
 
 def _barus_warnings(
-    max_pressure: float,
-    viscosity: float,
-    temperature: float | None = None,
-    *,
-    pressure_viscosity_coefficient: float,
+    max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
     """Warning about Barus' law at a high Hertz pressure ``max_pressure`` [Pa]."""
     if max_pressure > 0.5e9:
@@ -154,12 +150,11 @@ def _roelands_warnings(
     viscosity: float,
     temperature: float | None = None,
     *,
-    pressure_viscosity_coefficient: float,
     roelands_z: float,
-    roelands_pressure: float,
+    **others: float,
 ) -> Iterator[ResultWarning]:
     """Warning about an exponent that differs by more than 10 % from Roelands' relation."""
-    z = roelands_exponent(viscosity, pressure_viscosity_coefficient, roelands_pressure)
+    z = roelands_exponent(viscosity, **others)
     if abs(z / roelands_z - 1.0) > 0.1:
         yield ResultWarning(
             "roelands-z",

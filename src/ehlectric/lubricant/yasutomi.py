@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import Law, glass_warnings, parameters_of, refused, required, within
+from ehlectric.errors import ResultWarning
+from ehlectric.lubricant.law import Law, glass_warnings, parameters_of, within
 
 _NAME = "viscosity_law 'yasutomi'"
 
@@ -79,12 +79,9 @@ def yasutomi_viscosity(
     *,
     yasutomi_glass_viscosity: float,
     yasutomi_glass_temperature: float,
-    yasutomi_a1: float,
-    yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
     yasutomi_c1: float,
     yasutomi_c2: float,
+    **_others: float,
 ) -> Array:
     """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
 
@@ -110,45 +107,7 @@ def yasutomi_viscosity(
 
 def _above_glass(temperature: ArrayLike | None, glass: float) -> Array:
     """Temperature [K] above the glass transition at zero pressure."""
-    at = required(temperature, _NAME)
-    within(at, _NAME, glass, math.inf, "its glass transition at ambient pressure")
-    return at
-
-
-def _coefficient(
-    temperature: ArrayLike,
-    *,
-    yasutomi_glass_temperature: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
-    **_others: float,
-) -> Array:
-    """Temperature coefficient of the viscosity at zero pressure, -d ln(eta0)/dT [1/K]."""
-    distance = _above_glass(temperature, yasutomi_glass_temperature) - yasutomi_glass_temperature
-    return np.asarray(_LN_10 * yasutomi_c1 * yasutomi_c2 / (yasutomi_c2 + distance) ** 2)
-
-
-def _temperature(
-    viscosity: ArrayLike,
-    *,
-    yasutomi_glass_viscosity: float,
-    yasutomi_glass_temperature: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
-    **_others: float,
-) -> Array:
-    """Temperature [K] at which the oil has a viscosity [Pa s] at zero pressure."""
-    eta = np.asarray(viscosity, dtype=float)
-    exponent = np.log(yasutomi_glass_viscosity / eta)
-    most = _LN_10 * yasutomi_c1
-    if wrong := refused(eta, (exponent > 0.0) & (exponent < most), "Pa s"):
-        raise InputError(
-            "viscosity",
-            got=f"{wrong};",
-            takes=f"{yasutomi_glass_viscosity * math.exp(-most):.3g} to {yasutomi_glass_viscosity:g} Pa s, "
-            f"the range of {_NAME}",
-        )
-    return np.asarray(yasutomi_glass_temperature + yasutomi_c2 * exponent / (most - exponent))
+    return within(temperature, _NAME, glass, math.inf, "its glass transition at ambient pressure")
 
 
 def _warnings(
@@ -160,10 +119,7 @@ def _warnings(
     yasutomi_glass_temperature: float,
     yasutomi_a1: float,
     yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
+    **_others: float,
 ) -> Iterator[ResultWarning]:
     """Warning about a Hertz pressure at which the oil is a glass."""
     distance = float(_above_glass(temperature, yasutomi_glass_temperature)) - yasutomi_glass_temperature
@@ -178,6 +134,4 @@ YASUTOMI = Law(
     warnings=_warnings,
     needs_temperature=True,
     atmospheric=yasutomi_viscosity,
-    coefficient=_coefficient,
-    inverse=_temperature,
 )

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import printed, unit_for
 
 # Zero point of the scale of Celsius [K].
@@ -42,69 +42,20 @@ class Scale:
 # Absolute temperatures.
 CELSIUS = Scale(1.0, "°C", -_CELSIUS)
 
+_READ = data_file("ehlectric.quantities", "shown_units.toml")
+
 # SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to it.
 UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
-    {
-        "": ("", 1.0),
-        "%": ("", 1e2),
-        "MN/m": ("N/m", 1e-6),
-        "1/GPa": ("1/Pa", 1e9),
-        "m/s": ("m/s", 1.0),
-        "rpm": ("rad/s", 30.0 / math.pi),
-        "deg": ("rad", 180.0 / math.pi),
-        "mPa s": ("Pa*s", 1e3),
-        "Pa s": ("Pa*s", 1.0),
-        "mm²/s": ("m**2/s", 1e6),
-        "µm²": ("m**2", 1e12),
-        "mm²": ("m**2", 1e6),
-        "µm³": ("m**3", 1e18),
-        "1/s": ("1/s", 1.0),
-        "1/K": ("1/K", 1.0),
-        "V/µm": ("V/m", 1e-6),
-        "1/µm": ("1/m", 1e-6),
-        "A/mm²": ("A/m**2", 1e-6),
-        "kg/m³": ("kg/m**3", 1.0),
-        "W/m/K": ("W/m/K", 1.0),
-        "MJ/m³/K": ("J/m**3/K", 1e-6),
-        "K": ("K", 1.0),
-        "°C": ("K", 1.0),
-        "N m": ("N*m", 1.0),
-        "N mm": ("N*m", 1e3),
-    }
+    {name: (unit, factor) for name, (unit, factor) in _READ["units"].items()}
     | {
         f"{prefix}{name}": (unit, 1.0 / size)
-        for unit, name in (
-            *(("m", "m"), ("s", "s"), ("N", "N"), ("Pa", "Pa"), ("V", "V"), ("A", "A"), ("F", "F")),
-            *(("F/m", "F/m"), ("W", "W"), ("W/m", "W/m"), ("J", "J"), ("C", "C"), ("Hz", "Hz")),
-            *(("ohm", "Ω"), ("S/m", "S/m")),
-        )
-        for prefix, size in (
-            *(("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)),
-            ("p", 1e-12),
-        )
+        for unit, name in _READ["prefixed"].items()
+        for prefix, size in _READ["prefixes"].items()
     }
 )
 
 # Units in which quantities of these SI units are shown; others get the prefix that suits the value.
-USUAL: Mapping[str, str] = MappingProxyType(
-    {
-        "": "",
-        "m": "µm",
-        "m**2": "µm²",
-        "Pa": "GPa",
-        "K": "K",
-        "N": "N",
-        "m/s": "m/s",
-        "rad/s": "rpm",
-        "rad": "deg",
-        "V": "V",
-        "V/m": "V/µm",
-        "1/m": "1/µm",
-        "F": "pF",
-        "F/m": "nF/m",
-        "A/m**2": "A/mm²",
-    }
-)
+USUAL: Mapping[str, str] = MappingProxyType(_READ["usual"])
 
 # Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
 _LARGE = 1e7

@@ -1,7 +1,8 @@
 """Inputs of the files, from ``inputs_and_sliders.toml``: label, symbol and meaning of every key, form fields.
 
-Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. Units
-of SI stand with the bounds of a key in the tables of the package ``cases``.
+Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. The
+tables of the package ``cases`` take the SI unit and the bounds of a number from here. Those of a
+parameter of a law of the lubricant stand with the law.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal
 
-from ehlectric.quantities.quantity import Quantity, data_file
+from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 
 # Tables of the bearings of a drive file, and the name that stands for both.
 ENDS = ("drive_end", "non_drive_end")
@@ -25,8 +26,8 @@ _NUMBERED = {"contact.body": "of body", "roughness": "of rough surface"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Input(Quantity):
-    """Input of a file, with its field in the app if it has one.
+class Input(Bounds, Quantity):
+    """Input of a file with its unit and bounds, and its field in the app if it has one.
 
     ``shown`` is the unit of the number in the field, as the file takes it; ``slider`` are the ends of its
     slider in this unit, spaced by logarithms if ``log``. ``choices`` are empty where the library has them.

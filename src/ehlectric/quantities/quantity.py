@@ -6,6 +6,7 @@ of columns and the documentation look them up by key, and have no labels, units 
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -34,6 +35,31 @@ class Quantity:
     bound: Bound = field(default="", kw_only=True)
     # Short label at the head of a column; if it is empty, the label.
     head: str = field(default="", kw_only=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bounds:
+    """Bounds of an input in its SI unit, and what a message says of them."""
+
+    # above and below: bounds that are not allowed themselves; least and most: smallest and largest value.
+    above: float = -math.inf
+    below: float = math.inf
+    least: float = -math.inf
+    most: float = math.inf
+    reason: str = ""  # reason for the bounds, or a description of the quantity, for messages
+    fraction: bool = False  # whether the value may be a string in percent
+    # Whether the value is a difference of temperatures, which has no zero of a scale.
+    difference: bool = False
+
+    def allow(self, value: float) -> bool:
+        """Whether a value [SI unit] lies within the bounds.
+
+        Examples
+        --------
+        >>> Bounds(above=0.0, most=1.0).allow(0.0), Bounds(above=0.0, most=1.0).allow(1.0)
+        (False, True)
+        """
+        return self.above < value < self.below and self.least <= value <= self.most
 
 
 # Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its

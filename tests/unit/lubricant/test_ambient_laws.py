@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
-from ehlectric.lubricant.electrical_laws import CONDUCTIVITY_LAWS, arrhenius, constant_conductivity
+from ehlectric.lubricant.electrical_laws import arrhenius, constant_conductivity
 from ehlectric.lubricant.over_temperature import (
     ATMOSPHERIC_LAWS,
     interpolated,
@@ -47,15 +47,26 @@ roelands = st.fixed_dictionaries(
 temperatures = st.floats(270.0, 420.0)
 
 
-@pytest.mark.parametrize(("name", "oils"), [("vogel", vogels), ("roelands", roelands)])
+def vogel_coefficient(temperature, _, oil):
+    return oil["vogel_b"] / (temperature - oil["vogel_c"]) ** 2
+
+
+def roelands_coefficient(temperature, viscosity, oil):
+    return oil["roelands_s0"] * (math.log(viscosity) + 9.67) / (temperature - 138.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "oils", "coefficient"),
+    [("vogel", vogels, vogel_coefficient), ("roelands", roelands, roelands_coefficient)],
+)
 @given(data=st.data(), temperature=temperatures)
-def test_coefficient_and_inverse(name, oils, data, temperature):
+def test_the_slope_is_that_of_the_documentation(name, oils, coefficient, data, temperature):
     law, oil = ATMOSPHERIC_LAWS[name], data.draw(oils)
     h = 0.02
     logs = np.log(law.function(temperature + h * np.array([-2.0, -1.0, 1.0, 2.0]), **oil))
     difference = (logs[0] - 8.0 * logs[1] + 8.0 * logs[2] - logs[3]) / (12.0 * h)
-    assert law.coefficient(temperature, **oil) == pytest.approx(-difference, rel=1e-6, abs=1e-9)
-    assert law.inverse(law.function(temperature, **oil), **oil) == pytest.approx(temperature, rel=1e-9)
+    found = coefficient(temperature, float(law.function(temperature, **oil)), oil)
+    assert found == pytest.approx(-difference, rel=1e-6, abs=1e-9)
 
 
 def test_roelands_by_hand_and_its_limits():
@@ -85,18 +96,11 @@ def test_one_of_many_temperatures_is_named():
         vogel(np.array([300.0, 150.0, 140.0]), **VOGEL)
 
 
-def test_values_that_no_temperature_has():
-    with pytest.raises(InputError, match=r"^viscosity: .* 6e-05 Pa s.* 6\.2e-05 Pa s.*'vogel'"):
-        ATMOSPHERIC_LAWS["vogel"].inverse(6e-5, **VOGEL)
+def test_parameters_that_no_oil_has():
     with pytest.raises(InputError, match=r"^viscosity: .* 5e-05 Pa s.*'roelands'"):
-        ATMOSPHERIC_LAWS["roelands"].inverse(5e-5, **ROELANDS)
-    with pytest.raises(InputError, match=r"^viscosity: .* 5e-05 Pa s"):
         roelands_over_temperature(300.0, **(ROELANDS | {"viscosity": 5e-5}))
     with pytest.raises(InputError, match=r"^reference_temperature: .* 130 K.* 138 K"):
         roelands_over_temperature(300.0, **(ROELANDS | {"reference_temperature": 130.0}))
-    most = 1e-10 * math.exp(5e4 / (8.314462618 * 313.15))
-    with pytest.raises(InputError, match=rf"^conductivity: .* {most:.3g} S/m"):
-        CONDUCTIVITY_LAWS["arrhenius"].inverse(1.1 * most, **ARRHENIUS)
 
 
 @given(temperature=temperatures, activation=st.floats(1e4, 1e5))
@@ -106,7 +110,6 @@ def test_arrhenius(temperature, activation):
     found = arrhenius(temperature, **oil)
     expected = math.log(1e-10) - activation / 8.314462618 * (1.0 / temperature - 1.0 / 313.15)
     assert np.log(found) == pytest.approx(expected, rel=1e-9)
-    assert CONDUCTIVITY_LAWS["arrhenius"].inverse(found, **oil) == pytest.approx(temperature, rel=1e-9)
 
 
 def test_a_constant_conductivity_has_the_shape_of_the_temperature():

@@ -40,14 +40,6 @@ def test_at_70_degrees_by_hand():
     assert VG46.viscosity(343.15) * 1e6 == pytest.approx(10.0**10.0**0.07615 - 0.7, rel=2e-4, abs=0.0)
 
 
-@each("temperature", [283.15, 313.15, 343.15, 393.15])
-def test_slope_is_the_derivative(temperature):
-    """Central difference of ln nu, whose error is of the order of the step squared."""
-    step = 0.05
-    low, high = (math.log(VG46.viscosity(temperature + s)) for s in (-step, step))
-    assert VG46.slope(temperature) == pytest.approx((low - high) / (2.0 * step), rel=1e-6, abs=0.0)
-
-
 @pytest.mark.parametrize(
     ("at_40", "at_100", "text"),
     [

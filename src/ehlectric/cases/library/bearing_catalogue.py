@@ -10,12 +10,11 @@ from importlib import resources
 from typing import Any, Literal, get_args
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import Amount, amount_at
 from ehlectric.cases.library.library_oils import Kind, Source, sources_of, weakest
 from ehlectric.errors import InputError, shown, within
 
 ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5"]
-BORE = Amount("m", least=1e-4, most=10.0, reason="of a machine's bearing")
 CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 
@@ -42,9 +41,8 @@ def _rows() -> tuple[dict[str, str], ...]:
 
 
 def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> ClearanceRange:
-    """Range of the radial internal clearance of a new, unmounted bearing with a cylindrical bore. ``bore``
-    [m]. Returns smallest and largest clearance [m]. Raises InputError if the table of the kind has no bearing
-    of this bore.
+    """Range of the radial internal clearance [m] of a new, unmounted bearing with a cylindrical bore [m].
+    Raises InputError if the table of the kind has no bearing of this bore.
 
     The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree.
 
@@ -94,7 +92,7 @@ def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if table.get("bore") is None:
         raise InputError.worded("bore", f"missing; clearance_class {name!r} needs the diameter of the bore")
     with within("bore"):
-        bore = BORE.parse(table["bore"])
+        bore = amount_at("bearing.bore").parse(table["bore"])
     middle = clearance_range(str(kind), name, bore).middle
     given = table.get("radial_clearance")
     if given is not None and given != middle:
@@ -150,7 +148,7 @@ class CatalogueBearing:
 
 
 def catalogue_bearing(name: str) -> CatalogueBearing:
-    """Bearing of the library by its name. Returns dimensions and ratings in SI units.
+    """Bearing of the library by its name, with its dimensions and ratings in SI units.
 
     Examples
     --------
