@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from ehlectric.commands.options import Quiet, files_ending, option
+from ehlectric.commands.options import command
 from ehlectric.commands.terminal import progress_bar, say, user_errors
 from ehlectric.runtime.progress import Progress
 
@@ -41,30 +38,8 @@ def tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
         raise
 
 
-def animate(
-    folder: Annotated[
-        Path,
-        typer.Argument(
-            metavar="DIR",
-            help="Folder of a run with moving roughness.",
-            show_default=False,
-            autocompletion=files_ending(),
-        ),
-    ],
-    output: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Write this file, a GIF or an MP4 by its suffix; by default motion.gif in DIR.",
-            "--output",
-            "-o",
-        ),
-    ] = None,
-    fps: Annotated[
-        int, typer.Option(metavar="N", help="Show this number of pictures per second.", min=1, max=50)
-    ] = 25,
-    quiet: Quiet = False,
-) -> None:
+@command("animate")
+def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool = False) -> None:
     """Animate a moving-roughness run, as a GIF or MP4."""
     with user_errors():
         from ehlectric.figures.animation import save_animation

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import typer
 
-from ehlectric.commands.options import Contacts, Quiet, file_argument, files_ending, option
+from ehlectric.commands.options import command
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -34,49 +34,16 @@ Writer: TypeAlias = "Callable[[Path, Path | None], list[Path]]"
 _OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
 
 
+@command("spice")
 def spice(
-    input_file: Annotated[Path, file_argument("FILE", "Bearing file or drive file, in TOML.", ".toml")],
-    output: Annotated[
-        Path,
-        option(
-            "FILE",
-            "Write the subcircuit into this file.",
-            "--output",
-            "-o",
-            complete=files_ending(".lib", ".cir"),
-        ),
-    ] = Path("bearing.lib"),
-    bench: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Write a test bench with the drive into this file: that of the drive file, or of the table "
-            "[motor] of a bearing file.",
-            complete=files_ending(".cir"),
-        ),
-    ] = None,
-    arc_resistance: Annotated[
-        str | None,
-        option(
-            "R", 'Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.'
-        ),
-    ] = None,
-    extinction_voltage: Annotated[
-        str | None,
-        option(
-            "V", 'Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.'
-        ),
-    ] = None,
-    speeds: Annotated[
-        str | None,
-        option(
-            "SPEEDS",
-            'Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
-            'range, "500 rpm : 3000 rpm : 7". The speed of the file is always in it.',
-        ),
-    ] = None,
-    contacts: Contacts = "",
-    quiet: Quiet = False,
+    input_file: Path,
+    output: Path = Path("bearing.lib"),
+    bench: Path | None = None,
+    arc_resistance: str | None = None,
+    extinction_voltage: str | None = None,
+    speeds: str | None = None,
+    contacts: str = "",
+    quiet: bool = False,
 ) -> None:
     """Write a bearing as a netlist for ngspice and LTspice: a subcircuit from shaft to housing.
 

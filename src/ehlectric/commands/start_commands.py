@@ -6,11 +6,10 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, chosen, one_of, option
+from ehlectric.commands.options import chosen, command
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.example_files import examples_folder
@@ -46,18 +45,14 @@ def template(kind: str) -> Path:
     return (examples_folder() if folder == "examples" else _HERE / folder) / name
 
 
+@command("init")
 def init(
-    path: Annotated[Path, typer.Argument(metavar="FILE", help="Write this file.")] = Path("case.toml"),
-    kind: Annotated[
-        str,
-        option("KIND", f"Write a file of this kind: {', '.join(TEMPLATES)}.", complete=one_of(*TEMPLATES)),
-    ] = "line",
-    geometry: Annotated[str, typer.Option(hidden=True)] = "",
-    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
-    alone: Annotated[
-        bool, typer.Option("--no-schema", help="Write no schema beside the file, and no line that names it.")
-    ] = False,
-    quiet: Quiet = False,
+    path: Path = Path("case.toml"),
+    kind: str = "line",
+    geometry: str = "",
+    force: bool = False,
+    alone: bool = False,
+    quiet: bool = False,
 ) -> None:
     """Write a commented file of any kind to start from.
 
@@ -81,30 +76,23 @@ def init(
             _copy(source, path)
         else:
             beside = _write_with_schema(source, path)
-        command = command_of_file(path)
+        solver = command_of_file(path)
     if not quiet:
         say(f"written: {path}")
         if beside is not None:
             say(f"  editors complete its keys by: {beside}")
         say(f"  check it with: ehlectric check {path}")
-        say(f"  solve it with: ehlectric {command} {path}")
+        say(f"  solve it with: ehlectric {solver} {path}")
 
 
+def _complete(begun: str) -> list[str]:
+    """Names of examples that begin with some letters."""
+    return [name for name in _names() if name.startswith(begun)]
+
+
+@command("examples", names=_complete)
 def examples(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="NAME",
-            help="Copy these examples; without a name, all are listed or copied.",
-            show_default=False,
-            autocompletion=lambda incomplete: [n for n in _names() if n.startswith(incomplete)],
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None, option("DIR", "Copy into this folder; by default, into this one.", "--output", "-o")
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
-    quiet: Quiet = False,
+    names: list[str] | None = None, output: Path | None = None, force: bool = False, quiet: bool = False
 ) -> None:
     """List the examples, or copy them with the files that belong to them.
 
