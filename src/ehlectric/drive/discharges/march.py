@@ -29,7 +29,6 @@ from ehlectric.drive.discharges.voltages_in_time import (
     Source,
     all_at,
     begin,
-    course_at,
     course_of,
     crossing,
     curvature_bound,
@@ -416,7 +415,7 @@ def _burn(course: Course, films: Films, state: State, t: float, h: float, first:
             continue
         linear, square, largest = 0.0, 0.0, abs(first[b])
         for k in range(POINTS.size):
-            v = course_at(course, b, t + h * POINTS[k])
+            v = all_at(course, t + h * POINTS[k])[b]
             linear += WEIGHTS[k] * v
             square += WEIGHTS[k] * v * v
             largest = max(largest, abs(v))

@@ -144,16 +144,6 @@ def move(piece: Complex, t: float) -> None:
 
 
 @inner
-def voltage(piece: Complex, film: int) -> float:
-    """Voltage across a film at the time to which the piece was moved [V]."""
-    value = 0.0
-    for m in range(piece.shape[1]):
-        weight, y = piece[FILMS + film, m], piece[NOW, m]
-        value += weight.real * y.real - weight.imag * y.imag
-    return value
-
-
-@inner
 def voltages(piece: Complex) -> tuple[float, float]:
     """Voltages across both films at the time to which the piece was moved [V]."""
     first, second = 0.0, 0.0
@@ -215,7 +205,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
     t = start
     for _ in range(_STEPS):
         move(piece, t)
-        v, rate = voltage(piece, film), voltage_rate(piece, film, t)
+        v, rate = voltages(piece)[film], voltage_rate(piece, film, t)
         bound = curvature_bound(piece, film, t)
         if way == RISES:
             if level - abs(v) <= _CLOSE * level:
@@ -320,21 +310,3 @@ def all_at(course: Course, t: float) -> tuple[float, float, float]:
                 second += grown * (other.real * cosine - other.imag * sine)
                 shaft += grown * (third.real * cosine - third.imag * sine)
     return first, second, shaft
-
-
-@inner
-def course_at(course: Course, b: int, t: float) -> float:
-    """Voltage b, across a film or of the shaft, at a time t of the piece [V]."""
-    value = 0.0
-    for k in range(course.number[1] - 1, -1, -1):
-        value = value * t + course.powers[b, k]
-    for m in range(course.number[0]):
-        rate, size = course.rates[m], course.amplitudes[b, m]
-        if rate.real * t > LOWEST:
-            grown = math.exp(rate.real * t)
-            if rate.imag == 0.0:
-                value += size.real * grown
-            else:
-                angle = rate.imag * t
-                value += grown * (size.real * math.cos(angle) - size.imag * math.sin(angle))
-    return value
