@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import inner
-
-Complex = NDArray[np.complex128]
+from ehlectric.drive.motor_circuit import Complex, Modes
 
 # Size of lambda t below which phi2 is summed from its series.
 SERIES = 0.1
@@ -45,23 +44,6 @@ RISES, FALLS = range(2)
 
 # Spacing of floating-point numbers at 1, relative: the least step in time that moves it.
 _EPSILON = float(np.finfo(float).eps)
-
-
-class Circuits(NamedTuple):
-    """Modes of all states of a circuit, as in ``circuit.modes.Modes``, and the rate of the ringing."""
-
-    rates: Complex
-    shapes: Complex
-    inverse: Complex
-    force: Complex
-    films: Complex
-    films_source: Array
-    ring_state: Complex
-    ring_films: Complex
-    jump: Array
-    charge: Array
-    uncharge: Array
-    ring: Complex
 
 
 class Source(NamedTuple):
@@ -104,7 +86,7 @@ def _phi_of_real(z: float) -> tuple[float, float, float]:
 
 
 @inner
-def begin(circuits: Circuits, c: int, x: Array, source: Source, piece: Complex) -> None:
+def begin(circuits: Modes, c: int, x: Array, source: Source, piece: Complex) -> None:
     """Fill a piece in state c of the circuit, from its states x; shape of the piece (ROWS, n + FURTHER)."""
     n = x.size
     for m in range(n):
@@ -176,7 +158,7 @@ def curvature_bound(piece: Complex, film: int, t: float) -> float:
 
 
 @inner
-def states_at(circuits: Circuits, c: int, piece: Complex, x: Array) -> None:
+def states_at(circuits: Modes, c: int, piece: Complex, x: Array) -> None:
     """States x of the circuit at the time to which the piece was moved."""
     n = x.size
     for j in range(n):
