@@ -11,12 +11,10 @@ from typing import Annotated
 import typer
 
 from ehlectric.commands import (  # noqa: F401  # each module adds its commands to COMMANDS
-    animate_command,
     film_command,
     netlist_command,
     oil_commands,
     reproduce_command,
-    serve,
     solve_commands,
     start_commands,
     surface_command,

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from ehlectric.commands.animate_command import tell_where_it_stops
 from ehlectric.commands.options import (
     command,
     figure_options,
@@ -29,6 +29,7 @@ from ehlectric.commands.terminal import (
     user_errors,
     warn,
 )
+from ehlectric.runtime.progress import Progress
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -61,6 +62,33 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
         print_verdict(meaning.verdict)
     if not quiet:
         warn(meaning.warnings)
+
+
+@contextmanager
+def _tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
+    """Context of a transient run; where it is stopped, one line tells how many steps are saved.
+
+    Yields the progress for the run, which calls ``show``.
+    """
+    steps = 0
+
+    def progress(done: int, of: int, text: str) -> None:
+        nonlocal steps
+        steps = of or steps
+        show(done, of, text)
+
+    try:
+        yield progress
+    except (KeyboardInterrupt, SystemExit):
+        if steps:
+            from ehlectric.motion.stored_run import MOTION, saved_steps
+
+            # Read from the file: the progress may not have been called for the last instant yet.
+            saved = saved_steps(folder / MOTION)
+            rest = "resumes the run" if saved < steps else "sums them up"
+            text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
+            say(f"interrupted; {text}", err=True)
+        raise
 
 
 @command("run")
@@ -109,7 +137,7 @@ def run(
             with progress_line(shown=not quiet) as progress:
                 outcome = solve(progress)
         else:
-            with progress_bar(shown=not quiet) as bar, tell_where_it_stops(output, bar) as progress:
+            with progress_bar(shown=not quiet) as bar, _tell_where_it_stops(output, bar) as progress:
                 outcome = solve(progress)
     tables = _tables if kind == "contact" else _transient_tables
     report(outcome, tables, quiet=quiet, as_json=as_json)

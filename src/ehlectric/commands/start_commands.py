@@ -1,7 +1,8 @@
-"""The commands init and examples, which write files to start from."""
+"""The commands to start with: init and examples, which write files, and app, which serves the web app."""
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -9,7 +10,7 @@ from types import MappingProxyType
 
 import typer
 
-from ehlectric.commands.options import chosen, command
+from ehlectric.commands.options import TEXTS, chosen, command
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.example_files import examples_folder
@@ -17,19 +18,7 @@ from ehlectric.runs.example_files import examples_folder
 _HERE = Path(__file__).parent
 
 # File of each kind of template. Kinds that an example shows in full have it as their template.
-TEMPLATES: Mapping[str, str] = MappingProxyType(
-    {
-        "line": "templates/line.toml",
-        "point": "templates/point.toml",
-        "rough": "templates/rough.toml",
-        "moving": "examples/moving_roughness.toml",
-        "discharge": "examples/discharge.toml",
-        "bearing": "examples/bearing_6208.toml",
-        "drive": "examples/drive.toml",
-        "sweep": "templates/sweep.toml",
-        "uncertainty": "templates/uncertainty.toml",
-    }
-)
+TEMPLATES: Mapping[str, str] = MappingProxyType(TEXTS["templates"])
 _GEOMETRIES = ("line", "point")
 
 # Measurements that belong to an example, by the name of its file.
@@ -121,6 +110,40 @@ def examples(
                 _copy(examples_folder() / file, target / file)
     if not quiet:
         echo_files(target / file for file in files)
+
+
+@command("app")
+def app(
+    port: int | None = None,
+    host: str = "127.0.0.1",
+    browser: bool = True,
+    jobs: int | None = None,
+    memory: float | None = None,
+    time_limit: float = 60.0,
+) -> None:
+    """Serve the web app on this machine, and open it in a browser.
+
+    Ctrl-C ends it, with all that it computes. It needs the extra: pip install "ehlectric[app]".
+    """
+    with user_errors():
+        from importlib.util import find_spec
+
+        if find_spec("nicegui") is None:
+            takes = 'an installation with: pip install "ehlectric[app]"'
+            raise InputError("app", "NiceGUI is missing", takes=takes)
+        from ehlectric.app.start import start
+        from ehlectric.app.work import limits_of
+
+        _finite(memory, "--memory")
+        _finite(time_limit, "--time-limit")
+        limits = limits_of(jobs=jobs, gigabytes=memory, minutes=time_limit)
+        start(host, port, browser=browser, tell=say, limits=limits)
+
+
+def _finite(value: float | None, option: str) -> None:
+    """Refuse NaN and infinite numbers, which every comparison with a bound lets pass or not by chance."""
+    if value is not None and not math.isfinite(value):
+        raise InputError(option, got=value, takes="a finite number")
 
 
 def _names() -> list[str]:

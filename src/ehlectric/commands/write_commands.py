@@ -1,4 +1,4 @@
-"""The commands that write a result for other programs, its report, and the JSON Schema of a kind of file."""
+"""The commands that write a result for other programs, its report or animation, and the schema of a file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from ehlectric.commands.options import chosen, command
-from ehlectric.commands.terminal import echo_files, progress_line, user_errors
+from ehlectric.commands.terminal import echo_files, progress_bar, progress_line, say, user_errors
 from ehlectric.errors import InputError
 
 
@@ -29,6 +29,21 @@ def export(result: Path, output: Path, quiet: bool = False) -> None:
         file = write(result, output)
     if not quiet:
         echo_files([file])
+
+
+@command("animate")
+def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool = False) -> None:
+    """Animate a moving-roughness run, as a GIF or MP4."""
+    with user_errors():
+        from ehlectric.figures.animation import save_animation
+        from ehlectric.motion.stored_run import read_motion
+
+        dataset = read_motion(folder)
+        output = (folder if folder.is_dir() else folder.parent) / "motion.gif" if output is None else output
+        with progress_bar(shown=not quiet) as progress:
+            save_animation(dataset, output, fps=fps, progress=progress)
+    if not quiet:
+        say(f"written: {output}")
 
 
 _FORMATS = ("html", "pdf")

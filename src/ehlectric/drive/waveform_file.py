@@ -221,12 +221,9 @@ def _largest_of_groups(places: IntArray, steps: Array) -> IntArray:
     """Place of the largest step of each group of places that are at most an edge's width apart."""
     if not places.size:
         return places
-    begins = np.concatenate([[0], np.flatnonzero(np.diff(places) > _AROUND) + 1])
-    largest = np.maximum.reduceat(steps[places], begins)
-    group = np.repeat(np.arange(begins.size), np.diff(np.append(begins, places.size)))
-    hits = np.flatnonzero(steps[places] == largest[group])
-    _, first = np.unique(group[hits], return_index=True)
-    return places[hits[first]]
+    group = np.concatenate([[0], np.cumsum(np.diff(places) > _AROUND)])
+    order = np.lexsort((-steps[places], group))
+    return places[order[np.searchsorted(group, np.unique(group))]]
 
 
 # Smallest number of samples of a waveform.
@@ -262,27 +259,11 @@ _COUNTED, _ENDS, _FEW = 40, 8000, 0.05
 # Most columns that an error lists, and longest name of one [characters].
 _LISTED, _LONGEST_NAME = 9, 40
 
-# Units as oscilloscopes write them, in small letters, by their SI units and factors.
-_WORDS = {
-    "s": ("s", "sec", "secs", "second", "seconds"),
-    "V": ("v", "volt", "volts"),
-    "A": ("a", "amp", "amps", "ampere", "amperes"),
-}
-_PREFIXES = (
-    (1.0, ("",)),
-    (1e-3, ("m", "milli")),
-    (1e-6, ("u", "µ", "micro")),
-    (1e-9, ("n", "nano")),
-    (1e-12, ("p", "pico")),
-    (1e3, ("k", "kilo")),
+# Units as oscilloscopes write them, in small letters: prefix and word. Factors by the first letter of a prefix.
+_UNIT = re.compile(
+    "(milli|micro|nano|pico|kilo|[muµnpk]?)(?:(?P<s>s|secs?|seconds?)|(?P<V>v|volts?)|(?P<A>a|amps?|amperes?))"
 )
-_UNITS = {
-    prefix + word: (base, factor)
-    for base, words in _WORDS.items()
-    for word in words
-    for factor, prefixes in _PREFIXES
-    for prefix in prefixes
-}
+_FACTORS = {"": 1.0, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "n": 1e-9, "p": 1e-12, "k": 1e3}
 _USUAL = {"s": "'s', 'ms' or 'us'", "V": "'V', 'mV' or 'kV'"}
 
 # Names of columns of times, and names and "units" of columns that number the samples.
@@ -567,8 +548,11 @@ def _unit(text: str) -> tuple[str, float]:
     """
     # Capitals count in mV and MV, and in ms and Ms.
     large = len(text) == 2 and text[0] == "M"
-    base, factor = _UNITS.get(text.lower().replace("\u03bc", "µ")[large:], ("", 1.0))
-    return base, 1e6 * factor if large else factor
+    found = _UNIT.fullmatch(text.lower().replace("\u03bc", "µ")[large:])
+    scale = 1e6 if large else 1.0
+    if found is None:
+        return "", scale
+    return found.lastgroup or "", _FACTORS[found[1].replace("micro", "u")[:1]] * scale
 
 
 def _parts(head: str) -> tuple[str, str]:
