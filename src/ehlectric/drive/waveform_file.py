@@ -109,7 +109,8 @@ def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
 
 def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> Iterator[ResultWarning]:
     """Warning "record-repeated" about a record that is repeated, and does not end where it begins.
-    ``duration``, time that is simulated [s]; None for that of the record.
+
+    The ``duration`` is the time that is simulated [s]; None stands for that of the record.
     """
     if duration is None or duration <= (1.0 + _BEYOND) * waveform.duration:
         return
@@ -128,10 +129,7 @@ def clipped_levels(values: Array) -> dict[float, int]:
 
     A plateau with noise touches its extremes in short runs only. A waveform without any noise that consists
     of its two extremes and a few samples between them is taken for a computed square wave, not for a clipped
-    one.
-
-    ``values``, voltages, not constant, shape (n,). Returns number of samples by voltage; empty for a waveform
-    that is not clipped.
+    one. The voltages are not constant, shape (n,). The numbers are by voltage [V].
 
     Examples
     --------
@@ -140,26 +138,22 @@ def clipped_levels(values: Array) -> dict[float, int]:
     ({}, [0.8])
     """
     low, high = float(np.min(values)), float(np.max(values))
-    band = _BAND * (high - low)
     extremes = {level: values == level for level in (low, high)}
     between = ~(extremes[low] | extremes[high])
     if np.count_nonzero(between) < _QUALITY_BETWEEN * values.size:
         return {}
     same = np.concatenate([values[1:] == values[:-1], [False]])
     elsewhere = longest_run(same & between) + 1
-    found = {}
+    clipped = {}
     for level, on in extremes.items():
-        count = int(np.count_nonzero(on))
-        longest = longest_run(on)
-        if longest < max(_RUN, _RUNS * elsewhere):
-            continue
-        beside = values[between]
-        distances = np.abs(beside - level)
-        # At least the nearest of the other levels, where levels are coarser than the band.
-        near = np.count_nonzero(distances <= max(band, float(np.min(distances))))
-        if count > _FLAT * near:
-            found[level] = count
-    return found
+        if longest_run(on) >= max(_RUN, _RUNS * elsewhere):
+            distances = np.abs(values[between] - level)
+            # At least the nearest of the other levels, where levels are coarser than the band.
+            near = np.count_nonzero(distances <= max(_BAND * (high - low), float(np.min(distances))))
+            count = int(np.count_nonzero(on))
+            if count > _FLAT * near:
+                clipped[level] = count
+    return clipped
 
 
 def longest_run(on: Mask) -> int:
@@ -188,8 +182,9 @@ def few_levels(values: Array) -> int | None:
 
 def unresolved_edges(values: Array) -> tuple[int, int]:
     """Number of steep edges with fewer than three samples between 10 and 90 % of their height, and of all.
-    ``values``, voltages, shape (n,). Returns edges that move by a fifth of the range or more between two
-    samples; slower ones are resolved; of more than 100 000 edges, the first ones count.
+
+    A steep edge moves by a fifth of the range or more between two samples; slower ones are resolved. Of more
+    than 100 000 edges, the first ones count. The voltages have the shape (n,).
 
     Examples
     --------
@@ -259,7 +254,7 @@ _COUNTED, _ENDS, _FEW = 40, 8000, 0.05
 # Most columns that an error lists, and longest name of one [characters].
 _LISTED, _LONGEST_NAME = 9, 40
 
-# Units as oscilloscopes write them, in small letters: prefix and word. Factors by the first letter of a prefix.
+# Units as oscilloscopes write them, in small letters, and factors by the first letter of a prefix.
 _UNIT = re.compile(
     "(milli|micro|nano|pico|kilo|[muµnpk]?)(?:(?P<s>s|secs?|seconds?)|(?P<V>v|volts?)|(?P<A>a|amps?|amperes?))"
 )
