@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -24,11 +23,9 @@ from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
     from ehlectric.drive.netlist import Arc, Subcircuit
+    from ehlectric.drive.netlist_files import Netlist
     from ehlectric.quantities.rows import Row
     from ehlectric.runtime.progress import Progress
-
-# Writes the subcircuits, and the test bench if there is one; the files written.
-Writer: TypeAlias = "Callable[[Path, Path | None], list[Path]]"
 
 # Options by the names of their inputs.
 _OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
@@ -56,7 +53,7 @@ def spice(
     converged, the files are still written; or memory ran out.
     """
     with user_errors(), _named_as_options():
-        from ehlectric.drive.netlist_files import arc_of, check_targets
+        from ehlectric.drive.netlist_files import arc_of, check_targets, write_files
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
@@ -68,11 +65,12 @@ def spice(
         check_targets(output, bench)
         with progress_bar(shown=not quiet) as progress:
             if kind == "drive":
-                found, write = _drive(input_file, contacts, progress)
+                netlist = _drive(input_file, contacts, progress)
             else:
-                found, write = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
+                netlist = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
         clear_left_behind(output.parent)
-        files = write(output, bench)
+        files = write_files(netlist, output, bench)
+    found = netlist.subcircuits
     if not quiet:
         for one in found:
             print_rows(_rows(one), one.case.title)
@@ -96,10 +94,9 @@ def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
 
 def _bearing(
     path: Path, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
-) -> tuple[tuple[Subcircuit, ...], Writer]:
-    """Subcircuit of a bearing file, and what writes it."""
+) -> Netlist:
+    """Netlist of a bearing file."""
     from ehlectric.drive.netlist import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
-    from ehlectric.drive.netlist_files import write_subcircuit
     from ehlectric.runs import by_kind
 
     case = by_kind.read_bearing(path)
@@ -109,19 +106,17 @@ def _bearing(
     if motor:
         drive_of(case)
     others = () if speeds is None else speeds_of(case, speeds)
-    own = subcircuit_of(solve_at_speeds(case, others, progress), arc)
-    return (own,), partial(write_subcircuit, own)
+    return subcircuit_of(solve_at_speeds(case, others, progress), arc)
 
 
-def _drive(path: Path, contacts: str, progress: Progress) -> tuple[tuple[Subcircuit, ...], Writer]:
-    """Subcircuits of the bearings of a drive file, and what writes them."""
-    from ehlectric.drive.drive_netlist import drive_netlist, write_both
+def _drive(path: Path, contacts: str, progress: Progress) -> Netlist:
+    """Netlist of a drive file."""
+    from ehlectric.drive.drive_netlist import drive_netlist
     from ehlectric.runs import by_kind
 
     case = by_kind.read_drive(path)
     case = case.replace({"drive.contacts": contacts}) if contacts else case
-    netlist = drive_netlist(case, progress)
-    return netlist.subcircuits, partial(write_both, netlist)
+    return drive_netlist(case, progress)
 
 
 @contextmanager

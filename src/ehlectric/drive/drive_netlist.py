@@ -37,7 +37,7 @@ from ehlectric.drive.netlist import (
     number,
     subcircuit_of,
 )
-from ehlectric.drive.netlist_files import check_targets, write_lines
+from ehlectric.drive.netlist_files import check_targets, write_files
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
@@ -145,7 +145,7 @@ def write_drive_netlist(
     """
     path, bench = Path(path), None if bench is None else Path(bench)
     check_targets(path, bench)
-    return write_both(drive_netlist(case, progress, workers=workers), path, bench)
+    return write_files(drive_netlist(case, progress, workers=workers), path, bench)
 
 
 def drive_netlist(
@@ -180,11 +180,6 @@ def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
         if error.key == "extinction_voltage":
             raise error.retold(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
         raise error.under(end) from None
-
-
-def write_both(netlist: DriveNetlist, path: Path, bench: Path | None) -> list[Path]:
-    """Write the file of the subcircuits, and that of the test bench if there is one."""
-    return write_lines(netlist.lines(), path, netlist.bench, bench)
 
 
 def _about(source: Source) -> str:

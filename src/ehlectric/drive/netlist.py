@@ -336,6 +336,11 @@ class Subcircuit:
     suffix: str = ""  # end of the name, of one of several bearings in a file
 
     @property
+    def subcircuits(self) -> tuple[Subcircuit]:
+        """Subcircuits of its file: this one."""
+        return (self,)
+
+    @property
     def case(self) -> BearingCase:
         """Case at the speed that is the default."""
         return self.results[0].case
@@ -403,6 +408,21 @@ class Subcircuit:
             yield from self._table()
         yield from self._elements()
         yield f".ends {self.name}"
+
+    def bench(self, library: str) -> Iterator[str]:
+        """Lines of a test bench that simulates periods of the inverter; errors are those of ``drive_of``."""
+        motor, bench = drive_of(self.case), TEXTS["bearing_bench"]
+        bearing = f"{self.name} speed={{n_shaft}}" if self.tabulated else self.name
+        text = filled(
+            bench["lines"],
+            signature=f"{SIGNATURE}test bench of {self.name}; ehlectric {__version__}",
+            comments=[*comment(f"title: {self.case.title or '(none)'}"), *comment(bench["about"])],
+            library=library,
+            parameters=[f".param {parameter.line}" for parameter in _parameters(self, motor)],
+            bearing=bearing,
+            other_end=list(_other_end(self, motor, bearing)),
+        )
+        yield from text.split("\n")
 
     def _header(self) -> Iterator[str]:
         """Comments: bearing, operating point, how it was solved, notes and warnings."""
@@ -563,24 +583,6 @@ def drive_of(case: BearingCase) -> Motor:
             takes=f"less than {half:.3g} s, half a period of motor.switching_frequency",
         )
     return motor
-
-
-def bench_lines(subcircuit: Subcircuit, library: str) -> Iterator[str]:
-    """Lines of a test bench that simulates some periods of the inverter, its title first; errors are those of
-    ``drive_of``.
-    """
-    motor, bench = drive_of(subcircuit.case), TEXTS["bearing_bench"]
-    bearing = f"{subcircuit.name} speed={{n_shaft}}" if subcircuit.tabulated else subcircuit.name
-    text = filled(
-        bench["lines"],
-        signature=f"{SIGNATURE}test bench of {subcircuit.name}; ehlectric {__version__}",
-        comments=[*comment(f"title: {subcircuit.case.title or '(none)'}"), *comment(bench["about"])],
-        library=library,
-        parameters=[f".param {parameter.line}" for parameter in _parameters(subcircuit, motor)],
-        bearing=bearing,
-        other_end=list(_other_end(subcircuit, motor, bearing)),
-    )
-    yield from text.split("\n")
 
 
 def _parameters(subcircuit: Subcircuit, motor: Motor) -> Iterator[Parameter]:

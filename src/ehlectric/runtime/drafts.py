@@ -16,9 +16,12 @@ import os
 import struct
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from ehlectric.runtime.files import flush, write
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer, WriteableBuffer
 
 # Beginning of the file of changes: its kind, device and number of the file that is changed, and its new size.
 _HEAD = struct.Struct("<12sQQQ")
@@ -131,7 +134,7 @@ class Draft(io.RawIOBase):
         self._size = size
         return size
 
-    def readinto(self, buffer: bytearray | memoryview) -> int:
+    def readinto(self, buffer: WriteableBuffer) -> int:
         """Fill a buffer from the position on, and return the number of bytes."""
         view = memoryview(buffer).cast("B")
         done, size = 0, max(0, min(len(view), self._size - self._at))
@@ -144,7 +147,7 @@ class Draft(io.RawIOBase):
         self._at += size
         return size
 
-    def write(self, content: bytes | memoryview) -> int:
+    def write(self, content: ReadableBuffer) -> int:
         """Write bytes at the position, and return their number."""
         view = memoryview(content).cast("B")
         done, size = 0, len(view)
