@@ -8,7 +8,7 @@ from ehlectric.bearing.circuit import Path
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
 from ehlectric.drive.discharges.march import Segments
-from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
+from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.motor_circuit import modes_of, states_of, voltage_nodes
 from tests.helpers.places import EXAMPLES
@@ -100,7 +100,7 @@ def march(
     duration = float(sum(np.sum(one.duration) for one in chunks))
     measuring = Measuring(0.0, duration, highest, limits, trace, at_event)
     films = films_of(bearings, breakdown)
-    return simulate(circuits_of(modes, ring), films, iter(chunks), measuring, seed)
+    return simulate(modes, films, iter(chunks), measuring, seed)
 
 
 def drive_with_remedy(**changes):

@@ -10,18 +10,19 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.animate_command import animate
-from ehlectric.commands.film_command import film
-from ehlectric.commands.netlist_command import spice
-from ehlectric.commands.oil_commands import oil, oils
-from ehlectric.commands.reproduce_command import reproduce
-from ehlectric.commands.serve import app as serve_app
-from ehlectric.commands.solve_commands import bearing, bearings, check, drive, plot, run
-from ehlectric.commands.start_commands import examples, init
-from ehlectric.commands.surface_command import surface
-from ehlectric.commands.sweep_commands import draw_maps, sensitivity, sweep
+from ehlectric.commands import (  # noqa: F401  # each module adds its commands to COMMANDS
+    film_command,
+    netlist_command,
+    oil_commands,
+    reproduce_command,
+    solve_commands,
+    start_commands,
+    surface_command,
+    sweep_commands,
+    write_commands,
+)
+from ehlectric.commands.options import COMMANDS, TEXTS
 from ehlectric.commands.terminal import NOT_CONVERGED, WRONG_INPUT, say
-from ehlectric.commands.write_commands import export, report, schema
 from ehlectric.errors import InputError
 from ehlectric.runtime.locks import not_ignored
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
@@ -30,104 +31,9 @@ from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
 
-_EXAMPLES = """\b
-Examples:
-  ehlectric init bearing.toml --kind bearing      write a bearing to start from
-  ehlectric check bearing.toml                    what it means, unsolved, at once
-  ehlectric bearing bearing.toml -o results       solve it; does it spark?
-  ehlectric init case.toml                        a single contact
-  ehlectric run case.toml -o contact              solve it, with tables and figures
-  ehlectric COMMAND --help                        options of a command
-"""
-
-# Commands in the order in which a user needs them: name, function, line in the list, and examples.
-_COMMANDS = (
-    ("init", init, "Write a commented file to start from.", ("init bearing.toml --kind bearing",)),
-    ("examples", examples, "List or copy the examples.", ("examples", "examples bearing_6208 -o trial")),
-    ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
-    (
-        "schema",
-        schema,
-        "Print the JSON Schema of a kind of file.",
-        ("schema bearing -o bearing.schema.json",),
-    ),
-    ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
-    ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts atlas",)),
-    (
-        "drive",
-        drive,
-        "Simulate the discharges of both bearings of a motor.",
-        ("drive drive.toml -o results", "drive drive.toml --contacts atlas --json"),
-    ),
-    (
-        "spice",
-        spice,
-        "Write a bearing, or a drive, as a netlist.",
-        (
-            "spice bearing.toml -o bearing.lib",
-            'spice bearing.toml --arc-resistance "1 ohm" --extinction-voltage "1 V" --bench bench.cir',
-            'spice bearing.toml --contacts atlas --speeds "500 rpm : 3000 rpm : 7"',
-            "spice drive.toml -o bearings.lib --bench bench.cir",
-        ),
-    ),
-    ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
-    (
-        "film",
-        film,
-        "Film of a contact, at once.",
-        (
-            "film --m 200 --l 10 --k 1",
-            (
-                'film --oil fva-3 --temperature "70 degC" --radius "8 mm" --modulus "226 GPa"'
-                ' --load "100 kN/m" --speed "4 m/s"'
-            ),
-        ),
-    ),
-    ("oils", oils, "List the oils of the library.", ("oils", "oils --json")),
-    (
-        "oil",
-        oil,
-        "Show all that is known of an oil.",
-        ("oil fva-3", 'oil fva-3 --temperature "90 degC" --pressure "1 GPa" -o fva-3', "oil bearing.toml"),
-    ),
-    ("sweep", sweep, "Solve a case over varied inputs.", ("sweep sweep.toml -o sweep --plots",)),
-    (
-        "map",
-        draw_maps,
-        "Draw a sweep as map and lines.",
-        (
-            "map sweep --x bearing.inner_speed",
-            'map sweep --x bearing.inner_speed --at "bearing.temperature=70 degC"',
-        ),
-    ),
-    ("sensitivity", sensitivity, "Rank the inputs of a Sobol design.", ("sensitivity uncertainty",)),
-    ("plot", plot, "Draw the figures of a result again.", ("plot results --style journal --format pdf",)),
-    (
-        "report",
-        report,
-        "Write the report of a result.",
-        ("report results", "report bearing -o bearing_6208.pdf"),
-    ),
-    (
-        "export",
-        export,
-        "Write a result for MATLAB, spreadsheets or ParaView.",
-        ("export results -o film.mat", "export bearing -o bearing.xlsx", "export results -o film.vtkhdf"),
-    ),
-    ("animate", animate, "Animate a moving-roughness run.", ("animate results -o moving.gif",)),
-    (
-        "surface",
-        surface,
-        "Show a measured surface.",
-        ('surface profile.csv --form line --cutoff-long "80 um"',),
-    ),
-    ("app", serve_app, "Open the web app.", ("app", "app --port 8100 --no-browser")),
-    ("reproduce", reproduce, "Reproduce the paper.", ("reproduce", "reproduce --figure 7")),
-)
-
 app = typer.Typer(
-    help="Film and electric field of lubricated contacts, and breakdown of the film in bearings.",
-    epilog=_EXAMPLES,
+    help=TEXTS["help"],
+    epilog=TEXTS["epilog"],
     invoke_without_command=True,
     rich_markup_mode=None,  # it would take [motion] in a help text for a style
     pretty_exceptions_enable=False,
@@ -152,9 +58,9 @@ def _main(
         typer.echo(ctx.get_help())
 
 
-for _name, _function, _short, _lines in _COMMANDS:
-    _typed = "\n".join(f"  ehlectric {line}" for line in _lines)
-    app.command(_name, short_help=_short, epilog=f"\b\nExamples:\n{_typed}")(_function)
+for _name, _texts in TEXTS["commands"].items():
+    _typed = "\n".join(f"  ehlectric {line}" for line in _texts["examples"])
+    app.command(_name, short_help=_texts["short"], epilog=f"\b\nExamples:\n{_typed}")(COMMANDS[_name])
 
 
 def _stop(number: int, _: object) -> None:

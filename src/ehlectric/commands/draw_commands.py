@@ -60,12 +60,12 @@ def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str)
         warnings: Sequence[ResultWarning] = warnings_in(dataset.attrs)
         return _draw(dataset, folder, MOTION_FIGURE_FILES, warnings, formats, style)
     result = load(path)
+    names: Iterable[str] = ALL_FIGURES
     if isinstance(result, BearingResult):
         names = (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
-        return _draw(result, folder, names, result.warnings, formats, style)
-    if isinstance(result, DriveResult):
-        return _draw(result, folder, DRIVE_FIGURE_FILES, result.warnings, formats, style)
-    return _draw(result, folder, ALL_FIGURES, result.warnings, formats, style)
+    elif isinstance(result, DriveResult):
+        names = DRIVE_FIGURE_FILES
+    return _draw(result, folder, names, result.warnings, formats, style)
 
 
 def _draw(

@@ -6,11 +6,11 @@ import json
 import math
 from collections.abc import Iterator
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
-from ehlectric.commands.options import Json, option
+from ehlectric.commands.options import command
 from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.errors import InputError, shown
 
@@ -25,24 +25,19 @@ _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
 _FILMS = {"central": "central film", "minimum": "minimum film", "mean": "mean film over the Hertz zone"}
 
 
+@command("film")
 def film(
-    m: Annotated[float | None, option("M", "Moes' load group M.")] = None,
-    l: Annotated[float | None, option("L", "Moes' lubricant group L.")] = None,  # noqa: E741
-    k: Annotated[
-        float | None, option("K", "Semi-axis across over that along entrainment; without it, a line.")
-    ] = None,
-    oil: Annotated[str | None, option("NAME", "Oil of the library, or a file with [lubricant].")] = None,
-    temperature: Annotated[str | None, option("TEMPERATURE", 'Of the oil, such as "70 degC".')] = None,
-    radius: Annotated[str | None, option("LENGTH", "Reduced radius along entrainment.")] = None,
-    radius_across: Annotated[
-        str | None, option("LENGTH", "Reduced radius across; without it, a line.")
-    ] = None,
-    modulus: Annotated[
-        str | None, option("PRESSURE", "Reduced modulus E', 226 GPa for steel on steel.")
-    ] = None,
-    load: Annotated[str | None, option("LOAD", "Load of a point in N, of a line in N/m.")] = None,
-    speed: Annotated[str | None, option("SPEED", "Mean (u1 + u2)/2 of the surface speeds.")] = None,
-    as_json: Json = False,
+    m: float | None = None,
+    l: float | None = None,  # noqa: E741
+    k: float | None = None,
+    oil: str | None = None,
+    temperature: str | None = None,
+    radius: str | None = None,
+    radius_across: str | None = None,
+    modulus: str | None = None,
+    load: str | None = None,
+    speed: str | None = None,
+    as_json: bool = False,
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
 

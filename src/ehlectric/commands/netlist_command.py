@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING
 
 import typer
 
-from ehlectric.commands.options import Contacts, Quiet, file_argument, files_ending, option
+from ehlectric.commands.options import command
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -24,59 +23,24 @@ from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
     from ehlectric.drive.netlist import Arc, Subcircuit
+    from ehlectric.drive.netlist_files import Netlist
     from ehlectric.quantities.rows import Row
     from ehlectric.runtime.progress import Progress
-
-# Writes the subcircuits, and the test bench if there is one; the files written.
-Writer: TypeAlias = "Callable[[Path, Path | None], list[Path]]"
 
 # Options by the names of their inputs.
 _OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
 
 
+@command("spice")
 def spice(
-    input_file: Annotated[Path, file_argument("FILE", "Bearing file or drive file, in TOML.", ".toml")],
-    output: Annotated[
-        Path,
-        option(
-            "FILE",
-            "Write the subcircuit into this file.",
-            "--output",
-            "-o",
-            complete=files_ending(".lib", ".cir"),
-        ),
-    ] = Path("bearing.lib"),
-    bench: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Write a test bench with the drive into this file: that of the drive file, or of the table "
-            "[motor] of a bearing file.",
-            complete=files_ending(".cir"),
-        ),
-    ] = None,
-    arc_resistance: Annotated[
-        str | None,
-        option(
-            "R", 'Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.'
-        ),
-    ] = None,
-    extinction_voltage: Annotated[
-        str | None,
-        option(
-            "V", 'Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.'
-        ),
-    ] = None,
-    speeds: Annotated[
-        str | None,
-        option(
-            "SPEEDS",
-            'Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
-            'range, "500 rpm : 3000 rpm : 7". The speed of the file is always in it.',
-        ),
-    ] = None,
-    contacts: Contacts = "",
-    quiet: Quiet = False,
+    input_file: Path,
+    output: Path = Path("bearing.lib"),
+    bench: Path | None = None,
+    arc_resistance: str | None = None,
+    extinction_voltage: str | None = None,
+    speeds: str | None = None,
+    contacts: str = "",
+    quiet: bool = False,
 ) -> None:
     """Write a bearing as a netlist for ngspice and LTspice: a subcircuit from shaft to housing.
 
@@ -89,7 +53,7 @@ def spice(
     converged, the files are still written; or memory ran out.
     """
     with user_errors(), _named_as_options():
-        from ehlectric.drive.netlist_files import arc_of, check_targets
+        from ehlectric.drive.netlist_files import arc_of, check_targets, write_files
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
@@ -101,11 +65,12 @@ def spice(
         check_targets(output, bench)
         with progress_bar(shown=not quiet) as progress:
             if kind == "drive":
-                found, write = _drive(input_file, contacts, progress)
+                netlist = _drive(input_file, contacts, progress)
             else:
-                found, write = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
+                netlist = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
         clear_left_behind(output.parent)
-        files = write(output, bench)
+        files = write_files(netlist, output, bench)
+    found = netlist.subcircuits
     if not quiet:
         for one in found:
             print_rows(_rows(one), one.case.title)
@@ -129,10 +94,9 @@ def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
 
 def _bearing(
     path: Path, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
-) -> tuple[tuple[Subcircuit, ...], Writer]:
-    """Subcircuit of a bearing file, and what writes it."""
+) -> Netlist:
+    """Netlist of a bearing file."""
     from ehlectric.drive.netlist import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
-    from ehlectric.drive.netlist_files import write_subcircuit
     from ehlectric.runs import by_kind
 
     case = by_kind.read_bearing(path)
@@ -142,19 +106,17 @@ def _bearing(
     if motor:
         drive_of(case)
     others = () if speeds is None else speeds_of(case, speeds)
-    own = subcircuit_of(solve_at_speeds(case, others, progress), arc)
-    return (own,), partial(write_subcircuit, own)
+    return subcircuit_of(solve_at_speeds(case, others, progress), arc)
 
 
-def _drive(path: Path, contacts: str, progress: Progress) -> tuple[tuple[Subcircuit, ...], Writer]:
-    """Subcircuits of the bearings of a drive file, and what writes them."""
-    from ehlectric.drive.drive_netlist import drive_netlist, write_both
+def _drive(path: Path, contacts: str, progress: Progress) -> Netlist:
+    """Netlist of a drive file."""
+    from ehlectric.drive.drive_netlist import drive_netlist
     from ehlectric.runs import by_kind
 
     case = by_kind.read_drive(path)
     case = case.replace({"drive.contacts": contacts}) if contacts else case
-    netlist = drive_netlist(case, progress)
-    return netlist.subcircuits, partial(write_both, netlist)
+    return drive_netlist(case, progress)
 
 
 @contextmanager

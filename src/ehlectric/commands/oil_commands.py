@@ -6,20 +6,15 @@ import json
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from ehlectric.commands.options import (
-    Formats,
-    Json,
     Look,
-    Plots,
-    Quiet,
-    Style,
+    command,
     figure_options,
     files_ending,
-    option,
 )
 from ehlectric.commands.terminal import echo_files, print_table, say, user_errors, warn
 
@@ -27,7 +22,8 @@ if TYPE_CHECKING:
     from ehlectric.cases.oil_report import OilReport
 
 
-def oils(as_json: Json = False) -> None:
+@command("oils")
+def oils(as_json: bool = False) -> None:
     """List the oils of the library, with viscosity, coefficient, density and permittivity.
 
     Each name is a value of lubricant.base. A letter behind a number tells how the value came about. The last
@@ -60,46 +56,17 @@ def _complete(incomplete: str) -> list[str]:
     return names + files_ending(".toml")(incomplete)
 
 
+@command("oil", name=_complete)
 def oil(
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="NAME",
-            help="Name of the library, or a TOML file with a table [lubricant]: a case, a bearing or an oil.",
-            show_default=False,
-            autocompletion=_complete,
-        ),
-    ],
-    temperature: Annotated[
-        list[str] | None,
-        option(
-            "TEMPERATURE",
-            'Compute at this temperature, such as "90 degC". Repeat the option for several. By default '
-            "that of the file, or 40, 60, 80 and 100 degC as far as the oil has values there.",
-        ),
-    ] = None,
-    pressure: Annotated[
-        list[str] | None,
-        option(
-            "PRESSURE",
-            'Compute at this pressure, such as "1 GPa", and at ambient pressure. Repeat the option for '
-            "several. By default ambient pressure alone.",
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        option(
-            "DIR",
-            "Write oil.csv and the figures over pressure and temperature into this folder.",
-            "--output",
-            "-o",
-        ),
-    ] = None,
-    plots: Plots = True,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
-    as_json: Json = False,
+    name: str,
+    temperature: list[str] | None = None,
+    pressure: list[str] | None = None,
+    output: Path | None = None,
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
+    as_json: bool = False,
 ) -> None:
     """Show every property of an oil at temperature and pressure, with its law, its kind and its sources.
 

@@ -1,15 +1,15 @@
-"""Arguments and options that several commands share, and what a shell completes them with."""
+"""Parameters of the commands, with their texts of ``command_texts.toml``, and their completion by a shell."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, TypedDict
+from typing import Annotated, Any, TypedDict, TypeVar, get_type_hints
 
 import typer
 
-from ehlectric.cases.defaults import QUICK
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.quantity import data_file
 
 
 def files_ending(*suffixes: str) -> Callable[[str], list[str]]:
@@ -43,98 +43,41 @@ def chosen(option: str, value: str, names: Sequence[str]) -> str:
     return value
 
 
-def option(
-    metavar: str,
-    help_text: str,
-    *names: str,
-    complete: Callable[[str], list[str]] | Callable[[typer.Context, str], list[str]] | None = None,
-) -> typer.models.OptionInfo:
-    """Option with a value; without names it is named after its parameter. ``complete`` lists its values."""
-    made: typer.models.OptionInfo = typer.Option(
-        *names, metavar=metavar, help=help_text, autocompletion=complete
-    )
+F = TypeVar("F", bound=Callable[..., None])
+
+# Texts of all commands and of their parameters, and the functions of the commands.
+TEXTS = data_file("ehlectric.commands", "command_texts.toml")
+COMMANDS: dict[str, Callable[..., None]] = {}
+
+
+def command(name: str, /, **complete: Callable[..., list[str]]) -> Callable[[F], F]:
+    """Decorator of a command, whose parameters get their texts; ``complete`` lists the values of some."""
+    texts = {**TEXTS["shared"], **TEXTS["commands"][name].get("parameters", {})}
+
+    def described(function: F) -> F:
+        function.__annotations__ = {
+            key: Annotated[kind, _parameter(texts[key], complete.get(key))] if key in texts else kind
+            for key, kind in get_type_hints(function).items()
+        }
+        COMMANDS[name] = function
+        return function
+
+    return described
+
+
+def _parameter(
+    texts: Mapping[str, Any], complete: Callable[..., list[str]] | None
+) -> typer.models.ParameterInfo:
+    """Argument or option with its texts; ``complete`` lists its values where the texts do not."""
+    options = dict(texts)
+    kind = typer.Argument if options.pop("argument", False) else typer.Option
+    names = options.pop("names", ())
+    if "files" in options:
+        complete = files_ending(*options.pop("files"))
+    elif "values" in options:
+        complete = one_of(*options.pop("values"))
+    made: typer.models.ParameterInfo = kind(*names, autocompletion=complete, **options)
     return made
-
-
-def file_argument(metavar: str, help_text: str, *suffixes: str) -> typer.models.ArgumentInfo:
-    """Argument for a file, whose name the shell completes."""
-    argument: typer.models.ArgumentInfo = typer.Argument(
-        metavar=metavar, help=help_text, show_default=False, autocompletion=files_ending(*suffixes)
-    )
-    return argument
-
-
-CaseFile = Annotated[Path, file_argument("CASE", "Case file of a contact, in TOML.", ".toml")]
-ResultFile = Annotated[
-    Path,
-    file_argument(
-        "RESULT",
-        "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
-        ".nc",
-    ),
-]
-Quiet = Annotated[
-    bool, typer.Option("--quiet", "-q", help="Print no tables, no progress and no warnings, only errors.")
-]
-Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON in place of tables.")]
-Output = Annotated[
-    Path, option("DIR", "Write the results into this folder; it is made if missing.", "--output", "-o")
-]
-Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures, or leave them out.")]
-Formats = Annotated[
-    list[str] | None,
-    option(
-        "FORMAT",
-        "Write figures as png (the default), svg or pdf. Repeat the option for several formats.",
-        "--format",
-        complete=one_of("png", "svg", "pdf"),
-    ),
-]
-Style = Annotated[
-    str,
-    option(
-        "STYLE",
-        "Draw figures in the style screen, or journal for a column of a journal.",
-        "--style",
-        complete=one_of("screen", "journal"),
-    ),
-]
-
-
-Contacts = Annotated[
-    str,
-    option(
-        "HOW",
-        "Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
-        "(formula). Without this option the file decides.",
-        complete=one_of("solved", *QUICK),
-    ),
-]
-Measured = Annotated[
-    Path | None,
-    option(
-        "DATA",
-        "Compare with a measurement, a text file of columns with units, and give its film factor.",
-        "--measured",
-        complete=files_ending(".csv", ".txt", ".dat"),
-    ),
-]
-Background = Annotated[
-    str | None,
-    option(
-        "C",
-        'Capacitance of leads and cage in parallel, as "1.3 pF", taken off the measured one.',
-        "--background",
-    ),
-]
-Uncertainty = Annotated[
-    str | None,
-    option(
-        "PART",
-        'Standard uncertainty of the measured values, as "3 %"; a column of the file wins.',
-        "--uncertainty",
-    ),
-]
 
 
 class Look(TypedDict):

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Formats, Output, Quiet, Style, figure_options, option
+from ehlectric.commands.options import command, figure_options
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -19,16 +18,15 @@ from ehlectric.commands.terminal import (
 from ehlectric.errors import InputError, shown
 
 
+@command("reproduce")
 def reproduce(
-    words: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
-    output: Output = Path("reproduced"),
-    figure: Annotated[
-        str | None, option("NUMBER", "Make this figure only, 2 to 11; without it, all.")
-    ] = None,
-    table: Annotated[str | None, option("NUMBER", "Make this table only, 3.")] = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
+    words: list[str] | None = None,
+    output: Path = Path("reproduced"),
+    figure: str | None = None,
+    table: str | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
 ) -> None:
     """Reproduce the paper: its contacts, tables and figures, with a report.
 

@@ -6,30 +6,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
-from ehlectric.commands.animate_command import tell_where_it_stops
 from ehlectric.commands.options import (
-    Background,
-    CaseFile,
-    Contacts,
-    Formats,
-    Json,
-    Measured,
-    Output,
-    Plots,
-    Quiet,
-    ResultFile,
-    Style,
-    Uncertainty,
+    command,
     figure_options,
-    file_argument,
-    one_of,
-    option,
 )
 from ehlectric.commands.terminal import (
     echo_files,
@@ -43,6 +29,7 @@ from ehlectric.commands.terminal import (
     user_errors,
     warn,
 )
+from ehlectric.runtime.progress import Progress
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -51,16 +38,8 @@ if TYPE_CHECKING:
     from ehlectric.runtime.progress import RunOutcome
 
 
-def check(
-    file: Annotated[
-        Path,
-        file_argument(
-            "FILE", "Case, bearing, drive or sweep file, in TOML; also one with [motion].", ".toml"
-        ),
-    ],
-    quiet: Quiet = False,
-    as_json: Json = False,
-) -> None:
+@command("check")
+def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
     """Check a file of any kind without solving it, and print what it means.
 
     Hertz contact, groups, regime and film formulas of a contact; with [discharge], an estimate of its
@@ -85,24 +64,45 @@ def check(
         warn(meaning.warnings)
 
 
+@contextmanager
+def _tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
+    """Context of a transient run; where it is stopped, one line tells how many steps are saved.
+
+    Yields the progress for the run, which calls ``show``.
+    """
+    steps = 0
+
+    def progress(done: int, of: int, text: str) -> None:
+        nonlocal steps
+        steps = of or steps
+        show(done, of, text)
+
+    try:
+        yield progress
+    except (KeyboardInterrupt, SystemExit):
+        if steps:
+            from ehlectric.motion.stored_run import MOTION, saved_steps
+
+            # Read from the file: the progress may not have been called for the last instant yet.
+            saved = saved_steps(folder / MOTION)
+            rest = "resumes the run" if saved < steps else "sums them up"
+            text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
+            say(f"interrupted; {text}", err=True)
+        raise
+
+
+@command("run")
 def run(
-    case_file: CaseFile,
-    output: Output = Path("results"),
-    plots: Plots = True,
-    formats: Formats = None,
-    style: Style = "screen",
-    solver: Annotated[
-        str,
-        option(
-            "NAME",
-            "Solve with ehlectric, or with paper, the multigrid and over-relaxation of the paper.",
-            complete=one_of("ehlectric", "paper"),
-        ),
-    ] = "ehlectric",
-    measured: Measured = None,
-    uncertainty: Uncertainty = None,
-    quiet: Quiet = False,
-    as_json: Json = False,
+    case_file: Path,
+    output: Path = Path("results"),
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    solver: str = "ehlectric",
+    measured: Path | None = None,
+    uncertainty: str | None = None,
+    quiet: bool = False,
+    as_json: bool = False,
 ) -> None:
     """Solve a contact; write summary.json, result.nc, film.csv and figures.
 
@@ -137,7 +137,7 @@ def run(
             with progress_line(shown=not quiet) as progress:
                 outcome = solve(progress)
         else:
-            with progress_bar(shown=not quiet) as bar, tell_where_it_stops(output, bar) as progress:
+            with progress_bar(shown=not quiet) as bar, _tell_where_it_stops(output, bar) as progress:
                 outcome = solve(progress)
     tables = _tables if kind == "contact" else _transient_tables
     report(outcome, tables, quiet=quiet, as_json=as_json)
@@ -164,15 +164,13 @@ def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     yield table_of(run_rows(outcome.summary), outcome.summary["title"])
 
 
+@command("plot")
 def plot(
-    result: ResultFile,
-    output: Annotated[
-        Path | None,
-        option("DIR", "Write the figures into this folder, not beside the result.", "--output", "-o"),
-    ] = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
+    result: Path,
+    output: Path | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
 ) -> None:
     """Draw the figures of a result again.
 
@@ -195,7 +193,8 @@ def plot(
         warn(warnings)
 
 
-def bearings(as_json: Json = False) -> None:
+@command("bearings")
+def bearings(as_json: bool = False) -> None:
     """List the bearings of the library, which a bearing file uses as base = "NAME".
 
     The elements are their number, diameter and length. They are "published", or follow "by rule" from both
@@ -215,18 +214,19 @@ def bearings(as_json: Json = False) -> None:
         say('in a bearing file: base = "6208"; the sources of all values are in the guide')
 
 
+@command("bearing")
 def bearing(
-    bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
-    output: Output = Path("bearing"),
-    contacts: Contacts = "",
-    measured: Measured = None,
-    background: Background = None,
-    uncertainty: Uncertainty = None,
-    plots: Plots = True,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
-    as_json: Json = False,
+    bearing_file: Path,
+    output: Path = Path("bearing"),
+    contacts: str = "",
+    measured: Path | None = None,
+    background: str | None = None,
+    uncertainty: str | None = None,
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
+    as_json: bool = False,
 ) -> None:
     """Solve a whole rolling bearing; write summary.json, bearing.nc, tables as CSV and figures.
 
@@ -268,15 +268,16 @@ def _bearing_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
     yield from measured_tables(outcome)
 
 
+@command("drive")
 def drive(
-    drive_file: Annotated[Path, file_argument("FILE", "Drive file, in TOML.", ".toml")],
-    output: Output = Path("drive"),
-    contacts: Contacts = "",
-    plots: Plots = True,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
-    as_json: Json = False,
+    drive_file: Path,
+    output: Path = Path("drive"),
+    contacts: str = "",
+    plots: bool = True,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
+    as_json: bool = False,
 ) -> None:
     """Simulate inverter, motor and both bearings over time; write tables, drive.nc and figures.
 

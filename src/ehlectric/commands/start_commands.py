@@ -1,16 +1,16 @@
-"""The commands init and examples, which write files to start from."""
+"""The commands to start with: init and examples, which write files, and app, which serves the web app."""
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, chosen, one_of, option
+from ehlectric.commands.options import TEXTS, chosen, command
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.example_files import examples_folder
@@ -18,19 +18,7 @@ from ehlectric.runs.example_files import examples_folder
 _HERE = Path(__file__).parent
 
 # File of each kind of template. Kinds that an example shows in full have it as their template.
-TEMPLATES: Mapping[str, str] = MappingProxyType(
-    {
-        "line": "templates/line.toml",
-        "point": "templates/point.toml",
-        "rough": "templates/rough.toml",
-        "moving": "examples/moving_roughness.toml",
-        "discharge": "examples/discharge.toml",
-        "bearing": "examples/bearing_6208.toml",
-        "drive": "examples/drive.toml",
-        "sweep": "templates/sweep.toml",
-        "uncertainty": "templates/uncertainty.toml",
-    }
-)
+TEMPLATES: Mapping[str, str] = MappingProxyType(TEXTS["templates"])
 _GEOMETRIES = ("line", "point")
 
 # Measurements that belong to an example, by the name of its file.
@@ -46,18 +34,14 @@ def template(kind: str) -> Path:
     return (examples_folder() if folder == "examples" else _HERE / folder) / name
 
 
+@command("init")
 def init(
-    path: Annotated[Path, typer.Argument(metavar="FILE", help="Write this file.")] = Path("case.toml"),
-    kind: Annotated[
-        str,
-        option("KIND", f"Write a file of this kind: {', '.join(TEMPLATES)}.", complete=one_of(*TEMPLATES)),
-    ] = "line",
-    geometry: Annotated[str, typer.Option(hidden=True)] = "",
-    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
-    alone: Annotated[
-        bool, typer.Option("--no-schema", help="Write no schema beside the file, and no line that names it.")
-    ] = False,
-    quiet: Quiet = False,
+    path: Path = Path("case.toml"),
+    kind: str = "line",
+    geometry: str = "",
+    force: bool = False,
+    alone: bool = False,
+    quiet: bool = False,
 ) -> None:
     """Write a commented file of any kind to start from.
 
@@ -81,30 +65,23 @@ def init(
             _copy(source, path)
         else:
             beside = _write_with_schema(source, path)
-        command = command_of_file(path)
+        solver = command_of_file(path)
     if not quiet:
         say(f"written: {path}")
         if beside is not None:
             say(f"  editors complete its keys by: {beside}")
         say(f"  check it with: ehlectric check {path}")
-        say(f"  solve it with: ehlectric {command} {path}")
+        say(f"  solve it with: ehlectric {solver} {path}")
 
 
+def _complete(begun: str) -> list[str]:
+    """Names of examples that begin with some letters."""
+    return [name for name in _names() if name.startswith(begun)]
+
+
+@command("examples", names=_complete)
 def examples(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="NAME",
-            help="Copy these examples; without a name, all are listed or copied.",
-            show_default=False,
-            autocompletion=lambda incomplete: [n for n in _names() if n.startswith(incomplete)],
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None, option("DIR", "Copy into this folder; by default, into this one.", "--output", "-o")
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
-    quiet: Quiet = False,
+    names: list[str] | None = None, output: Path | None = None, force: bool = False, quiet: bool = False
 ) -> None:
     """List the examples, or copy them with the files that belong to them.
 
@@ -133,6 +110,40 @@ def examples(
                 _copy(examples_folder() / file, target / file)
     if not quiet:
         echo_files(target / file for file in files)
+
+
+@command("app")
+def app(
+    port: int | None = None,
+    host: str = "127.0.0.1",
+    browser: bool = True,
+    jobs: int | None = None,
+    memory: float | None = None,
+    time_limit: float = 60.0,
+) -> None:
+    """Serve the web app on this machine, and open it in a browser.
+
+    Ctrl-C ends it, with all that it computes. It needs the extra: pip install "ehlectric[app]".
+    """
+    with user_errors():
+        from importlib.util import find_spec
+
+        if find_spec("nicegui") is None:
+            takes = 'an installation with: pip install "ehlectric[app]"'
+            raise InputError("app", "NiceGUI is missing", takes=takes)
+        from ehlectric.app.start import start
+        from ehlectric.app.work import limits_of
+
+        _finite(memory, "--memory")
+        _finite(time_limit, "--time-limit")
+        limits = limits_of(jobs=jobs, gigabytes=memory, minutes=time_limit)
+        start(host, port, browser=browser, tell=say, limits=limits)
+
+
+def _finite(value: float | None, option: str) -> None:
+    """Refuse NaN and infinite numbers, which every comparison with a bound lets pass or not by chance."""
+    if value is not None and not math.isfinite(value):
+        raise InputError(option, got=value, takes="a finite number")
 
 
 def _names() -> list[str]:

@@ -5,66 +5,37 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Formats, Json, Style, figure_options, file_argument, one_of, option
+from ehlectric.commands.options import (
+    command,
+    figure_options,
+)
 from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
 from ehlectric.errors import InputError, shown
 
 _UNITS = "such as um or nm, for a file that does not state it"
 
 
+@command("surface")
 def surface(
-    file: Annotated[
-        Path,
-        file_argument(
-            "FILE",
-            "Heights of a surface: text, X3P, AL3D or another instrument's file.",
-            ".csv",
-            ".txt",
-            ".dat",
-            ".x3p",
-            ".al3d",
-        ),
-    ],
-    x_unit: Annotated[str | None, option("UNIT", f"Take positions in this unit, {_UNITS}.")] = None,
-    z_unit: Annotated[str | None, option("UNIT", f"Take heights in this unit, {_UNITS}.")] = None,
-    line: Annotated[
-        int | None, option("NUMBER", "Take this line of a map, counted from 0; without it, the first.")
-    ] = None,
-    along: Annotated[
-        str, option("HOW", "Take a row or a column of a map.", complete=one_of("row", "column"))
-    ] = "row",
-    whole: Annotated[
-        bool, typer.Option("--map", help="Take the whole map, as point contacts do, not one line of it.")
-    ] = False,
-    form: Annotated[
-        str,
-        option(
-            "FORM",
-            "Remove this form: none, mean, line or parabola.",
-            complete=one_of("none", "mean", "line", "parabola"),
-        ),
-    ] = "none",
-    cutoff_long: Annotated[str | None, option("LENGTH", "Remove waves that are longer than this.")] = None,
-    cutoff_short: Annotated[str | None, option("LENGTH", "Remove waves that are shorter than this.")] = None,
-    trim: Annotated[str | None, option("LENGTH", "Cut this length off each end.")] = None,
-    rescale_rq: Annotated[str | None, option("LENGTH", "Scale the heights to this Rq.")] = None,
-    truncate: Annotated[str | None, option("LENGTH", "Limit heights to plus and minus this.")] = None,
-    output: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Draw the profile or map into this .png, .svg or .pdf file, or into this folder.",
-            "--output",
-            "-o",
-        ),
-    ] = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    as_json: Json = False,
+    file: Path,
+    x_unit: str | None = None,
+    z_unit: str | None = None,
+    line: int | None = None,
+    along: str = "row",
+    whole: bool = False,
+    form: str = "none",
+    cutoff_long: str | None = None,
+    cutoff_short: str | None = None,
+    trim: str | None = None,
+    rescale_rq: str | None = None,
+    truncate: str | None = None,
+    output: Path | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    as_json: bool = False,
 ) -> None:
     """Show the content of a surface file and the effect of each processing step, without solving.
 

@@ -8,20 +8,14 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from ehlectric.commands.options import (
-    Formats,
     Look,
-    Output,
-    Quiet,
-    Style,
+    command,
     figure_options,
-    file_argument,
-    files_ending,
-    option,
 )
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
@@ -50,30 +44,16 @@ _EVERY = 15.0
 _MOST_WORKERS = 1024
 
 
+@command("sweep")
 def sweep(
-    sweep_file: Annotated[Path, file_argument("FILE", "Sweep file, in TOML.", ".toml")],
-    output: Output = Path("sweep"),
-    workers: Annotated[
-        str | None,
-        option("N", "Solve in this number of processes; without it, in as many as there are cores."),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        option("ADDRESS", 'Solve on the Dask cluster with this address, such as "tcp://10.0.0.1:8786".'),
-    ] = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    plots: Annotated[
-        bool,
-        typer.Option(
-            "--plots",
-            help="Draw maps and lines over one or two varied keys, or the sensitivity. --format implies it.",
-        ),
-    ] = False,
-    quiet: Annotated[
-        bool,
-        typer.Option("--quiet", "-q", help="Print no table and no progress, only one line on what failed."),
-    ] = False,
+    sweep_file: Path,
+    output: Path = Path("sweep"),
+    workers: str | None = None,
+    scheduler: str | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    plots: bool = False,
+    quiet: bool = False,
 ) -> None:
     """Solve a case over varied inputs; write sweep.sqlite, sweep.csv and sweep.nc.
 
@@ -271,55 +251,17 @@ def _varied_keys(ctx: typer.Context, incomplete: str) -> list[str]:
     return [key for key in (*results.axes, *results.ranges) if key.startswith(incomplete)]
 
 
-SweepFolder = Annotated[
-    Path,
-    typer.Argument(
-        metavar="DIR",
-        help="Folder of a sweep, finished or not.",
-        show_default=False,
-        autocompletion=files_ending(),
-    ),
-]
-Value = Annotated[
-    str,
-    option(
-        "KEY",
-        "Draw this key of summary.json, such as film.minimum_thickness. Without it, the breakdown "
-        "voltage is drawn.",
-    ),
-]
-OtherFolder = Annotated[
-    Path | None, option("DIR", "Write into this folder, not into that of the sweep.", "--output", "-o")
-]
-
-
+@command("map", x=_varied_keys, y=_varied_keys)
 def draw_maps(
-    folder: SweepFolder,
-    x: Annotated[
-        str,
-        option("KEY", "Draw this varied key along the horizontal axis.", complete=_varied_keys),
-    ],
-    y: Annotated[
-        str | None,
-        option(
-            "KEY",
-            "Draw this varied key along the vertical axis. Without it there are lines and no map.",
-            complete=_varied_keys,
-        ),
-    ] = None,
-    value: Value = "",
-    at: Annotated[
-        list[str] | None,
-        option(
-            "KEY=VALUE",
-            'Hold a further varied key at a value, as in "bearing.temperature=70 degC". Repeat the '
-            "option for several keys. The cut is part of the names of the figures.",
-        ),
-    ] = None,
-    output: OtherFolder = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
+    folder: Path,
+    x: str,
+    y: str | None = None,
+    value: str = "",
+    at: list[str] | None = None,
+    output: Path | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
 ) -> None:
     """Draw a value of a sweep as a map and as lines over one or two varied keys.
 
@@ -354,13 +296,14 @@ def draw_maps(
         echo_files(files)
 
 
+@command("sensitivity")
 def sensitivity(
-    folder: SweepFolder,
-    value: Value = "",
-    output: OtherFolder = None,
-    formats: Formats = None,
-    style: Style = "screen",
-    quiet: Quiet = False,
+    folder: Path,
+    value: str = "",
+    output: Path | None = None,
+    formats: list[str] | None = None,
+    style: str = "screen",
+    quiet: bool = False,
 ) -> None:
     """Show which inputs of a Sobol design contribute most to the spread of a value.
 

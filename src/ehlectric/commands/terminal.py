@@ -19,6 +19,7 @@ from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from rich.text import Text
 
     from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.quantities.rows import Row
@@ -153,8 +154,8 @@ def print_rows(rows: Iterable[Row], title: str = "") -> None:
     print_table(table_of(rows, title))
 
 
-def print_table(table: Table) -> None:
-    """Print a table on stdout; without colours where stdout is not a terminal."""
+def print_table(table: Table | Text) -> None:
+    """Print a table or a text on stdout; without colours where stdout is not a terminal."""
     from rich.console import Console
 
     console = Console(highlight=False)
@@ -174,14 +175,11 @@ def print_verdict(verdict: Verdict | None) -> None:
     from rich.console import Console
     from rich.text import Text
 
-    console = Console(highlight=False)
-    if not console.is_terminal:
+    if Console().is_terminal:
+        print_table(Text(printable(verdict.text), style=_STYLES[verdict.level]))
+    else:
         # A line that is read by a program is not wrapped.
         say(verdict.text)
-        return
-    with console.capture() as captured:
-        console.print(Text(printable(verdict.text), style=_STYLES[verdict.level]))
-    typer.echo(captured.get(), nl=False)
 
 
 def echo_files(files: Iterable[Path]) -> None:

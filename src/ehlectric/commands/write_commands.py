@@ -1,33 +1,19 @@
-"""The commands that write a result for other programs, its report, and the JSON Schema of a kind of file."""
+"""The commands that write a result for other programs, its report or animation, and the schema of a file."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, ResultFile, chosen, files_ending, one_of, option
-from ehlectric.commands.terminal import echo_files, progress_line, user_errors
+from ehlectric.commands.options import chosen, command
+from ehlectric.commands.terminal import echo_files, progress_bar, progress_line, say, user_errors
 from ehlectric.errors import InputError
 
 
-def export(
-    result: ResultFile,
-    output: Annotated[
-        Path,
-        option(
-            "FILE",
-            "Write this file. Its name ends in .mat (MATLAB, Octave), .xlsx (spreadsheets) or .vtkhdf "
-            "(ParaView).",
-            "--output",
-            "-o",
-            complete=files_ending(".mat", ".xlsx", ".vtkhdf"),
-        ),
-    ],
-    quiet: Quiet = False,
-) -> None:
+@command("export")
+def export(result: Path, output: Path, quiet: bool = False) -> None:
     """Write a result for other programs: MATLAB and Octave, spreadsheets, or ParaView.
 
     A .mat file has all arrays and the summary, a workbook the summary, the inputs and the table of the
@@ -45,31 +31,27 @@ def export(
         echo_files([file])
 
 
+@command("animate")
+def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool = False) -> None:
+    """Animate a moving-roughness run, as a GIF or MP4."""
+    with user_errors():
+        from ehlectric.figures.animation import save_animation
+        from ehlectric.motion.stored_run import read_motion
+
+        dataset = read_motion(folder)
+        output = (folder if folder.is_dir() else folder.parent) / "motion.gif" if output is None else output
+        with progress_bar(shown=not quiet) as progress:
+            save_animation(dataset, output, fps=fps, progress=progress)
+    if not quiet:
+        say(f"written: {output}")
+
+
 _FORMATS = ("html", "pdf")
 
 
+@command("report")
 def report(
-    result: ResultFile,
-    output: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Write the report into this file, which ends in .html or .pdf, and not beside the result.",
-            "--output",
-            "-o",
-            complete=files_ending(".html", ".pdf"),
-        ),
-    ] = None,
-    formats: Annotated[
-        list[str] | None,
-        option(
-            "FORMAT",
-            "Write the report as html or as pdf. Without this option, both are written.",
-            "--format",
-            complete=one_of(*_FORMATS),
-        ),
-    ] = None,
-    quiet: Quiet = False,
+    result: Path, output: Path | None = None, formats: list[str] | None = None, quiet: bool = False
 ) -> None:
     """Write the report of a result: report.html, which needs no other file, and report.pdf.
 
@@ -116,26 +98,8 @@ def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
 KINDS = ("contact", "bearing", "drive", "sweep")
 
 
-def schema(
-    kind: Annotated[
-        str,
-        typer.Argument(
-            metavar="KIND",
-            help=f"Kind of the file: {', '.join(KINDS)}.",
-            autocompletion=one_of(*KINDS),
-        ),
-    ],
-    output: Annotated[
-        Path | None,
-        option(
-            "FILE",
-            "Write the schema into this file; by default, it is printed.",
-            "--output",
-            "-o",
-            complete=files_ending(".json"),
-        ),
-    ] = None,
-) -> None:
+@command("schema")
+def schema(kind: str, output: Path | None = None) -> None:
     """Print the JSON Schema of a kind of file: keys with their texts, units, bounds and examples.
 
     An editor completes and explains the keys of a TOML file whose first line is "#:schema", and the path of

@@ -27,15 +27,17 @@ from ehlectric.drive.motor_circuit import (
 )
 from ehlectric.drive.netlist import (
     SIGNATURE,
+    TEXTS,
     Arc,
     Parameter,
     Subcircuit,
     check_strength,
     comment,
+    filled,
     number,
     subcircuit_of,
 )
-from ehlectric.drive.netlist_files import check_targets, write_lines
+from ehlectric.drive.netlist_files import check_targets, write_files
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
@@ -55,11 +57,6 @@ _POINTS = 6
 
 _NODES = {FRAME: "0", ROTOR: "shaft", SOURCE: "inverter", WINDING: "winding", EARTH: "earth"}
 _KINDS = {"capacitor": ("C", "F"), "conductor": ("R", "Ohm"), "inductor": ("L", "H")}
-
-_LEFT_OUT = (
-    "left out beside ehlectric drive: the scatter of the thresholds and their renewal, the motion of the "
-    "elements, the time until a film insulates again, and the ringing of edges"
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,35 +81,31 @@ class DriveNetlist:
 
     def bench(self, library: str) -> Iterator[str]:
         """Lines of the test bench, which includes the file of the subcircuits."""
-        circuit, source = self.case.circuit, self.case.running_source
+        circuit, source, bench = self.case.circuit, self.case.running_source, TEXTS["drive_bench"]
         points, step = _points(source, self.waveform)
-        yield f"{SIGNATURE}test bench of a drive; ehlectric {__version__}"
-        yield from comment(f"title: {self.case.title or '(none)'}")
-        yield from comment(f"common-mode voltage: {_about(source)}, as points over time")
-        yield from comment(_LEFT_OUT)
-        yield f'.include "{library}"'
         elements = tuple(_named(motor_elements(circuit)))
-        for name, one in elements:
-            yield from _parameters(name, one)
         positive, negative = (_NODES[node] for node in source_nodes(circuit))
-        yield f"V_source {positive} {negative} PWL("
-        for k in range(0, len(points), _POINTS):
-            yield "+ " + " ".join(f"{time:.12g} {number(value)}" for time, value in points[k : k + _POINTS])
-        yield "+ )"
-        for name, one in elements:
-            yield from _element(name, one)
-        for end, bearing in zip(ENDS, self.bearings, strict=True):
-            yield f"V_{end} shaft {end} 0"
-            yield f"X_{end} {end} 0 {bearing.name}"
-        yield f".tran {number(step)} {points[-1][0]:.12g} 0 {number(step)}"
-        yield ".meas tran winding_peak_to_peak PP V(winding)"
-        yield ".meas tran shaft_peak_to_peak PP V(shaft)"
-        yield ".meas tran shaft_highest MAX V(shaft)"
-        yield ".meas tran shaft_lowest MIN V(shaft)"
-        for end in ENDS:
-            yield f".meas tran {end}_current_highest MAX I(V_{end})"
-            yield f".meas tran {end}_current_lowest MIN I(V_{end})"
-        yield ".end"
+        texts = [f"{time:.12g} {number(value)}" for time, value in points]
+        about = (
+            f"title: {self.case.title or '(none)'}",
+            f"common-mode voltage: {_about(source)}, as points over time",
+            bench["left_out"],
+        )
+        text = filled(
+            bench["lines"],
+            signature=f"{SIGNATURE}test bench of a drive; ehlectric {__version__}",
+            comments=[line for part in about for line in comment(part)],
+            library=library,
+            parameters=[line for name, one in elements for line in _parameters(name, one)],
+            positive=positive,
+            negative=negative,
+            points=["+ " + " ".join(texts[k : k + _POINTS]) for k in range(0, len(texts), _POINTS)],
+            elements=[line for name, one in elements for line in _element(name, one)],
+            step=number(step),
+            duration=f"{points[-1][0]:.12g}",
+            **{end: bearing.name for end, bearing in zip(ENDS, self.bearings, strict=True)},
+        )
+        yield from text.split("\n")
 
 
 def write_drive_netlist(
@@ -152,7 +145,7 @@ def write_drive_netlist(
     """
     path, bench = Path(path), None if bench is None else Path(bench)
     check_targets(path, bench)
-    return write_both(drive_netlist(case, progress, workers=workers), path, bench)
+    return write_files(drive_netlist(case, progress, workers=workers), path, bench)
 
 
 def drive_netlist(
@@ -187,11 +180,6 @@ def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
         if error.key == "extinction_voltage":
             raise error.retold(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
         raise error.under(end) from None
-
-
-def write_both(netlist: DriveNetlist, path: Path, bench: Path | None) -> list[Path]:
-    """Write the file of the subcircuits, and that of the test bench if there is one."""
-    return write_lines(netlist.lines(), path, netlist.bench, bench)
 
 
 def _about(source: Source) -> str:

@@ -20,6 +20,9 @@ from ehlectric.runtime.stored import stored
 ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
 COLUMNS = 8
 
+# Columns of the values of an event that tables and summaries have, by their names there.
+VALUES = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current": PEAK}
+
 # Events that are kept one by one; of all others only counts and sums are.
 KEPT = 200_000
 
@@ -106,30 +109,19 @@ def event_rate(counts: Array, duration: float) -> Rate:
     )
 
 
-@dataclass(frozen=True)
-class Spread:
-    """Mean, median, 95th percentile and largest value; None without an event that tells it."""
+def spread(values: Array, mean: float | None, largest: float | None) -> dict[str, float | None]:
+    """Mean, median, 95th percentile ("high") and largest value of events; None where no event is known.
 
-    mean: float | None
-    median: float | None
-    high: float | None
-    largest: float | None
-
-
-def spread(values: Array, mean: float | None, largest: float | None) -> Spread:
-    """Spread of the values of events. ``values``, values of events, or of a part of them, from which the
-    percentiles follow, shape (m,); ``mean`` and ``largest``, mean and largest value of all events; None
-    without an event.
+    ``values``, values of events, or of a part of them, from which the percentiles follow, shape (m,);
+    ``mean`` and ``largest``, mean and largest value of all events; None without an event.
 
     Examples
     --------
     >>> spread(np.array([1.0, 2.0, 3.0]), 2.0, 3.0)
-    Spread(mean=2.0, median=2.0, high=2.9, largest=3.0)
+    {'mean': 2.0, 'median': 2.0, 'high': 2.9, 'largest': 3.0}
     """
-    if values.size == 0:
-        return Spread(mean, None, None, largest)
-    median, high = (float(value) for value in np.percentile(values, [50.0, 95.0]))
-    return Spread(mean, median, high, largest)
+    median, high = np.percentile(values, [50.0, 95.0]).tolist() if values.size else (None, None)
+    return {"mean": mean, "median": median, "high": high, "largest": largest}
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -291,8 +291,7 @@ _ALIKE = 1e9
 _APART = 1e-10
 
 
-@dataclass(frozen=True, eq=False)
-class Modes:
+class Modes(NamedTuple):
     """Diagonal form of the state equations of several states of a circuit, one after the other."""
 
     rates: Complex  # eigenvalues [1/s]; no real part is above zero, shape (states, n)
@@ -311,6 +310,7 @@ class Modes:
     # charge and uncharge: matrix C of ``StateSpace`` and its inverse, shape (states, n, n).
     charge: Array
     uncharge: Array
+    ring: Complex  # rate mu of the source's ringing [1/s]; any damped rate without it, shape (1,)
 
 
 def modes_of(
@@ -343,6 +343,7 @@ def modes_of(
         jump=jump,
         charge=charge,
         uncharge=np.linalg.inv(charge),
+        ring=np.array([-1.0 + 0.0j if ring is None else ring]),
     )
 
 

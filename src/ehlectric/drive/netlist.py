@@ -7,6 +7,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from string import Template
 from typing import Literal
 
 import numpy as np
@@ -29,6 +30,7 @@ from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import InputError, ResultWarning, printable, shown
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import rpm, rpm_text
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
@@ -36,7 +38,8 @@ from ehlectric.version import __version__
 # Beginning of the first line of every file that is written here, by which it is recognised.
 SIGNATURE = "* ehlectric "
 
-# Width of a comment [characters].
+# Meanings, notes and test benches, and the width of a comment [characters].
+TEXTS = data_file("ehlectric.drive", "netlist_texts.toml")
 _WIDTH = 100
 
 # Letters that texts of ehlectric have, in ASCII: not every simulator reads UTF-8.
@@ -68,6 +71,21 @@ def comment(text: str) -> Iterator[str]:
     """
     for line in textwrap.wrap(ascii_of(text), _WIDTH) or [""]:
         yield f"* {line}".rstrip()
+
+
+def filled(text: str, **parts: object) -> str:
+    r"""Text of the table of texts with its parts in place of their names; a part of several lines is a list.
+
+    Examples
+    --------
+    >>> print(filled("R_$name a b 1\n$others", name="leak", others=["C_1 a b 1", "C_2 a b 1"]))
+    R_leak a b 1
+    C_1 a b 1
+    C_2 a b 1
+    """
+    return Template(text).substitute(
+        {name: "\n".join(part) if isinstance(part, list) else part for name, part in parts.items()}
+    )
 
 
 def number(value: float) -> str:
@@ -297,12 +315,6 @@ _OPEN_SWITCH = 1e6
 
 _CELSIUS = 273.15
 
-_CIRCUIT = (
-    "circuit from shaft to housing: the films (C_films, R_leak and, where there is one, the arc) are "
-    "parallel to each other; the coating of a ring (C_coat, R_coat), where there is one, is in series with "
-    "them; the capacitance of cage, shields and wiring (C_par), where there is one, is parallel to all"
-)
-
 
 @dataclass(frozen=True)
 class Arc:
@@ -322,6 +334,11 @@ class Subcircuit:
     arc: Arc | None  # arc across the films; None for a subcircuit without a switch
     notes: tuple[str, ...]  # what the circuit leaves out, or stands for
     suffix: str = ""  # end of the name, of one of several bearings in a file
+
+    @property
+    def subcircuits(self) -> tuple[Subcircuit]:
+        """Subcircuits of its file: this one."""
+        return (self,)
 
     @property
     def case(self) -> BearingCase:
@@ -356,10 +373,12 @@ class Subcircuit:
             speed = rpm(self.case.bearing.inner_speed)
             yield Parameter("speed", speed, "rpm", "speed of the inner ring")
         else:
-            yield Parameter("C_films", one.capacitance, "F", _CAPACITANCES[one.state])
+            yield Parameter("C_films", one.capacitance, "F", TEXTS["capacitances"][one.state])
         if not self.tabulated or one.resistance is None:
-            meaning = _LEAKS[one.state] if one.resistance is not None else "stands for an insulator"
-            yield Parameter("R_leak", OPEN if one.resistance is None else one.resistance, "Ohm", meaning)
+            if one.resistance is None:
+                yield Parameter("R_leak", OPEN, "Ohm", "stands for an insulator")
+            else:
+                yield Parameter("R_leak", one.resistance, "Ohm", TEXTS["leaks"][one.state])
         if self.arc is not None:
             if not self.tabulated and one.threshold is not None:
                 yield Parameter("V_break", one.threshold, "V", "voltage across the films at which they break")
@@ -369,9 +388,10 @@ class Subcircuit:
             yield Parameter("R_arc", self.arc.resistance, "Ohm", "resistance of the arc")
         path = self.path
         if path.coated:
-            resistance = min(path.resistance, OPEN)
+            leaks = path.resistance < OPEN
             yield Parameter("C_coat", path.coating, "F", "capacitance of the coating")
-            yield Parameter("R_coat", resistance, "Ohm", _insulation(path))
+            meaning = "insulation of the coating" if leaks else "stands for an insulator"
+            yield Parameter("R_coat", path.resistance if leaks else OPEN, "Ohm", meaning)
         if path.parallel > 0.0:
             yield Parameter("C_par", path.parallel, "F", "capacitance of cage, shields and wiring")
 
@@ -389,6 +409,21 @@ class Subcircuit:
         yield from self._elements()
         yield f".ends {self.name}"
 
+    def bench(self, library: str) -> Iterator[str]:
+        """Lines of a test bench that simulates periods of the inverter; errors are those of ``drive_of``."""
+        motor, bench = drive_of(self.case), TEXTS["bearing_bench"]
+        bearing = f"{self.name} speed={{n_shaft}}" if self.tabulated else self.name
+        text = filled(
+            bench["lines"],
+            signature=f"{SIGNATURE}test bench of {self.name}; ehlectric {__version__}",
+            comments=[*comment(f"title: {self.case.title or '(none)'}"), *comment(bench["about"])],
+            library=library,
+            parameters=[f".param {parameter.line}" for parameter in _parameters(self, motor)],
+            bearing=bearing,
+            other_end=list(_other_end(self, motor, bearing)),
+        )
+        yield from text.split("\n")
+
     def _header(self) -> Iterator[str]:
         """Comments: bearing, operating point, how it was solved, notes and warnings."""
         case, bearing, solution = self.case, self.case.bearing, self.results[0].solution
@@ -402,16 +437,13 @@ class Subcircuit:
         )
         if self.tabulated:
             speeds = ", ".join(rpm_text(one.speed) for one in self.found)
-            yield (
-                f"table over the speed at this temperature: {speeds} rpm; between two speeds each quantity "
-                "is a power of the speed, below and above the table it is constant"
-            )
+            yield filled(TEXTS["notes"]["table"], speeds=speeds)
         converged = all(result.converged for result in self.results)
         yield f"contacts: {HOW[case.contacts]}, {'converged' if converged else 'NOT CONVERGED'}"
         rough = rough_capacitance(solution)
         if rough is not None:
             yield f"C_films is that of smooth films; with roughness in their Hertz areas: {rough:.4g} F"
-        yield _CIRCUIT
+        yield TEXTS["circuit"]
         yield from (f"note: {text}" for text in self.notes)
         yield from (f"{warning.severity}: {warning}" for warning in self.warnings())
 
@@ -463,21 +495,6 @@ class Subcircuit:
             yield "+ Vt={(V_break+V_ext)/2} Vh={(V_break-V_ext)/2})"
 
 
-_CAPACITANCES = {
-    "films": "capacitance of the smooth films, mean over the positions of the cage",
-    "ceramic": "capacitance of the ceramic elements",
-    "metal": "capacitance of the smooth films, beside contacts of metal",
-}
-_LEAKS = {
-    "films": "leak through the oil of the films",
-    "metal": "contacts of metal, reciprocal mean conductance over time",
-}
-
-
-def _insulation(path: Path) -> str:
-    return "insulation of the coating" if path.resistance < OPEN else "stands for an insulator"
-
-
 def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircuit:
     """Subcircuit of a bearing at one speed, or over several.
 
@@ -521,56 +538,29 @@ def _check_arc(found: Sequence[Equivalent], arc: Arc) -> None:
 
 def _notes(result: BearingResult, found: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
     """Notes about the limits of the circuit: effects that it leaves out, and values that are bounds."""
-    one, case, path = found[0], result.case, shaft_path(result.solution)
+    one, path, notes = found[0], shaft_path(result.solution), TEXTS["notes"]
     if one.state == "ceramic":
         bound = capacitance_is_bound(result.solution)
-        known = "an upper bound of it, since bearing.element_capacitance is missing" if bound else "C_films"
-        yield f"ceramic elements insulate: the subcircuit is their capacitance, {known}; it has no switch"
+        yield filled(notes["ceramic"], known=notes["ceramic_bound"] if bound else "C_films")
     elif one.state == "metal":
-        yield (
-            "the surfaces touch: the subcircuit is the resistance of contacts of metal, reciprocal mean "
-            "conductance over time, parallel to the capacitance of smooth films; it has no switch"
-        )
+        yield notes["metal"]
     elif arc is None:
         least = min((one.threshold for one in found if one.threshold is not None), default=None)
         known = "" if least is None else f"; the films break down from ring to ring at {least:.4g} V"
-        yield (
-            "no switch: it needs the resistance of the arc and the voltage at which it goes out "
-            f"(--arc-resistance, --extinction-voltage), which have no default{known}"
-        )
+        yield filled(notes["no_switch"], known=known)
     else:
-        yield (
-            "the switch closes at the ring-to-ring breakdown voltage of the films, smallest over the "
-            "positions of the cage, for both signs; the first break of a single contact, which leaves the "
-            "other one of its element intact, is left out"
-        )
-        if case.discharge.weibull is not None:
-            yield "V_break is that of a contact at a probability of 63.2 % (Weibull)"
+        yield notes["switch"]
+        if result.case.discharge.weibull is not None:
+            yield notes["weibull"]
     if one.state == "films" and one.resistance is None:
-        yield (
-            f"no leak: the oil has no discharge.conductivity; R_leak of {OPEN:g} Ohm only gives the films a "
-            "path for direct current"
-        )
+        yield filled(notes["no_leak"], open=f"{OPEN:g}")
     if path.coated and path.resistance >= OPEN:
-        yield (
-            f"the coating does not leak; R_coat of {OPEN:g} Ohm only gives the shaft a path for direct "
-            "current"
-        )
+        yield filled(notes["coating"], open=f"{OPEN:g}")
 
 
 def file_text(lines: Iterator[str]) -> bytes:
     """Content of a file with lines of ASCII."""
     return ("\n".join(map(ascii_of, lines)) + "\n").encode("ascii")
-
-
-# Number of periods of the inverter that are simulated, and of steps in an edge and in a period.
-_PERIODS, _IN_EDGE, _IN_PERIOD = 4, 20, 20000
-
-_ABOUT = (
-    "common-mode voltage as a square wave between plus and minus its peak, from 0 V at the start, at the "
-    "switching frequency of the inverter and with its edges, over winding and rotor to the shaft; replace it "
-    "by your own waveform as a PWL source"
-)
 
 
 def drive_of(case: BearingCase) -> Motor:
@@ -595,38 +585,6 @@ def drive_of(case: BearingCase) -> Motor:
     return motor
 
 
-def bench_lines(subcircuit: Subcircuit, library: str) -> Iterator[str]:
-    """Lines of a test bench that simulates some periods of the inverter, its title first; errors are those of
-    ``drive_of``.
-    """
-    motor, name = drive_of(subcircuit.case), subcircuit.name
-    yield f"{SIGNATURE}test bench of {name}; ehlectric {__version__}"
-    yield from comment(f"title: {subcircuit.case.title or '(none)'}")
-    yield from comment(_ABOUT)
-    yield f'.include "{library}"'
-    for parameter in _parameters(subcircuit, motor):
-        yield f".param {parameter.line}"
-    wave = "{t_rise} {t_rise} {0.5/f_switch-t_rise} {1/f_switch}"
-    yield f"V_upper winding middle PULSE(0 {{V_peak}} 0 {wave})"
-    yield f"V_lower middle 0 PULSE(0 {{-V_peak}} {{0.5/f_switch}} {wave})"
-    yield "C_wr winding shaft {C_wr}"
-    yield "C_rf shaft 0 {C_rf}"
-    speed = " speed={n_shaft}" if subcircuit.tabulated else ""
-    yield "* the current of V_bearing is that of the bearing at the drive end"
-    yield "V_bearing shaft inner 0"
-    yield f"X_drive_end inner 0 {name}{speed}"
-    yield from _second(subcircuit, motor, speed)
-    yield f".param t_step={{max(t_rise/{_IN_EDGE},1/f_switch/{_IN_PERIOD})}} ; s, largest step"
-    yield f".tran {{t_step}} {{{_PERIODS}/f_switch}} 0 {{t_step}}"
-    yield ".meas tran common_mode_peak_to_peak PP V(winding)"
-    yield ".meas tran shaft_peak_to_peak PP V(shaft)"
-    yield ".meas tran shaft_highest MAX V(shaft)"
-    yield ".meas tran shaft_lowest MIN V(shaft)"
-    yield ".meas tran current_highest MAX I(V_bearing)"
-    yield ".meas tran current_lowest MIN I(V_bearing)"
-    yield ".end"
-
-
 def _parameters(subcircuit: Subcircuit, motor: Motor) -> Iterator[Parameter]:
     """Parameters of the drive, from the table ``[motor]``."""
     assert motor.switching_frequency is not None and motor.rise_time is not None
@@ -641,10 +599,10 @@ def _parameters(subcircuit: Subcircuit, motor: Motor) -> Iterator[Parameter]:
         yield Parameter("n_shaft", rpm(subcircuit.case.bearing.inner_speed), "rpm", "bearing.inner_speed")
 
 
-def _second(subcircuit: Subcircuit, motor: Motor, speed: str) -> Iterator[str]:
+def _other_end(subcircuit: Subcircuit, motor: Motor, bearing: str) -> Iterator[str]:
     """Bearing at the other end: one like this one, or its given capacitance, which does not break down."""
     if motor.second_bearing_capacitance is None:
-        yield f"X_other_end shaft 0 {subcircuit.name}{speed}"
+        yield f"X_other_end shaft 0 {bearing}"
         return
     yield "C_second shaft 0 {C_second}"
     resistance = subcircuit.default.resistance

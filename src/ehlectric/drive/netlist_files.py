@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.amounts import Amount
-from ehlectric.drive.netlist import SIGNATURE, Arc, Subcircuit, bench_lines, file_text, subcircuit_of
+from ehlectric.drive.netlist import SIGNATURE, Arc, Subcircuit, file_text, subcircuit_of
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import reading, refuse_special, write
 
@@ -89,7 +89,7 @@ def write_netlist(
     results = [result] if isinstance(result, BearingResult) else list(result)
     if not results:
         raise InputError("result", "is empty", takes="a result, or results at different speeds")
-    return write_subcircuit(subcircuit_of(results, arc), path, bench)
+    return write_files(subcircuit_of(results, arc), path, bench)
 
 
 def arc_of(resistance: float | str | None, extinction: float | str | None) -> Arc | None:
@@ -131,22 +131,27 @@ def check_targets(path: Path, bench: Path | None) -> None:
                 )
 
 
-def write_subcircuit(subcircuit: Subcircuit, path: Path, bench: Path | None) -> list[Path]:
-    """Write the file of a subcircuit, and that of its test bench if there is one. Raises InputError if the
+class Netlist(Protocol):
+    """Netlist of a bearing, or of both bearings of a drive."""
+
+    @property
+    def subcircuits(self) -> tuple[Subcircuit, ...]:
+        """Different subcircuits."""
+
+    def lines(self) -> Iterator[str]:
+        """Lines of the file of the subcircuits."""
+
+    def bench(self, library: str) -> Iterator[str]:
+        """Lines of a test bench, which includes this file."""
+
+
+def write_files(netlist: Netlist, path: Path, bench: Path | None) -> list[Path]:
+    """Write the file of the subcircuits, and that of the test bench if there is one. Raises InputError if the
     test bench lacks an input, or a file cannot be written.
     """
-    return write_lines(subcircuit.lines(), path, partial(bench_lines, subcircuit), bench)
-
-
-def write_lines(
-    lines: Iterator[str], path: Path, bench_of: Callable[[str], Iterator[str]], bench: Path | None
-) -> list[Path]:
-    """Write the lines of a library, and those of a test bench that includes it, if there is one. Returns
-    files written.
-    """
-    contents = {path: file_text(lines)}
+    contents = {path: file_text(netlist.lines())}
     if bench is not None:
-        contents[bench] = file_text(bench_of(_relative(path, bench)))
+        contents[bench] = file_text(netlist.bench(_relative(path, bench)))
     for target, content in contents.items():
         write(target, content)
     return list(contents)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.film_verdict import Verdict
-from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, DriveSolution
+from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
@@ -29,14 +29,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 # Columns of a record, by the names of the table of events.
-_RECORDED = {
-    "time": ON,
-    "duration": OFF,
-    "voltage": VOLTAGE,
-    "charge": CHARGE,
-    "energy": ENERGY,
-    "peak_current": PEAK,
-}
+_RECORDED = {"time": ON, "duration": OFF, **VALUES}
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -11,7 +11,7 @@ import numpy as np
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.march import Films, Segments
-from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
+from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
 from ehlectric.drive.drive_record import DriveSolution
 from ehlectric.drive.inverter import steps_of
@@ -94,7 +94,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     whole = ready.settling + ready.duration
     reach = _highest(ready)
     record = simulate(
-        circuits_of(ready.modes, None if ready.ringing is None else ready.ringing.rate),
+        ready.modes,
         ready.films,
         _chunks(ready),
         Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(ready), at_event=True),

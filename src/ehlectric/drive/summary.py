@@ -13,13 +13,11 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import (
-    CHARGE,
     ENERGY,
     FILM,
     OFF,
     ON,
-    PEAK,
-    VOLTAGE,
+    VALUES,
     DriveSolution,
     Record,
     event_rate,
@@ -35,9 +33,6 @@ if TYPE_CHECKING:
     from ehlectric.drive.solver import PreparedDrive
 
 SCHEMA = "ehlectric.drive/1"
-
-# Values of an event by their names in the summary, and the columns whose difference or size they are.
-_COLUMNS = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current": PEAK}
 
 
 def drive_summary(solution: DriveSolution) -> dict[str, Any]:
@@ -144,7 +139,7 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
         "events_per_edge": None if edges is None else rate.mean / edges,
         "power": float(record.sums[b, ENERGY]) / record.duration,
     }
-    for name, column in _COLUMNS.items():
+    for name, column in VALUES.items():
         total, largest = float(record.sums[b, column]), float(record.largest[b, column])
         found |= _spread(name, np.abs(own[:, column]), count, total, largest)
     lasting = own[:, OFF] - own[:, ON]
@@ -154,8 +149,8 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
 
 def _spread(name: str, values: np.ndarray, count: int, total: float, largest: float) -> dict[str, Any]:
     """Statistics of a value of ``count`` events, of which the first ones are known one by one."""
-    one = spread(values, total / count, largest) if count else spread(values, None, None)
-    return {f"{name}_{key}": getattr(one, key) for key in ("mean", "median", "high", "largest")}
+    found = spread(values, total / count, largest) if count else spread(values, None, None)
+    return {f"{name}_{key}": value for key, value in found.items()}
 
 
 def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:

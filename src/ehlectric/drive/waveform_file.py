@@ -109,7 +109,8 @@ def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
 
 def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> Iterator[ResultWarning]:
     """Warning "record-repeated" about a record that is repeated, and does not end where it begins.
-    ``duration``, time that is simulated [s]; None for that of the record.
+
+    The ``duration`` is the time that is simulated [s]; None stands for that of the record.
     """
     if duration is None or duration <= (1.0 + _BEYOND) * waveform.duration:
         return
@@ -128,10 +129,7 @@ def clipped_levels(values: Array) -> dict[float, int]:
 
     A plateau with noise touches its extremes in short runs only. A waveform without any noise that consists
     of its two extremes and a few samples between them is taken for a computed square wave, not for a clipped
-    one.
-
-    ``values``, voltages, not constant, shape (n,). Returns number of samples by voltage; empty for a waveform
-    that is not clipped.
+    one. The voltages are not constant, shape (n,). The numbers are by voltage [V].
 
     Examples
     --------
@@ -140,26 +138,22 @@ def clipped_levels(values: Array) -> dict[float, int]:
     ({}, [0.8])
     """
     low, high = float(np.min(values)), float(np.max(values))
-    band = _BAND * (high - low)
     extremes = {level: values == level for level in (low, high)}
     between = ~(extremes[low] | extremes[high])
     if np.count_nonzero(between) < _QUALITY_BETWEEN * values.size:
         return {}
     same = np.concatenate([values[1:] == values[:-1], [False]])
     elsewhere = longest_run(same & between) + 1
-    found = {}
+    clipped = {}
     for level, on in extremes.items():
-        count = int(np.count_nonzero(on))
-        longest = longest_run(on)
-        if longest < max(_RUN, _RUNS * elsewhere):
-            continue
-        beside = values[between]
-        distances = np.abs(beside - level)
-        # At least the nearest of the other levels, where levels are coarser than the band.
-        near = np.count_nonzero(distances <= max(band, float(np.min(distances))))
-        if count > _FLAT * near:
-            found[level] = count
-    return found
+        if longest_run(on) >= max(_RUN, _RUNS * elsewhere):
+            distances = np.abs(values[between] - level)
+            # At least the nearest of the other levels, where levels are coarser than the band.
+            near = np.count_nonzero(distances <= max(_BAND * (high - low), float(np.min(distances))))
+            count = int(np.count_nonzero(on))
+            if count > _FLAT * near:
+                clipped[level] = count
+    return clipped
 
 
 def longest_run(on: Mask) -> int:
@@ -188,8 +182,9 @@ def few_levels(values: Array) -> int | None:
 
 def unresolved_edges(values: Array) -> tuple[int, int]:
     """Number of steep edges with fewer than three samples between 10 and 90 % of their height, and of all.
-    ``values``, voltages, shape (n,). Returns edges that move by a fifth of the range or more between two
-    samples; slower ones are resolved; of more than 100 000 edges, the first ones count.
+
+    A steep edge moves by a fifth of the range or more between two samples; slower ones are resolved. Of more
+    than 100 000 edges, the first ones count. The voltages have the shape (n,).
 
     Examples
     --------
@@ -221,12 +216,9 @@ def _largest_of_groups(places: IntArray, steps: Array) -> IntArray:
     """Place of the largest step of each group of places that are at most an edge's width apart."""
     if not places.size:
         return places
-    begins = np.concatenate([[0], np.flatnonzero(np.diff(places) > _AROUND) + 1])
-    largest = np.maximum.reduceat(steps[places], begins)
-    group = np.repeat(np.arange(begins.size), np.diff(np.append(begins, places.size)))
-    hits = np.flatnonzero(steps[places] == largest[group])
-    _, first = np.unique(group[hits], return_index=True)
-    return places[hits[first]]
+    group = np.concatenate([[0], np.cumsum(np.diff(places) > _AROUND)])
+    order = np.lexsort((-steps[places], group))
+    return places[order[np.searchsorted(group, np.unique(group))]]
 
 
 # Smallest number of samples of a waveform.
@@ -262,27 +254,11 @@ _COUNTED, _ENDS, _FEW = 40, 8000, 0.05
 # Most columns that an error lists, and longest name of one [characters].
 _LISTED, _LONGEST_NAME = 9, 40
 
-# Units as oscilloscopes write them, in small letters, by their SI units and factors.
-_WORDS = {
-    "s": ("s", "sec", "secs", "second", "seconds"),
-    "V": ("v", "volt", "volts"),
-    "A": ("a", "amp", "amps", "ampere", "amperes"),
-}
-_PREFIXES = (
-    (1.0, ("",)),
-    (1e-3, ("m", "milli")),
-    (1e-6, ("u", "µ", "micro")),
-    (1e-9, ("n", "nano")),
-    (1e-12, ("p", "pico")),
-    (1e3, ("k", "kilo")),
+# Units as oscilloscopes write them, in small letters, and factors by the first letter of a prefix.
+_UNIT = re.compile(
+    "(milli|micro|nano|pico|kilo|[muµnpk]?)(?:(?P<s>s|secs?|seconds?)|(?P<V>v|volts?)|(?P<A>a|amps?|amperes?))"
 )
-_UNITS = {
-    prefix + word: (base, factor)
-    for base, words in _WORDS.items()
-    for word in words
-    for factor, prefixes in _PREFIXES
-    for prefix in prefixes
-}
+_FACTORS = {"": 1.0, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "n": 1e-9, "p": 1e-12, "k": 1e3}
 _USUAL = {"s": "'s', 'ms' or 'us'", "V": "'V', 'mV' or 'kV'"}
 
 # Names of columns of times, and names and "units" of columns that number the samples.
@@ -567,8 +543,11 @@ def _unit(text: str) -> tuple[str, float]:
     """
     # Capitals count in mV and MV, and in ms and Ms.
     large = len(text) == 2 and text[0] == "M"
-    base, factor = _UNITS.get(text.lower().replace("\u03bc", "µ")[large:], ("", 1.0))
-    return base, 1e6 * factor if large else factor
+    found = _UNIT.fullmatch(text.lower().replace("\u03bc", "µ")[large:])
+    scale = 1e6 if large else 1.0
+    if found is None:
+        return "", scale
+    return found.lastgroup or "", _FACTORS[found[1].replace("micro", "u")[:1]] * scale
 
 
 def _parts(head: str) -> tuple[str, str]:

@@ -26,7 +26,6 @@ from ehlectric.quantities.units import rpm
 from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
-    from ehlectric.bearing.result import BearingResult
     from ehlectric.contact.check import PreparedContact
     from ehlectric.contact.conditions import Conditions, PointConditions
     from ehlectric.discharge.film_verdict import Verdict
@@ -167,7 +166,7 @@ def _row(key: str, value: float, note: str) -> Row:
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
     from ehlectric.bearing.quick_contacts import quick_case
-    from ehlectric.bearing.result import check_bearing
+    from ehlectric.bearing.result import check_bearing, solve_bearing
     from ehlectric.bearing.solution import error_text
     from ehlectric.tables.bearing_tables import check_rows
 
@@ -176,7 +175,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
     if judged is None:
         reason = "the atlas and film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
         return _without_films(case, reason)
-    result = _solved_quickly(judged)
+    result = solve_bearing(judged, workers=1)
     summary = {**result.summary(), "films": judged.contacts}
     heat = (
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
@@ -209,12 +208,6 @@ def _check_drive(case: DriveCase) -> Meaning:
     summary = {**checked_summary(ready), "inputs": case.to_dict()}
     told = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
-
-
-def _solved_quickly(case: BearingCase) -> BearingResult:
-    from ehlectric.bearing.result import solve_bearing
-
-    return solve_bearing(case, workers=1)
 
 
 def _without_films(case: BearingCase, reason: str) -> Meaning:

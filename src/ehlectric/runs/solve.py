@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
-from contextlib import ExitStack, closing
-from functools import partial
+from contextlib import closing
 from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,7 +22,6 @@ from ehlectric.contact.check import PreparedContact, check_case, with_laws
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
-from ehlectric.contact.solver import solve as solve_contact_case
 from ehlectric.contact.solver import solve as solve_stationary
 from ehlectric.contact.stored import SCHEMA as CONTACT
 from ehlectric.drive import run as of_drives
@@ -43,7 +41,7 @@ from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, silent, told_to
 from ehlectric.runtime.tasks import finished_tasks
-from ehlectric.runtime.worker_processes import Crew, cores, processes
+from ehlectric.runtime.worker_processes import cores, processes
 from ehlectric.sweep.store import NAME as SWEEP
 
 if TYPE_CHECKING:
@@ -535,14 +533,13 @@ def _here(cases: Iterator[tuple[int, Solvable]]) -> Generator[Solved[Any], None,
 
 def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generator[Solved[Any], None, None]:
     """Cases solved in processes of this machine."""
-    with ExitStack() as crews:
-        crew: Crew = crews.enter_context(processes(number))
-        handed = ((index, _without_classes_of_the_script(case)) for index, case in cases)
-        batches = finished_tasks(handed, crew, solve_case, LostError, _ran_out)
-        crews.callback(batches.close)
-        for batch in batches:
-            for index, outcome in batch:
-                yield _told(index, outcome)
+    handed = ((index, _without_classes_of_the_script(case)) for index, case in cases)
+    with (
+        processes(number) as crew,
+        closing(finished_tasks(handed, crew, solve_case, LostError, _ran_out)) as batches,
+    ):
+        for index, outcome in (each for batch in batches for each in batch):
+            yield _told(index, outcome)
 
 
 def _without_classes_of_the_script(given: Solvable) -> Solvable:
@@ -574,7 +571,8 @@ def solve_case(given: Solvable) -> _Outcome:
         case = case_of(given)
         if isinstance(case, DriveCase):
             return solve_drive(case, workers=1)
-        solver = partial(solve_bearing, workers=1) if isinstance(case, BearingCase) else solve_contact_case
-        return solver(case)  # type: ignore[arg-type]
+        if isinstance(case, BearingCase):
+            return solve_bearing(case, workers=1)
+        return solve_stationary(case)
     except Exception as error:
         return error

@@ -16,9 +16,12 @@ import os
 import struct
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from ehlectric.runtime.files import flush, write
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer, WriteableBuffer
 
 # Beginning of the file of changes: its kind, device and number of the file that is changed, and its new size.
 _HEAD = struct.Struct("<12sQQQ")
@@ -94,10 +97,10 @@ WriteDown = Callable[[int, Sequence[tuple[int, memoryview]]], None]
 _PAGE = 1 << 16
 
 
-class Draft:
+class Draft(io.RawIOBase):
     """Binary file in memory, which may be a changed copy of a file on the disk.
 
-    It has the methods that h5py needs of a file.
+    It has the methods of a raw file that h5py needs.
 
     Examples
     --------
@@ -118,13 +121,6 @@ class Draft:
         self._at = offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._at, io.SEEK_END: self._size}[whence]
         return self._at
 
-    def tell(self) -> int:
-        """Position in the file [bytes]."""
-        return self._at
-
-    def flush(self) -> None:
-        """Do nothing: ``apply`` writes to the disk."""
-
     def truncate(self, size: int | None = None) -> int:
         """Change the size of the file, and return it."""
         size = self._at if size is None else size
@@ -138,18 +134,10 @@ class Draft:
         self._size = size
         return size
 
-    def read(self, size: int = -1) -> bytes:
-        """Read bytes from the position on; all of them by default."""
-        size = max(0, min(self._size - self._at, self._size if size < 0 else size))
-        buffer = bytearray(size)
-        self.readinto(buffer)
-        return bytes(buffer)
-
-    def readinto(self, buffer: bytearray | memoryview) -> int:
+    def readinto(self, buffer: WriteableBuffer) -> int:
         """Fill a buffer from the position on, and return the number of bytes."""
         view = memoryview(buffer).cast("B")
-        size = done = max(0, min(len(view), self._size - self._at))
-        done = 0
+        done, size = 0, max(0, min(len(view), self._size - self._at))
         while done < size:
             page, start = divmod(self._at + done, _PAGE)
             count = min(size - done, _PAGE - start)
@@ -159,7 +147,7 @@ class Draft:
         self._at += size
         return size
 
-    def write(self, content: bytes | memoryview) -> int:
+    def write(self, content: ReadableBuffer) -> int:
         """Write bytes at the position, and return their number."""
         view = memoryview(content).cast("B")
         done, size = 0, len(view)

@@ -41,21 +41,10 @@ from ehlectric.runtime.sizes import check_netcdf_values
 def file_class() -> Any:
     """Class ``h5netcdf.File``, whose instances say nothing where a file cannot be opened.
 
-    Where its initialisation fails halfway, the class of the library writes a traceback to standard error when
-    the instance is deleted, as it lacks the attributes that are set here.
-
     Its variables keep what they are asked for often; the library looks it up in the file each time. Where a
     later version of the library lacks one of the names, this time is lost, no more.
     """
-    import h5netcdf
-
-    class File(h5netcdf.File):  # type: ignore[misc]  # the library has no types
-        _writable = False
-        _mode = "r"
-        _variable_cls = _variable_class()
-        _group_cls = _group_class(_variable_class())
-
-    return File
+    return _file_class(_variable_class())
 
 
 @cache
@@ -78,10 +67,7 @@ def reading_class() -> Any:
                 return tuple(known[dimension] for dimension in dimensions)
             return tuple(super().shape)
 
-    class File(file_class()):  # type: ignore[misc]
-        _variable_cls = Variable
-        _group_cls = _group_class(Variable)
-
+    class File(_file_class(Variable)):  # type: ignore[misc]
         def __init__(self, *given: Any, **options: Any) -> None:
             self.known_sizes: dict[Any, int] = {}
             super().__init__(*given, **options)
@@ -89,8 +75,8 @@ def reading_class() -> Any:
     return File
 
 
-@cache
 def _variable_class() -> Any:
+    """Class ``h5netcdf.Variable``, whose instances keep their HDF5 dataset and their type."""
     import h5netcdf
 
     class Variable(h5netcdf.Variable):  # type: ignore[misc]
@@ -105,8 +91,12 @@ def _variable_class() -> Any:
     return Variable
 
 
-def _group_class(variable: Any) -> Any:
-    """Class of groups inside a file, with the same class of variables."""
+def _file_class(variable: Any) -> Any:
+    """Class of files whose variables, also those of groups, are of a class.
+
+    Where its initialisation fails halfway, the class of the library writes a traceback to standard error when
+    the instance is deleted, as it lacks the attributes that are set here.
+    """
     import h5netcdf
 
     class Group(h5netcdf.Group):  # type: ignore[misc]
@@ -116,7 +106,11 @@ def _group_class(variable: Any) -> Any:
         def _group_cls(self) -> Any:
             return Group
 
-    return Group
+    class File(h5netcdf.File):  # type: ignore[misc]
+        _writable, _mode = False, "r"
+        _variable_cls, _group_cls = variable, Group
+
+    return File
 
 
 _SEAL = "\nehlectric crc32 {:08x}\n"

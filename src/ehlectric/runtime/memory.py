@@ -10,7 +10,7 @@ import errno
 import os
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from functools import lru_cache
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 
@@ -27,7 +27,7 @@ _VERSIONS = {
     1: ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
 }
 
-# Time for which what the control groups leave is not read again [s].
+# Interval in which what the control groups leave is read once [s].
 _FRESH = 0.1
 
 
@@ -50,27 +50,16 @@ def available_memory() -> float:
     The control groups are read ten times a second at most. They are some ten files, and a contact that
     refines its grid asks for every grid.
     """
-    return max(0.0, min(physical_memory(), left_of_process(), _lately(left_of_groups)))
+    return max(
+        0.0,
+        min(physical_memory(), left_of_process(), _lately(left_of_groups, int(time.monotonic() / _FRESH))),
+    )
 
 
-@dataclass(frozen=True)
-class _Reading:
-    """Number of bytes that a function returned, with the time at which it was called [s]."""
-
-    of: Callable[[], float]
-    at: float
-    left: float
-
-
-_readings: list[_Reading] = []
-
-
-def _lately(of: Callable[[], float]) -> float:
-    """Number of bytes that a function has returned within a tenth of a second, or returns now."""
-    now = time.monotonic()
-    if not _readings or _readings[-1].of is not of or now - _readings[-1].at > _FRESH:
-        _readings[:] = [_Reading(of, now, of())]
-    return _readings[-1].left
+@lru_cache(maxsize=1)
+def _lately(of: Callable[[], float], _tenth: int) -> float:
+    """Number of bytes that a function returns, which is called once in each interval of time."""
+    return of()
 
 
 def least_limit() -> str:

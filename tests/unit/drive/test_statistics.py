@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.drive.drive_record import Spread, event_rate, spread
+from ehlectric.drive.drive_record import event_rate, spread
 
 
 def test_bounds_hold_the_rate_in_95_percent_of_the_cases():
@@ -28,8 +28,8 @@ def test_events_that_follow_from_each_other_have_wider_bounds():
 
 
 def test_no_event_has_no_spread():
-    assert spread(np.zeros(0), None, None) == Spread(None, None, None, None)
+    assert spread(np.zeros(0), None, None) == dict.fromkeys(("mean", "median", "high", "largest"))
 
 
 def test_events_that_are_not_kept_have_a_mean_and_a_largest_value():
-    assert spread(np.zeros(0), 2.0, 3.0) == Spread(2.0, None, None, 3.0)
+    assert spread(np.zeros(0), 2.0, 3.0) == {"mean": 2.0, "median": None, "high": None, "largest": 3.0}

@@ -2,8 +2,8 @@
 
 Compiled functions stay on the disk for the next run. Numba takes one as up to date if the file of its source
 is, but it contains the functions that it calls, from other files too. The folder of the compiled functions is
-therefore named by the contents of all files of this package. Where no folder can be written to, functions are
-compiled in every run.
+therefore named by the contents of all files of the package ``drive``. Where no folder can be written to,
+functions are compiled in every run.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def _folder(chosen: str) -> Path | None:
 
     That of NUMBA_CACHE_DIR, which is ``chosen``, that of the package, or that of the user.
     """
-    name = f"compiled-{contents_of(Path(__file__).parent)}"
+    name = f"compiled-{contents_of(Path(__file__).parent.parent)}"
     for base in _bases(chosen):
         try:
             folder = base / name
@@ -132,8 +132,8 @@ def _bases(chosen: str) -> Iterator[Path]:
 
 
 def contents_of(folder: Path) -> str:
-    """Short hash of the contents of all Python files of a folder."""
+    """Short hash of the contents of all Python files of a folder and of those in it."""
     found = hashlib.sha256()
-    for path in sorted(folder.glob("*.py")):
+    for path in sorted(folder.rglob("*.py")):
         found.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return found.hexdigest()[:16]

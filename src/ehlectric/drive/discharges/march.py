@@ -23,13 +23,10 @@ from ehlectric.drive.discharges.voltages_in_time import (
     RISES,
     ROWS,
     START,
-    Circuits,
-    Complex,
     Course,
     Source,
     all_at,
     begin,
-    course_at,
     course_of,
     crossing,
     curvature_bound,
@@ -39,6 +36,7 @@ from ehlectric.drive.discharges.voltages_in_time import (
     voltages,
 )
 from ehlectric.drive.drive_record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
+from ehlectric.drive.motor_circuit import Complex, Modes
 
 # Largest number of lines of a spectrum, and the frequency above which it has none [Hz]: edges of 100 ns have
 # their corner at 1/(pi 100 ns) = 3 MHz.
@@ -416,7 +414,7 @@ def _burn(course: Course, films: Films, state: State, t: float, h: float, first:
             continue
         linear, square, largest = 0.0, 0.0, abs(first[b])
         for k in range(POINTS.size):
-            v = course_at(course, b, t + h * POINTS[k])
+            v = all_at(course, t + h * POINTS[k])[b]
             linear += WEIGHTS[k] * v
             square += WEIGHTS[k] * v * v
             largest = max(largest, abs(v))
@@ -491,7 +489,7 @@ def _ended(piece: Complex, films: Films, state: State, t: float, end: float, fir
 
 
 @inner
-def _piece(circuits: Circuits, films: Films, state: State, source: Source, left: float, piece: Complex,
+def _piece(circuits: Modes, films: Films, state: State, source: Source, left: float, piece: Complex,
            course: Course, meters: Meters, now: float, volts: Array) -> tuple[float, int, int]:  # fmt: skip
     """Go on for a time in which nothing is scheduled, or until a film breaks down or an arc goes out.
 
@@ -533,7 +531,7 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
 
 
 @inner
-def _replace(circuits: Circuits, films: Films, state: State, b: int, volts: float, charges: Array
+def _replace(circuits: Modes, films: Films, state: State, b: int, volts: float, charges: Array
              ) -> None:  # fmt: skip
     """Move the elements of a bearing to their next position; the charges of all nodes stay."""
     before = state_of(films, state)
@@ -575,7 +573,7 @@ def _insulate(films: Films, state: State, b: int, now: float, work: Work) -> Non
 
 
 @inner
-def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: float, source: float,
+def _scheduled(circuits: Modes, films: Films, state: State, b: int, now: float, source: float,
                work: Work) -> None:  # fmt: skip
     """Do what the clocks of a bearing say."""
     if state.clocks[b, POSITION] <= 0.0:
@@ -633,7 +631,7 @@ def _until_next(state: State, left: float) -> tuple[float, bool]:
 
 
 @inner
-def _pass_time(circuits: Circuits, state: State, t: float, silent: float) -> None:
+def _pass_time(circuits: Modes, state: State, t: float, silent: float) -> None:
     """Let a time pass on all clocks, and let the source ring on; below an amplitude it is silent."""
     for b in range(2):
         for clock in range(4):
@@ -646,7 +644,7 @@ def _pass_time(circuits: Circuits, state: State, t: float, silent: float) -> Non
 
 
 @compiled
-def advance(circuits: Circuits, films: Films, segments: Segments, state: State, meters: Meters,
+def advance(circuits: Modes, films: Films, segments: Segments, state: State, meters: Meters,
             work: Work) -> None:  # fmt: skip
     """March through segments of the source, from where the state stands until their end."""
     piece, course, volts = work.piece, work.course, work.volts

@@ -24,7 +24,6 @@ from ehlectric.drive.discharges.march import (
     spectrum_of,
     work_of,
 )
-from ehlectric.drive.discharges.voltages_in_time import Circuits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.motor_circuit import Modes
@@ -63,12 +62,6 @@ class Measuring:
     # Whether the trace is around a typical one of the first events, where there are any, and not at the
     # begin.
     at_event: bool = False
-
-
-def circuits_of(modes: Modes, ring: complex | None) -> Circuits:
-    """Modes as the compiled march reads them."""
-    own = {name: getattr(modes, name) for name in Circuits._fields if name != "ring"}
-    return Circuits(**own, ring=np.array([-1.0 + 0.0j if ring is None else ring]))
 
 
 def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
@@ -156,7 +149,7 @@ class _Log:
 
 
 def simulate(
-    circuits: Circuits,
+    circuits: Modes,
     films: Films,
     chunks: Iterator[Segments],
     measuring: Measuring,
@@ -202,7 +195,7 @@ def _typical(log: _Log) -> float:
 
 
 def _around(
-    circuits: Circuits,
+    circuits: Modes,
     films: Films,
     chunk: Segments,
     measuring: Measuring,

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import inner
-
-Complex = NDArray[np.complex128]
+from ehlectric.drive.motor_circuit import Complex, Modes
 
 # Size of lambda t below which phi2 is summed from its series.
 SERIES = 0.1
@@ -45,23 +44,6 @@ RISES, FALLS = range(2)
 
 # Spacing of floating-point numbers at 1, relative: the least step in time that moves it.
 _EPSILON = float(np.finfo(float).eps)
-
-
-class Circuits(NamedTuple):
-    """Modes of all states of a circuit, as in ``circuit.modes.Modes``, and the rate of the ringing."""
-
-    rates: Complex
-    shapes: Complex
-    inverse: Complex
-    force: Complex
-    films: Complex
-    films_source: Array
-    ring_state: Complex
-    ring_films: Complex
-    jump: Array
-    charge: Array
-    uncharge: Array
-    ring: Complex
 
 
 class Source(NamedTuple):
@@ -104,7 +86,7 @@ def _phi_of_real(z: float) -> tuple[float, float, float]:
 
 
 @inner
-def begin(circuits: Circuits, c: int, x: Array, source: Source, piece: Complex) -> None:
+def begin(circuits: Modes, c: int, x: Array, source: Source, piece: Complex) -> None:
     """Fill a piece in state c of the circuit, from its states x; shape of the piece (ROWS, n + FURTHER)."""
     n = x.size
     for m in range(n):
@@ -144,16 +126,6 @@ def move(piece: Complex, t: float) -> None:
 
 
 @inner
-def voltage(piece: Complex, film: int) -> float:
-    """Voltage across a film at the time to which the piece was moved [V]."""
-    value = 0.0
-    for m in range(piece.shape[1]):
-        weight, y = piece[FILMS + film, m], piece[NOW, m]
-        value += weight.real * y.real - weight.imag * y.imag
-    return value
-
-
-@inner
 def voltages(piece: Complex) -> tuple[float, float]:
     """Voltages across both films at the time to which the piece was moved [V]."""
     first, second = 0.0, 0.0
@@ -186,7 +158,7 @@ def curvature_bound(piece: Complex, film: int, t: float) -> float:
 
 
 @inner
-def states_at(circuits: Circuits, c: int, piece: Complex, x: Array) -> None:
+def states_at(circuits: Modes, c: int, piece: Complex, x: Array) -> None:
     """States x of the circuit at the time to which the piece was moved."""
     n = x.size
     for j in range(n):
@@ -215,7 +187,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
     t = start
     for _ in range(_STEPS):
         move(piece, t)
-        v, rate = voltage(piece, film), voltage_rate(piece, film, t)
+        v, rate = voltages(piece)[film], voltage_rate(piece, film, t)
         bound = curvature_bound(piece, film, t)
         if way == RISES:
             if level - abs(v) <= _CLOSE * level:
@@ -320,21 +292,3 @@ def all_at(course: Course, t: float) -> tuple[float, float, float]:
                 second += grown * (other.real * cosine - other.imag * sine)
                 shaft += grown * (third.real * cosine - third.imag * sine)
     return first, second, shaft
-
-
-@inner
-def course_at(course: Course, b: int, t: float) -> float:
-    """Voltage b, across a film or of the shaft, at a time t of the piece [V]."""
-    value = 0.0
-    for k in range(course.number[1] - 1, -1, -1):
-        value = value * t + course.powers[b, k]
-    for m in range(course.number[0]):
-        rate, size = course.rates[m], course.amplitudes[b, m]
-        if rate.real * t > LOWEST:
-            grown = math.exp(rate.real * t)
-            if rate.imag == 0.0:
-                value += size.real * grown
-            else:
-                angle = rate.imag * t
-                value += grown * (size.real * math.cos(angle) - size.imag * math.sin(angle))
-    return value

@@ -12,7 +12,7 @@ import pytest
 from ehlectric.drive.discharges import compiled, march
 from ehlectric.drive.discharges.compiled import contents_of
 
-SOURCE = Path(compiled.__file__).parent
+SOURCE = Path(compiled.__file__).parent.parent
 
 
 def test_a_change_in_any_file_is_another_folder(tmp_path):
@@ -36,7 +36,7 @@ def test_a_folder_of_the_user_is_kept(tmp_path):
         "import numba; from ehlectric.drive.discharges import march;"
         "print(march.advance.stats.cache_path, numba.config.CACHE_DIR, sep='\\n')"
     )
-    environment = {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(SOURCE.parents[2])}
+    environment = {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(SOURCE.parents[1])}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     at, after = done.stdout.splitlines()
@@ -85,4 +85,4 @@ def test_a_user_without_a_home_has_the_other_folders(monkeypatch):
         raise RuntimeError
 
     monkeypatch.setattr(Path, "home", none)
-    assert list(compiled._bases("")) == [SOURCE / "__pycache__"]
+    assert list(compiled._bases("")) == [SOURCE / "discharges" / "__pycache__"]

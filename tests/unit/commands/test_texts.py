@@ -1,0 +1,21 @@
+"""Texts of the commands: each belongs to a command or to one of its parameters."""
+
+import inspect
+
+from ehlectric.commands.command_line import COMMANDS
+from ehlectric.commands.options import TEXTS
+from ehlectric.commands.start_commands import TEMPLATES
+
+
+def test_every_text_is_that_of_a_command_or_a_parameter():
+    assert set(TEXTS["commands"]) == set(COMMANDS)
+    parameters = {name: set(inspect.signature(command).parameters) for name, command in COMMANDS.items()}
+    for name, texts in TEXTS["commands"].items():
+        own = set(texts.get("parameters", {}))
+        assert own <= parameters[name]
+        assert parameters[name] <= own | set(TEXTS["shared"])
+    assert set(TEXTS["shared"]) <= set().union(*parameters.values())
+
+
+def test_the_kinds_of_templates_are_those_that_init_takes():
+    assert TEXTS["commands"]["init"]["parameters"]["kind"]["values"] == list(TEMPLATES)
