@@ -23,7 +23,7 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.figures.bearing_figures import FIRST, SHAFT, THROUGH, Look, label_ends, volts
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above, outlined
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
 from ehlectric.quantities import units
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
@@ -180,16 +180,8 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
         return
     at = units.rpm(critical)
     inside = (ax.transData + ax.transAxes.inverted()).transform((at, 1.0))[0] < _RIGHTMOST
-    ax.text(
-        at,
-        0.03,
-        f" {rpm_text(critical)} ",
-        ha="left" if inside else "right",
-        transform=ax.get_xaxis_transform(),
-        color=ORANGE,
-        va="bottom",
-        fontsize="small",
-    )
+    side = "left" if inside else "right"
+    note(ax, at, 0.03, f" {rpm_text(critical)} ", unit="x", ha=side, va="bottom", color=ORANGE)
 
 
 def rpm_text(speed: float) -> str:

@@ -18,7 +18,7 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.figures import contact_profiles
 from ehlectric.figures.contact_findings import AnyContact, signed, strength_limit, with_unit
-from ehlectric.figures.contact_profiles import Line
+from ehlectric.figures.contact_profiles import Cut, Line
 from ehlectric.figures.data import Panel
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.film_section import fill_section
@@ -32,6 +32,7 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
     new_panels,
+    note,
     outlined,
 )
 from ehlectric.quantities.palette import BLUE, BODY, GREY, ORANGE, STRENGTH
@@ -142,15 +143,14 @@ def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
 
     The mask leaves out the ends of the field domain, whose faces disturb the field.
     """
-    voltages, field, b = breakdown_voltages(result), result.field, result.conditions.semi_axes[0]
+    voltages, b = breakdown_voltages(result), result.conditions.semi_axes[0]
     if isinstance(result, Result):
         return [("x", result.field.x / b, voltages, result.field.inner)]
-    k, j = np.unravel_index(np.argmin(voltages), voltages.shape)
-    x, y = field.axes
-    return [
-        ("x", x / b, voltages[:, j], _or_all(field.inner[:, j])),
-        ("y", y / b, voltages[k], _or_all(field.inner[k])),
-    ]
+    weakest = np.unravel_index(np.argmin(voltages), voltages.shape)
+    place = float(result.field.x[weakest[0]]), float(result.field.y[weakest[1]])
+    cuts = [Cut.near(along, place, result.field.x, result.field.y) for along in "xy"]
+    lines = zip(cuts, result.field.axes, strict=True)
+    return [(cut.along, at / b, cut.of(voltages), cut.away(result.field)) for cut, at in lines]
 
 
 def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
@@ -160,10 +160,6 @@ def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
     names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
         ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
-
-
-def _or_all(mask: Mask) -> Mask:
-    return mask if np.count_nonzero(mask) > 2 else np.ones_like(mask)
 
 
 def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> None:
@@ -245,17 +241,8 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
         (profile.edge, "nearest edge of the domain"),
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)
-        ax.text(
-            1e3 * edge,
-            0.98,
-            f" {name}",
-            transform=ax.get_xaxis_transform(),
-            rotation=90,
-            ha="right",
-            va="top",
-            fontsize=8.0,
-            color=GREY,
-        )
+        look: dict[str, Any] = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
+        note(ax, 1e3 * edge, 0.98, f" {name}", unit="x", **look)
     ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
     ax.set_xlim(at[0], at[-1])
     ax.xaxis.set_major_formatter("{x:g}")

@@ -29,6 +29,7 @@ from ehlectric.figures.style import (
     drawing_of,
     legend_above,
     new_panels,
+    note,
     scale_axis,
     share_below,
     style,
@@ -390,10 +391,7 @@ def energies(result: DriveResult, ax: Axes) -> None:
                     [factor * end["energy_mean"]], [_place(row, b)], marker="os"[b], color=COLOURS[b], ms=5.0
                 )
         if not any(end["events"] for end in pair):
-            ax.text(
-                0.03, row, "no discharge", transform=ax.get_yaxis_transform(), va="center",
-                color=GREY, fontsize="small",
-            )  # fmt: skip
+            note(ax, 0.03, row, "no discharge", unit="y", va="center", color=GREY)
     positive = [factor * value for value in found if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
         _log_axis(ax.xaxis, 0.5 * min(positive), 2.0 * max(positive), ticks=5)
