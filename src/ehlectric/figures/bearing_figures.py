@@ -344,7 +344,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
+def breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
     """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
     if nearly_equal(first, through):
         return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
@@ -356,7 +356,7 @@ def _levels(result: BearingResult, ax: Axes) -> None:
     breaks, shaft = result.breaks(), result.shaft_voltage
     first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
     levels = [] if shaft is None else [("shaft voltage", shaft, SHAFT)]
-    lines = _breakdown_lines(np.array([first]), np.array([through]))
+    lines = breakdown_lines(np.array([first]), np.array([through]))
     levels += [(name, float(value), look) for name, (value,), look in lines]
     for name, value, look in levels:
         ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
@@ -425,7 +425,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     first = first_breakdowns(result)
     path = shaft_path(result.solution)
     through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
-    lines = _breakdown_lines(first, through)
+    lines = breakdown_lines(first, through)
     for name, values, look in lines:
         _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
     shaft = result.shaft_voltage

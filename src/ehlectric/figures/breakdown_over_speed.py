@@ -16,11 +16,10 @@ from ehlectric.bearing.speed_curves import (
     critical_speed_of,
     curves_of,
     is_coated,
-    nearly_equal,
     value_of,
 )
 from ehlectric.discharge.film_verdict import ratio_text
-from ehlectric.figures.bearing_figures import FIRST, SHAFT, THROUGH, Look, label_ends, volts
+from ehlectric.figures.bearing_figures import SHAFT, Look, breakdown_lines, label_ends, volts
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
@@ -38,15 +37,10 @@ def speed_axis(curves: Curves) -> Along:
 def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely: str = "expected") -> Panel:
     """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
-    lines = [("shaft voltage", "shaft_voltage", SHAFT)]
-    if nearly_equal(first, through):
-        lines += [("first and ring-to-ring breakdown", "first_break", FIRST)]
-    else:
-        lines += [
-            ("ring-to-ring breakdown", "through_breakdown", THROUGH),
-            ("first breakdown", "first_break", FIRST),
-        ]
-    drawn = [curve for name, key, look in lines for curve in _curves(curves, key, name, look)]
+    drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
+    for name, values, look in breakdown_lines(first, through):
+        key = "first_break" if values is first else "through_breakdown"
+        drawn += _curves(curves, key, name.replace("\n", " "), look)
     critical, marked = critical_speed_of(curves), []
     if critical is not None:
         at = critical / RPM

@@ -77,33 +77,17 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
     near = limit[np.argmin(np.abs(x))]
     values = f"{near:.3g}" if np.ptp(limit) < 1e-9 * near else f"{np.min(limit):.3g} to {np.max(limit):.3g}"
     text = f"dielectric strength {values} {unit}"
+    look: dict[str, Any] = {"color": STRENGTH, "fontsize": 8.0}
     if np.min(limit) > _FAR * largest:
-        ax.annotate(
-            f"{text} (above)",
-            (0.03, 1.0),
-            (0.03, 0.9),
-            xycoords="axes fraction",
-            color=STRENGTH,
-            fontsize=8.0,
-            va="top",
-            arrowprops={"arrowstyle": "-|>", "color": STRENGTH, "lw": 0.8, "shrinkB": 0.0},
-        )
+        look["arrowprops"] = {"arrowstyle": "-|>", "color": STRENGTH, "lw": 0.8, "shrinkB": 0.0}
+        ax.annotate(f"{text} (above)", (0.03, 1.0), (0.03, 0.9), xycoords="axes fraction", va="top", **look)
         return largest
     ax.plot(x, limit, color=STRENGTH, lw=1.0, ls=(0, (5.0, 1.5, 1.0, 1.5)))
     # On the left half of the line, the oil is thick and its field low.
     low = float(limit[0]) < _LOW * largest
-    ax.annotate(
-        text,
-        (0.03, float(limit[0])),
-        (0.0, 2.0 if low else -2.0),
-        xycoords=ax.get_yaxis_transform(),
-        textcoords="offset points",
-        color=STRENGTH,
-        fontsize=8.0,
-        va="bottom" if low else "top",
-        path_effects=outlined(2.0),
-        zorder=5.0,
-    )
+    look |= {"va": "bottom" if low else "top", "path_effects": outlined(2.0), "zorder": 5.0}
+    place: dict[str, Any] = {"xycoords": ax.get_yaxis_transform(), "textcoords": "offset points"}
+    ax.annotate(text, (0.03, float(limit[0])), (0.0, 2.0 if low else -2.0), **place, **look)
     return float(np.max(limit[limit <= _FAR * largest]))
 
 
@@ -118,17 +102,15 @@ def breakdown_voltages(result: AnyContact) -> Array:
     return voltages
 
 
-def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> Axes:
+def breakdown(result: AnyContact) -> Axes:
     """Draw the local breakdown voltage over x/b beside the applied voltage; for a point contact over y/b too.
 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
     """
-    if axes is None:
-        rows = 2 if isinstance(result, PointResult) else 1
-        axes = new_panels(rows, 1, (6.3, 0.9 + 2.5 * rows))
-    panels = [axes] if isinstance(axes, Axes) else list(axes)
-    for ax, (axis, at, voltages, on) in zip(panels, _lines(result), strict=True):
+    lines = _lines(result)
+    panels = new_panels(len(lines), 1, (6.3, 0.9 + 2.5 * len(lines)))
+    for ax, (axis, at, voltages, on) in zip(panels, lines, strict=True):
         _voltage_line(result, ax, at[on], voltages[on])
         label_position(result, ax, axis)
         length_axis(result, ax, axis)
@@ -212,13 +194,13 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
+def meter(result: AnyContact) -> Axes:
     """Draw the capacitance between the bodies up to a distance from the contact.
 
     Returns axes with the sum over distance, with the gap outside the film's domain filled as the case says,
     and between air and oil; lines mark the edge of the Hertz zone and the nearest edge of the domain.
     """
-    ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
+    (ax,) = new_panels(1, 1, (6.3, 3.6))
     assert isinstance(result.case, Case) and result.meter is not None
     profile = meter_profile(Metered(result.case, result.conditions, result.film, result.field))
     factor, unit = unit_for(result.meter.capacitance, "F", least=1.0)
@@ -259,13 +241,11 @@ _WINDOW, _HEAT = (-1.75, 1.25), "inferno"
 _LEAST_RANGE = 0.1
 
 
-def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress. ``ax``,
-    axes to draw the temperature across the film on, alone; axes of a new figure with all panels if omitted.
+def temperature(result: AnyContact) -> Axes:
+    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress.
+
     Returns axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
     """
-    if ax is not None:
-        return _map(result, ax)
     above, middle, below = new_panels(3, 1, (6.3, 7.2))
     _map(result, above)
     _panel(result, contact_profiles.temperature, middle)
@@ -297,7 +277,7 @@ def _along(result: AnyContact, values: Array) -> Array:
     return values
 
 
-def _map(result: AnyContact, ax: Axes) -> Axes:
+def _map(result: AnyContact, ax: Axes) -> None:
     """Draw the temperature over position and height, with the outline of the film and its colour bar."""
     heated = result.film.heated
     assert heated is not None and heated.temperature is not None and heated.zeta is not None
@@ -314,4 +294,3 @@ def _map(result: AnyContact, ax: Axes) -> Axes:
     label_position(result, ax)
     colours = ScalarMappable(Normalize(*limits), _HEAT)
     figure_of(ax).colorbar(colours, cax=ax.inset_axes(BAR), label="temperature [°C]")
-    return ax

@@ -70,18 +70,13 @@ def _title(factors: FilmFactors) -> list[str]:
     text = factor_text(factors.mean)
     what = "Capacitance" if factors.quantity == "capacitance" else "Central film"
     error = factors.formula_error
-    films = (
-        "solved contacts"
-        if error is None
-        else f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
-    )
+    films = "solved contacts"
+    if error is not None:
+        films = f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
     found = int(factors.found.sum())
     rows = f"{found} of {len(factors.reasons)} rows of {Path(factors.source).name}"
-    return [
-        f"{what}: {text}",
-        factors.title,
-        f"{rows}; {films}, isothermal and fully flooded at film factor 1",
-    ]
+    how = f"{films}, isothermal and fully flooded at film factor 1"
+    return [f"{what}: {text}", factors.title, f"{rows}; {how}"]
 
 
 def _scale(factors: FilmFactors) -> _Scale:

@@ -94,9 +94,8 @@ def thinner(moving: float, still: float) -> str:
     part = moving / still - 1.0
     if abs(part) < _SAME:
         return "as thick as with stationary roughness"
-    return (
-        f"{100.0 * abs(part):.2g} % {'thinner' if part < 0.0 else 'thicker'} than with stationary roughness"
-    )
+    more = "thinner" if part < 0.0 else "thicker"
+    return f"{100.0 * abs(part):.2g} % {more} than with stationary roughness"
 
 
 def of_maps(run: MotionRun) -> str:
@@ -511,15 +510,11 @@ def _three(
     """
     ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, texts
     lines = [run.along(name, compared_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
-    looks = (
-        ("moving", f"{kind} ", BLUE, "-"),
-        ("stationary", f"{kind} ", ORANGE, "--"),
-        ("before the motion", f"{kind} ", "black", ":"),
-    )
+    looks = (("moving", BLUE, "-"), ("stationary", ORANGE, "--"), ("before the motion", "black", ":"))
     drawn = [factor * line for line in lines]
     extremes = _extremes(run, name, extreme)
-    for line, value, (when, what, colour, style) in zip(drawn, extremes, looks, strict=True):
-        entry = f"{when}, {what}{factor * value:.3g} {suffix}"
+    for line, value, (when, colour, style) in zip(drawn, extremes, looks, strict=True):
+        entry = f"{when}, {kind} {factor * value:.3g} {suffix}"
         ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=entry)
     ax.set_xlim(*shown_range(run.x))
     ax.set_ylabel(f"{label} [{suffix}]")

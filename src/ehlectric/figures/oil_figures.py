@@ -273,9 +273,7 @@ def save_oil(report: OilReport, folder: Path, formats: Sequence[str] = ("png",))
     """Write the figures of an oil as files, one of each format. Returns files written; an oil whose viscosity
     does not depend on temperature has no figure over it.
     """
-    draws = (
-        (over_pressure, over_temperature) if depends_on_temperature(report.named.table) else (over_pressure,)
-    )
+    draws = [over_pressure, *([over_temperature] if depends_on_temperature(report.named.table) else [])]
     with style():
         drawn = {name: draw(report) for name, draw in zip(OIL_FIGURE_FILES, draws, strict=False)}
         figures = {name: figure_of(axes[0]) for name, axes in drawn.items() if axes}
