@@ -263,12 +263,14 @@ class Cause:
     """Meaning of a warning code in one sentence, severity, and keys of the quantities that it concerns.
 
     Outputs show a warning beside those quantities; one without any concerns the whole result. The keys of
-    both bearings of a drive begin with "end".
+    both bearings of a drive begin with "end". Of the points of a sweep, those whose numbers are
+    ``less_accurate`` than others for this cause have a ring in its figures.
     """
 
     meaning: str
     severity: Severity = "warning"
     concerns: tuple[str, ...] = ()
+    less_accurate: bool = False
 
 
 def _codes() -> Iterator[tuple[str, Cause]]:
@@ -283,7 +285,7 @@ def _codes() -> Iterator[tuple[str, Cause]]:
 
     for code, cause in read["codes"].items():
         concerns = dict.fromkeys(keys(cause.get("concerns", [])))
-        yield code, Cause(cause["meaning"], cause.get("severity", "warning"), tuple(concerns))
+        yield code, Cause(**(cause | {"concerns": tuple(concerns)}))
 
 
 CODES: Mapping[str, Cause] = MappingProxyType(dict(_codes()))

@@ -30,8 +30,8 @@ from ehlectric.figures.contact_maps import (
     map_panels,
     mark,
     round_levels,
-    turned,
 )
+from ehlectric.figures.contact_profiles import is_turned, shown_range
 from ehlectric.figures.motion_figures import roughness_at
 from ehlectric.figures.motion_panels import (
     Unit,
@@ -41,7 +41,6 @@ from ehlectric.figures.motion_panels import (
     height_unit,
     in_contact,
     name_run,
-    shown_range,
     time_unit,
 )
 from ehlectric.figures.style import figure_of, new_panels, share_below, style
@@ -86,7 +85,7 @@ def line_frames(run: MotionRun) -> Frames:
     axes = new_panels(4, 1, _SIZE)
     parts = [_film(run, axes[0]), _pressure(run, axes[1]), _field(run, axes[2]), _roughness(run, axes[3])]
     for ax in axes:
-        ax.set_xlim(*shown_range(run))
+        ax.set_xlim(*shown_range(run.x))
     share_below(axes)
     name_run(axes[0], run)
     handles = [
@@ -263,7 +262,7 @@ def _point_field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
     def show(frame: int) -> None:
         show_map(frame)
         place = at[frame] / contact.conditions.half_width
-        x, y = place[::-1] if turned(contact) else place
+        x, y = place[::-1] if is_turned(contact.conditions) else place
         cross.set_data([x], [y])
         ax.set_title(f"maximum (×) {unit[0] * largest[frame]:#.3g} {unit[1]}", loc="right")
 

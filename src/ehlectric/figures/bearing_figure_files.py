@@ -63,15 +63,11 @@ _TOUCHING = ("conducting", "touching")
 def loads(result: BearingResult) -> str:
     """Sentence: the contacts with the largest load and the minimum film, at the first cage position."""
     rows = result.contacts()
-    most, thinnest = (
-        max(rows, key=lambda row: row["load"]),
-        min(rows, key=lambda row: row["minimum_thickness"]),
-    )
+    most = max(rows, key=lambda row: row["load"])
+    thinnest = min(rows, key=lambda row: row["minimum_thickness"])
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
-    text = (
-        f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
-    )
-    text += f", λ {lambda_text(result.solution)}"
+    text = f"Largest load {most['load']:.3g} N ({_contact(most)})"
+    text += f"; minimum film {least} ({_contact(thinnest)}), λ {lambda_text(result.solution)}"
     return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
 
 
@@ -84,19 +80,16 @@ def circuit(result: BearingResult) -> str:
     """Sentence: whether breakdown is expected, with the margin; without one, the capacitance."""
     found, shaft = result.breaks(), result.shaft_voltage
     if found["first_break"] is None:
+        if lubrication(result.solution) == "conducting":
+            return "Contacts open and close: discharges likely, no voltage computed"
         value = result.capacitance(result.case.bearing.fill)
-        conducting = lubrication(result.solution) == "conducting"
-        touch = "Contacts open and close: discharges likely, no voltage computed" if conducting else ""
-        return touch or f"Capacitance of the bearing: {prefixed(value, 'F')}"
+        return f"Capacitance of the bearing: {prefixed(value, 'F')}"
     first = volts(found["shaft_first_break"])
     if shaft is None:
         return f"First breakdown at {first}: {found['first_break_at']}"
-    verdict, margin = result.verdict, found["margin"]
-    lead = (
-        "Margin"
-        if verdict is None or verdict.level == "grey"
-        else f"{lead_of(verdict.level, margin)}: margin"
-    )
+    verdict, margin, lead = result.verdict, found["margin"], "Margin"
+    if verdict is not None and verdict.level != "grey":
+        lead = f"{lead_of(verdict.level, margin)}: margin"
     return f"{lead} {ratio_text(margin)} (first breakdown {first} / shaft voltage {volts(shaft)})"
 
 
@@ -126,12 +119,9 @@ def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
     """Sentence: the capacitance at the lowest and the highest speed, and at the speed of the bearing."""
     values = curves["capacitance"]
     ends = [f"{prefixed(float(values[k]), 'F')} at {rpm_text(curves.speed[k])}" for k in (0, -1)]
-    text = f"Capacitance {ends[0]}, {ends[1]}"
-    return (
-        text
-        if own is None
-        else f"{text}; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {rpm_text(own[0])}"
-    )
+    if own is not None:
+        ends[1] += f"; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {rpm_text(own[0])}"
+    return f"Capacitance {', '.join(ends)}"
 
 
 def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
@@ -154,11 +144,7 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
     return f"{text} ({at_own})" if at_own else text
 
 
-def _where(
-    curves: Curves,
-    margin: Array,
-    speed: Array,
-) -> str:
+def _where(curves: Curves, margin: Array, speed: Array) -> str:
     """Clause: the speeds at which breakdown is expected."""
     critical = critical_speed_of(curves)
     lowest = curves.touching or max(float(speed[0]), opening_speed_of(curves) or 0.0)

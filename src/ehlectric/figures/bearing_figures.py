@@ -24,7 +24,15 @@ from ehlectric.bearing.speed_curves import nearly_equal
 from ehlectric.figures.contact_findings import with_unit
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.draw import line_look
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above, outlined, page_size, round_numbers
+from ehlectric.figures.style import (
+    axes_or_new,
+    figure_of,
+    legend_above,
+    note,
+    outlined,
+    page_size,
+    round_numbers,
+)
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import unit_for
 
@@ -71,7 +79,7 @@ def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
     for k in range(1, len(ordered)):
         heights[k] = max(heights[k], heights[k - 1] + 0.5 * (rooms[k] + rooms[k - 1]))
     for height, (_, text, colour) in zip(heights, ordered, strict=True):
-        ax.text(1.015, height, text, transform=ax.transAxes, va="center", color=colour, fontsize="small")
+        note(ax, 1.015, height, text, va="center", color=colour)
 
 
 def fill_text(fill: float | str) -> str:
@@ -288,7 +296,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     text = f"bearing, {fill_text(fill)}: mean {total * mean:.4g} {of}\n"
     text += f"at this cage position {total * here:.4g} {of}"
     ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
-    ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize="small")
+    note(ax, 0.5, 0.97, text, ha="center", va="top")
     legend_above(ax)
     return ax
 
@@ -317,14 +325,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.set_ylim(0.0, 1.15 * np.max(everything))
     if shaft is not None:
         ax.axhspan(ax.get_ylim()[0], shaft, color=ORANGE, alpha=0.12, lw=0.0, zorder=0.0)
-        ax.text(
-            0.01,
-            0.03,
-            "below the shaft voltage: breakdown",
-            transform=ax.transAxes,
-            color=ORANGE,
-            fontsize="small",
-        )
+        note(ax, 0.01, 0.03, "below the shaft voltage: breakdown", color=ORANGE)
     for name, values, ring, shift, marker, colour in (
         ("inner", inner, position.inner, -0.12, "o", BLUE),
         ("outer", outer, position.outer, 0.12, "s", ORANGE),
@@ -343,7 +344,7 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
+def breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
     """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
     if nearly_equal(first, through):
         return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
@@ -355,7 +356,7 @@ def _levels(result: BearingResult, ax: Axes) -> None:
     breaks, shaft = result.breaks(), result.shaft_voltage
     first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
     levels = [] if shaft is None else [("shaft voltage", shaft, SHAFT)]
-    lines = _breakdown_lines(np.array([first]), np.array([through]))
+    lines = breakdown_lines(np.array([first]), np.array([through]))
     levels += [(name, float(value), look) for name, (value,), look in lines]
     for name, value, look in levels:
         ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
@@ -424,7 +425,7 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     first = first_breakdowns(result)
     path = shaft_path(result.solution)
     through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
-    lines = _breakdown_lines(first, through)
+    lines = breakdown_lines(first, through)
     for name, values, look in lines:
         _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
     shaft = result.shaft_voltage
@@ -474,16 +475,8 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.legend(loc="lower left", fontsize="small")
     ax.set_ylabel(r"magnitude $|Z|$ [Ω]")
     low, high = INVERTER
-    ax.text(
-        (low * high) ** 0.5,
-        0.95,
-        "switching frequency to voltage edges\nof a common inverter",
-        transform=ax.get_xaxis_transform(),
-        ha="center",
-        va="top",
-        color=ORANGE,
-        fontsize="small",
-    )
+    text = "switching frequency to voltage edges\nof a common inverter"
+    note(ax, (low * high) ** 0.5, 0.95, text, unit="x", ha="center", va="top", color=ORANGE)
     for at in read_at(result):
         value = magnitude_at(_impedance(result), at)
         ax.plot([at], [value], ls="none", marker="o", ms=4.5, color=BLUE)
@@ -555,9 +548,7 @@ def _over_frequency(result: BearingResult, ax: Axes) -> None:
     if impedance.corner > _NOTED:
         ax.axvline(impedance.corner, color=GREY, lw=0.9, ls="--")
         text = f" corner of the oil alone,\n $1/(2\\pi\\tau)$ = {prefixed(impedance.corner, 'Hz')}"
-        ax.text(
-            impedance.corner, 0.04, text, transform=ax.get_xaxis_transform(), fontsize="small", color=GREY
-        )
+        note(ax, impedance.corner, 0.04, text, unit="x", color=GREY)
     _mark_period(result, ax)
     ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))
     ax.grid(color="0.9", lw=0.6)
@@ -573,7 +564,7 @@ def _mark_period(result: BearingResult, ax: Axes) -> None:
     text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(time, 's')}"
     if ax.get_yscale() == "log":
         # Above the name of the corner frequency, and in the upper panel only.
-        ax.text(at, 0.24, text, transform=ax.get_xaxis_transform(), fontsize="small", color=ORANGE)
+        note(ax, at, 0.24, text, unit="x", color=ORANGE)
 
 
 def _low(impedance: Impedance) -> float:

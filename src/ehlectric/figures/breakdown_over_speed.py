@@ -16,14 +16,13 @@ from ehlectric.bearing.speed_curves import (
     critical_speed_of,
     curves_of,
     is_coated,
-    nearly_equal,
     value_of,
 )
 from ehlectric.discharge.film_verdict import ratio_text
-from ehlectric.figures.bearing_figures import FIRST, SHAFT, THROUGH, Look, label_ends, volts
+from ehlectric.figures.bearing_figures import SHAFT, Look, breakdown_lines, label_ends, volts
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.style import axes_or_new, figure_of, legend_above, outlined
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
 from ehlectric.quantities import units
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
@@ -38,15 +37,10 @@ def speed_axis(curves: Curves) -> Along:
 def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely: str = "expected") -> Panel:
     """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
-    lines = [("shaft voltage", "shaft_voltage", SHAFT)]
-    if nearly_equal(first, through):
-        lines += [("first and ring-to-ring breakdown", "first_break", FIRST)]
-    else:
-        lines += [
-            ("ring-to-ring breakdown", "through_breakdown", THROUGH),
-            ("first breakdown", "first_break", FIRST),
-        ]
-    drawn = [curve for name, key, look in lines for curve in _curves(curves, key, name, look)]
+    drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
+    for name, values, look in breakdown_lines(first, through):
+        key = "first_break" if values is first else "through_breakdown"
+        drawn += _curves(curves, key, name.replace("\n", " "), look)
     critical, marked = critical_speed_of(curves), []
     if critical is not None:
         at = critical / RPM
@@ -180,16 +174,8 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
         return
     at = units.rpm(critical)
     inside = (ax.transData + ax.transAxes.inverted()).transform((at, 1.0))[0] < _RIGHTMOST
-    ax.text(
-        at,
-        0.03,
-        f" {rpm_text(critical)} ",
-        ha="left" if inside else "right",
-        transform=ax.get_xaxis_transform(),
-        color=ORANGE,
-        va="bottom",
-        fontsize="small",
-    )
+    side = "left" if inside else "right"
+    note(ax, at, 0.03, f" {rpm_text(critical)} ", unit="x", ha=side, va="bottom", color=ORANGE)
 
 
 def rpm_text(speed: float) -> str:

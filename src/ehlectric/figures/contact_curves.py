@@ -18,7 +18,7 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.figures import contact_profiles
 from ehlectric.figures.contact_findings import AnyContact, signed, strength_limit, with_unit
-from ehlectric.figures.contact_profiles import Line
+from ehlectric.figures.contact_profiles import Cut, Line
 from ehlectric.figures.data import Panel
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.film_section import fill_section
@@ -32,6 +32,7 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
     new_panels,
+    note,
     outlined,
 )
 from ehlectric.quantities.palette import BLUE, BODY, GREY, ORANGE, STRENGTH
@@ -76,33 +77,17 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
     near = limit[np.argmin(np.abs(x))]
     values = f"{near:.3g}" if np.ptp(limit) < 1e-9 * near else f"{np.min(limit):.3g} to {np.max(limit):.3g}"
     text = f"dielectric strength {values} {unit}"
+    look: dict[str, Any] = {"color": STRENGTH, "fontsize": 8.0}
     if np.min(limit) > _FAR * largest:
-        ax.annotate(
-            f"{text} (above)",
-            (0.03, 1.0),
-            (0.03, 0.9),
-            xycoords="axes fraction",
-            color=STRENGTH,
-            fontsize=8.0,
-            va="top",
-            arrowprops={"arrowstyle": "-|>", "color": STRENGTH, "lw": 0.8, "shrinkB": 0.0},
-        )
+        look["arrowprops"] = {"arrowstyle": "-|>", "color": STRENGTH, "lw": 0.8, "shrinkB": 0.0}
+        ax.annotate(f"{text} (above)", (0.03, 1.0), (0.03, 0.9), xycoords="axes fraction", va="top", **look)
         return largest
     ax.plot(x, limit, color=STRENGTH, lw=1.0, ls=(0, (5.0, 1.5, 1.0, 1.5)))
     # On the left half of the line, the oil is thick and its field low.
     low = float(limit[0]) < _LOW * largest
-    ax.annotate(
-        text,
-        (0.03, float(limit[0])),
-        (0.0, 2.0 if low else -2.0),
-        xycoords=ax.get_yaxis_transform(),
-        textcoords="offset points",
-        color=STRENGTH,
-        fontsize=8.0,
-        va="bottom" if low else "top",
-        path_effects=outlined(2.0),
-        zorder=5.0,
-    )
+    look |= {"va": "bottom" if low else "top", "path_effects": outlined(2.0), "zorder": 5.0}
+    place: dict[str, Any] = {"xycoords": ax.get_yaxis_transform(), "textcoords": "offset points"}
+    ax.annotate(text, (0.03, float(limit[0])), (0.0, 2.0 if low else -2.0), **place, **look)
     return float(np.max(limit[limit <= _FAR * largest]))
 
 
@@ -117,17 +102,15 @@ def breakdown_voltages(result: AnyContact) -> Array:
     return voltages
 
 
-def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> Axes:
+def breakdown(result: AnyContact) -> Axes:
     """Draw the local breakdown voltage over x/b beside the applied voltage; for a point contact over y/b too.
 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
     """
-    if axes is None:
-        rows = 2 if isinstance(result, PointResult) else 1
-        axes = new_panels(rows, 1, (6.3, 0.9 + 2.5 * rows))
-    panels = [axes] if isinstance(axes, Axes) else list(axes)
-    for ax, (axis, at, voltages, on) in zip(panels, _lines(result), strict=True):
+    lines = _lines(result)
+    panels = new_panels(len(lines), 1, (6.3, 0.9 + 2.5 * len(lines)))
+    for ax, (axis, at, voltages, on) in zip(panels, lines, strict=True):
         _voltage_line(result, ax, at[on], voltages[on])
         label_position(result, ax, axis)
         length_axis(result, ax, axis)
@@ -142,15 +125,14 @@ def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
 
     The mask leaves out the ends of the field domain, whose faces disturb the field.
     """
-    voltages, field, b = breakdown_voltages(result), result.field, result.conditions.semi_axes[0]
+    voltages, b = breakdown_voltages(result), result.conditions.semi_axes[0]
     if isinstance(result, Result):
         return [("x", result.field.x / b, voltages, result.field.inner)]
-    k, j = np.unravel_index(np.argmin(voltages), voltages.shape)
-    x, y = field.axes
-    return [
-        ("x", x / b, voltages[:, j], _or_all(field.inner[:, j])),
-        ("y", y / b, voltages[k], _or_all(field.inner[k])),
-    ]
+    weakest = np.unravel_index(np.argmin(voltages), voltages.shape)
+    place = float(result.field.x[weakest[0]]), float(result.field.y[weakest[1]])
+    cuts = [Cut.near(along, place, result.field.x, result.field.y) for along in "xy"]
+    lines = zip(cuts, result.field.axes, strict=True)
+    return [(cut.along, at / b, cut.of(voltages), cut.away(result.field)) for cut, at in lines]
 
 
 def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
@@ -160,10 +142,6 @@ def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
     names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
         ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
-
-
-def _or_all(mask: Mask) -> Mask:
-    return mask if np.count_nonzero(mask) > 2 else np.ones_like(mask)
 
 
 def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> None:
@@ -216,13 +194,13 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
+def meter(result: AnyContact) -> Axes:
     """Draw the capacitance between the bodies up to a distance from the contact.
 
     Returns axes with the sum over distance, with the gap outside the film's domain filled as the case says,
     and between air and oil; lines mark the edge of the Hertz zone and the nearest edge of the domain.
     """
-    ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
+    (ax,) = new_panels(1, 1, (6.3, 3.6))
     assert isinstance(result.case, Case) and result.meter is not None
     profile = meter_profile(Metered(result.case, result.conditions, result.film, result.field))
     factor, unit = unit_for(result.meter.capacitance, "F", least=1.0)
@@ -245,17 +223,8 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
         (profile.edge, "nearest edge of the domain"),
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)
-        ax.text(
-            1e3 * edge,
-            0.98,
-            f" {name}",
-            transform=ax.get_xaxis_transform(),
-            rotation=90,
-            ha="right",
-            va="top",
-            fontsize=8.0,
-            color=GREY,
-        )
+        look: dict[str, Any] = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
+        note(ax, 1e3 * edge, 0.98, f" {name}", unit="x", **look)
     ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
     ax.set_xlim(at[0], at[-1])
     ax.xaxis.set_major_formatter("{x:g}")
@@ -272,13 +241,11 @@ _WINDOW, _HEAT = (-1.75, 1.25), "inferno"
 _LEAST_RANGE = 0.1
 
 
-def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress. ``ax``,
-    axes to draw the temperature across the film on, alone; axes of a new figure with all panels if omitted.
+def temperature(result: AnyContact) -> Axes:
+    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress.
+
     Returns axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
     """
-    if ax is not None:
-        return _map(result, ax)
     above, middle, below = new_panels(3, 1, (6.3, 7.2))
     _map(result, above)
     _panel(result, contact_profiles.temperature, middle)
@@ -310,7 +277,7 @@ def _along(result: AnyContact, values: Array) -> Array:
     return values
 
 
-def _map(result: AnyContact, ax: Axes) -> Axes:
+def _map(result: AnyContact, ax: Axes) -> None:
     """Draw the temperature over position and height, with the outline of the film and its colour bar."""
     heated = result.film.heated
     assert heated is not None and heated.temperature is not None and heated.zeta is not None
@@ -327,4 +294,3 @@ def _map(result: AnyContact, ax: Axes) -> Axes:
     label_position(result, ax)
     colours = ScalarMappable(Normalize(*limits), _HEAT)
     figure_of(ax).colorbar(colours, cax=ax.inset_axes(BAR), label="temperature [°C]")
-    return ax

@@ -119,10 +119,8 @@ def strength_text(result: AnyContact) -> str:
     place = place_text(result, field.max_strength_position)
     if isinstance(result, Result) and not result.rough:
         at = result.field.max_strength_position / result.conditions.half_width
-        place = f"at the constriction ({place})" if _CONSTRICTION < at < 1.2 else f"at {place}"
-    else:
-        place = f"at {place}"
-    return f"Maximum field {with_unit(field.max_strength, 'V/m')} {place}"
+        place = f"the constriction ({place})" if _CONSTRICTION < at < 1.2 else place
+    return f"Maximum field {with_unit(field.max_strength, 'V/m')} at {place}"
 
 
 def _boundary_film_text(result: AnyContact) -> str:
@@ -136,14 +134,13 @@ def profiles_text(result: AnyContact) -> str:
     field, limit = result.field, strength_limit(result)
     if result.spots is not None:
         return f"{_boundary_film_text(result)}; walls and mid-film within {per_cent(disagreement(result))}"
+    text = f"Maximum field {with_unit(field.max_strength, 'V/m')}"
     if limit is None:
-        place = place_text(result, field.max_strength_position)
-        text = f"Maximum field {with_unit(field.max_strength, 'V/m')} at {place}"
+        text += f" at {place_text(result, field.max_strength_position)}"
     else:
-        used = float(np.max(field.column_strength / limit))
-        there = float(limit.flat[np.argmax(field.column_strength / limit)])
-        text = f"Maximum field {with_unit(field.max_strength, 'V/m')}, "
-        text += f"{per_cent(used)} of the strength {with_unit(there, 'V/m')}"
+        used = field.column_strength / limit
+        there = float(limit.flat[np.argmax(used)])
+        text += f", {per_cent(float(np.max(used)))} of the strength {with_unit(there, 'V/m')}"
     if result.smooth is not None:
         change = field.max_strength / float(np.max(result.smooth.middle_strength)) - 1.0
         text += f", {_more(change, 'above', 'below')} smooth"
@@ -166,13 +163,12 @@ def _sections(result: AnyContact) -> Array:
 def deviation_text(result: AnyContact) -> str:
     """Largest deviation of the field from the thin-gap estimate V12/h, and where it is."""
     field = result.field
-    sections = _sections(result)
-    deviation: Array = np.max(np.abs(sections / field.thin_gap_strength - 1.0), axis=0)
-    apart, counted = deviation, field.inner
+    apart: Array = np.max(np.abs(_sections(result) / field.thin_gap_strength - 1.0), axis=0)
+    counted = field.inner
     if isinstance(result, PointResult):
         counted = counted & result.zones["hertz"](field.x[:, np.newaxis], field.y)
         counted = counted if np.any(counted) else field.inner
-    deviation = np.where(counted, deviation, 0.0)
+    deviation = np.where(counted, apart, 0.0)
     where = np.unravel_index(np.argmax(deviation), deviation.shape)
     place = tuple(float(axis[k]) for axis, k in zip(field.axes, where, strict=True))
     text = f"The estimate V12/h is within {per_cent(float(np.max(deviation)))} of the field on this grid"
@@ -181,18 +177,16 @@ def deviation_text(result: AnyContact) -> str:
     text += f", worst at {place_text(result, place)}"
     # The faces at the ends of the field range are those of the computation, not of the contact.
     ends = float(np.max(apart, where=~counted, initial=0.0))
-    return (
-        f"{text}; at the ends of the range, not drawn, {per_cent(ends)}" if ends > np.max(deviation) else text
-    )
+    more = f"; at the ends of the range, not drawn, {per_cent(ends)}"
+    return text + more if ends > np.max(deviation) else text
 
 
 def pressure_text(result: PointResult) -> str:
     """Pressure in the centre beside the Hertz pressure, and the pressure spike where it is higher."""
     film, hertz = result.film, result.conditions.max_pressure
     peak = with_unit(film.max_pressure, "Pa")
-    if has_spike(result):
-        return f"Pressure spike of {peak} on this grid; Hertz pressure {with_unit(hertz, 'Pa')}"
-    return f"Maximum pressure {peak}; Hertz pressure {with_unit(hertz, 'Pa')}"
+    what = f"Pressure spike of {peak} on this grid" if has_spike(result) else f"Maximum pressure {peak}"
+    return f"{what}; Hertz pressure {with_unit(hertz, 'Pa')}"
 
 
 def has_spike(result: PointResult) -> bool:

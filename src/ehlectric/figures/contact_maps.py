@@ -23,7 +23,7 @@ from ehlectric.arrays import Array
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.figures.contact_findings import AnyContact
-from ehlectric.figures.contact_profiles import Line, film_scale, film_thickness
+from ehlectric.figures.contact_profiles import Line, film_scale, film_thickness, is_turned, shown_range
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.style import (
     LENGTH_AXIS,
@@ -33,6 +33,7 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
     new_panels,
+    note,
     outlined,
     page_width,
 )
@@ -91,10 +92,6 @@ def smoothed(values: Array) -> Array:
     return smooth + rest
 
 
-# Ratio a/b of the semi-axes, a across and b along entrainment, above which a contact is drawn turned: its
-# long axis lies along the page, and entrainment points down.
-_TURNED = 1.2
-
 # Smallest ratio of height to width, approximately, of a single map and of several maps side by side. If this
 # needs different scales in x and y, the label of the axis says so.
 _LEAST_HEIGHT, _LEAST_OF_SEVERAL = 0.42, 0.25
@@ -110,8 +107,7 @@ _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 # for each row of a legend, and for a colour bar [inches].
 _BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
 
-# Range of x/b of the maps of the film, before and behind the Hertz ellipse, as for the line contact.
-_BEFORE, _BEHIND = -2.0, 1.5
+
 Range = tuple[float, float]
 
 
@@ -124,16 +120,11 @@ class OfPointContact(Protocol):
         ...
 
 
-def turned(result: OfPointContact) -> bool:
-    """Whether a contact is drawn turned, with entrainment pointing down and y to the right."""
-    return result.conditions.ratio > _TURNED
-
-
 def film_window(result: PointResult) -> tuple[Range, Range]:
     """Ranges of x/b and y/b around the Hertz ellipse that maps of the film show, within the domain."""
     b, film, ratio = result.conditions.semi_axis_x, result.film, result.conditions.ratio
     side = min(ratio + 0.6 * float(np.sqrt(ratio)), float(film.y[-1]) / b)
-    return (max(float(film.x[0]) / b, _BEFORE), min(float(film.x[-1]) / b, _BEHIND)), (-side, side)
+    return shown_range(film.x / b), (-side, side)
 
 
 def field_window(result: PointResult) -> tuple[Range, Range]:
@@ -186,7 +177,7 @@ def _on_page(result: OfPointContact, along: Any, across: Any) -> tuple[Any, Any]
 
     ``along`` belongs to x, along entrainment, and ``across`` to y; a turned contact has them swapped.
     """
-    return (across, along) if turned(result) else (along, across)
+    return (across, along) if is_turned(result.conditions) else (along, across)
 
 
 def draw_map(
@@ -218,7 +209,7 @@ def draw_map(
         rasterized=True,
     )
     horizontal, vertical = _on_page(result, *window)
-    ax.set(xlim=horizontal, ylim=vertical[::-1] if turned(result) else vertical)
+    ax.set(xlim=horizontal, ylim=vertical[::-1] if is_turned(result.conditions) else vertical)
     _, stretch = _shape(result, number, window)
     ax.set_aspect(stretch)
     _label_map(result, ax, stretch)
@@ -317,7 +308,7 @@ def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
     share one text.
     """
     places = np.column_stack(_on_page(result, *(at / result.conditions.semi_axis_x).T))
-    down, (left, right) = turned(result), ax.get_xlim()
+    down, (left, right) = is_turned(result.conditions), ax.get_xlim()
     if down and np.ptp(places[:, 0]) < 0.2 * (right - left):
         places = np.mean(places, axis=0, keepdims=True)
     for x, y in places:
@@ -345,7 +336,7 @@ def extreme_positions(x: Array, y: Array, values: Array) -> Array:
 
 def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
     """Draw an arrow in the direction of entrainment, in a corner of the map at the inlet."""
-    down = turned(result)
+    down = is_turned(result.conditions)
     corner = (0.0, 1.0) if down else (0.0, 0.0)
 
     def off(x: float, y: float) -> Transform:
@@ -389,16 +380,8 @@ def round_levels(low: float, high: float, number: int) -> Array:
 
 def panel_name(ax: Axes, name: str) -> None:
     """Write the name of a panel in its upper right corner."""
-    ax.text(
-        0.98,
-        0.97,
-        name,
-        transform=ax.transAxes,
-        ha="right",
-        va="top",
-        fontsize=8.0,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "pad": 1.5},
-    )
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "pad": 1.5}
+    note(ax, 0.98, 0.97, name, ha="right", va="top", fontsize=8.0, bbox=box)
 
 
 # Share of the Hertz zone outside of the spots whose film the colours and the axis span.
@@ -408,12 +391,12 @@ _SHOWN = 95.0
 _LINE_WINDOW = (-1.4, 1.4)
 
 
-def spots(result: AnyContact, ax: Axes | None = None) -> Axes:
+def spots(result: AnyContact) -> Axes:
     """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. Returns axes of the map
     of a point contact, or of the profile of a line contact; thicker films than those of 95 % of the Hertz
     zone have the last colour, or are cut off.
     """
-    return _map(result, ax) if isinstance(result, PointResult) else _profile(result, ax)
+    return _map(result) if isinstance(result, PointResult) else _profile(result)
 
 
 def _thick(result: AnyContact) -> float:
@@ -425,10 +408,9 @@ def _thick(result: AnyContact) -> float:
     return float(np.percentile(around if around.size else film.thickness, _SHOWN))
 
 
-def _map(result: PointResult, ax: Axes | None) -> Axes:
+def _map(result: PointResult) -> Axes:
     film, window = result.film, film_window(result)
-    if ax is None:
-        (ax,) = map_panels(result, 1, window, rows=1)
+    (ax,) = map_panels(result, 1, window, rows=1)
     top = _thick(result)
     factor, unit = unit_for(top, "m", least=1.0)
     at, limits = (film.x, film.y), (0.0, factor * top)
@@ -446,10 +428,9 @@ def _map(result: PointResult, ax: Axes | None) -> Axes:
     return ax
 
 
-def _profile(result: Result, ax: Axes | None) -> Axes:
-    ax = axes_or_new(ax)
-    panel = film_thickness(Line.through(result, 1.0 / result.conditions.half_width))
-    draw_panel(panel, ax)
+def _profile(result: Result) -> Axes:
+    ax = axes_or_new(None)
+    draw_panel(film_thickness(Line.through(result, 1.0 / result.conditions.half_width)), ax)
     top = 1.15 * _thick(result) * unit_for(film_scale(result), "m")[0]
     ax.set(xlim=_LINE_WINDOW, ylim=(-0.03 * top, top))
     label_position(result, ax)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.field.point_field import PointField
 from ehlectric.figures.contact_findings import AnyContact, strength_limit
@@ -22,6 +23,13 @@ from ehlectric.quantities.units import unit_for
 # Name of the pressure between asperities, and of the nodes at which surfaces touch, in legends.
 ASPERITIES, SPOTS = "pressure of asperities", "surfaces touch"
 
+# Range of x/b that figures of the film show, before and behind the middle of the dry contact.
+BEFORE, BEHIND = -2.0, 1.5
+
+# Ratio a/b of the semi-axes, a across and b along entrainment, above which a contact is drawn turned: its
+# long axis lies along the page, and entrainment points down.
+_TURNED = 1.2
+
 # Look of smooth surfaces, wide and behind the rough curves, so that neither hides the other.
 _SMOOTH = (LIGHT_GREY, "solid", 2.6)
 
@@ -30,6 +38,16 @@ _WITHIN = 90.0
 
 # Absolute temperature of 0 degC [K], and smallest range of an axis of temperatures [K].
 CELSIUS, _LEAST_RANGE = 273.15, 0.1
+
+
+def shown_range(x: Array) -> tuple[float, float]:
+    """Range of positions x/b that figures of the film show, within the domain with the nodes ``x``."""
+    return max(float(x[0]), BEFORE), min(float(x[-1]), BEHIND)
+
+
+def is_turned(conditions: PointConditions) -> bool:
+    """Whether a contact is drawn turned, with entrainment pointing down and y to the right."""
+    return conditions.ratio > _TURNED
 
 
 def touches(result: Result | PointResult) -> bool:
@@ -74,9 +92,8 @@ def _hertz_columns(result: Result | PointResult) -> Mask:
 
 def heights(result: Result | PointResult) -> Array:
     """Thickness [m] of the film at the columns of the field."""
-    if isinstance(result, PointResult):
-        return np.asarray(result.field.z[..., -1] - result.field.z[..., 0])
-    return np.asarray(result.field.y[..., -1] - result.field.y[..., 0])
+    walls = result.field.z if isinstance(result, PointResult) else result.field.y
+    return np.asarray(walls[..., -1] - walls[..., 0])
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ from ehlectric.figures.style import (
     drawing_of,
     legend_above,
     new_panels,
+    note,
     scale_axis,
     share_below,
     style,
@@ -92,10 +93,8 @@ def histogram(result: DriveResult) -> str:
     stated = np.flatnonzero(np.max(shares, axis=0) >= _LEAST_SHARE)
     if not stated.size:
         share = float(np.max(shares[:, 0]))
-        lead = (
-            f"Above {record.limits[0]:g} V for {share:.2g} % of the time" if share else "Low bearing voltage"
-        )
-        return f"{lead}: {_largest(result)}"
+        above = f"Above {record.limits[0]:g} V for {share:.2g} % of the time"
+        return f"{above if share else 'Low bearing voltage'}: {_largest(result)}"
     k = int(stated[-1])
     texts = [f"{share:.3g} %" for share in shares[:, k]]
     if len(set(texts)) == 1:
@@ -126,16 +125,13 @@ def discharges(result: DriveResult) -> str:
 
 def remedies(result: DriveResult) -> str:
     """Sentence: which remedy has the fewest discharges, compared with the drive as it is."""
-    (_, unchanged), *others = variants(result)
+    rows = list(variants(result))
+    (_, unchanged), *others = rows
     rates = [sum(end["events_per_second"] for end in pair) for _, pair in others]
     least, now = min(rates), sum(end["events_per_second"] for end in unchanged)
     best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
     if not now + max(rates):
-        highest = max(
-            end["events_per_second_high"]
-            for pair in (unchanged, *(pair for _, pair in others))
-            for end in pair
-        )
+        highest = max(end["events_per_second_high"] for _, pair in rows for end in pair)
         return f"No discharge, with or without remedies: at most {number_text(highest)} a second"
     if not least < now:
         return f"No remedy lowers the {number_text(now)} discharges a second of both bearings"
@@ -238,13 +234,8 @@ def time_above(result: DriveResult, ax: Axes) -> None:
         ax.plot(factor * edges[known], values[known], color=COLOURS[b], lw=1.1, ls=("-", (0, (5, 2)))[b])
         above = 100.0 * record.above[b] / record.duration
         seen = above > 0.0
-        look: dict[str, Any] = {
-            "ls": "none",
-            "marker": "os"[b],
-            "ms": (8.0, 4.0)[b],
-            "mfc": ("white", COLOURS[b])[b],
-        }
-        ax.plot(factor * record.limits[seen], above[seen], color=COLOURS[b], **look)
+        mark: dict[str, Any] = ({"marker": "o", "ms": 8.0, "mfc": "white"}, {"marker": "s", "ms": 4.0})[b]
+        ax.plot(factor * record.limits[seen], above[seen], color=COLOURS[b], ls="none", **mark)
     _log_share(ax, shares)
     for volts in _breakdowns(result):
         ax.axvline(factor * volts, **THRESHOLD)
@@ -390,10 +381,7 @@ def energies(result: DriveResult, ax: Axes) -> None:
                     [factor * end["energy_mean"]], [_place(row, b)], marker="os"[b], color=COLOURS[b], ms=5.0
                 )
         if not any(end["events"] for end in pair):
-            ax.text(
-                0.03, row, "no discharge", transform=ax.get_yaxis_transform(), va="center",
-                color=GREY, fontsize="small",
-            )  # fmt: skip
+            note(ax, 0.03, row, "no discharge", unit="y", va="center", color=GREY)
     positive = [factor * value for value in found if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
         _log_axis(ax.xaxis, 0.5 * min(positive), 2.0 * max(positive), ticks=5)
@@ -465,11 +453,10 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     Figures with nothing to show are left out: a spectrum without lines, distributions without discharges,
     remedies where the file has none, and voltages over time where no time was recorded.
     """
-    over_time, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
+    voltages_file, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
     found: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
-        panels = VOLTAGE_PANELS
-        found[over_time] = _Drawing(panels, 3, (6.3, 5.4), voltages, legend_of, shared=True)
+        found[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
     found[over_voltage] = _Drawing((time_at_voltage, time_above), 2, (6.3, 5.0), histogram)
     if has_spectrum(result):
         found[over_frequency] = _Drawing((shaft_spectrum,), 1, (6.3, 3.6), spectrum)
@@ -548,8 +535,7 @@ def shown_discharges(result: DriveResult, b: int) -> tuple[Array, Array]:
 
 def _begin(result: DriveResult) -> float:
     """Begin of the trace [s]."""
-    trace = result.solution.record.trace
-    return max(float(trace[0, 0]), 0.0) if len(trace) else 0.0
+    return max(float(result.solution.record.trace[0, 0]), 0.0)
 
 
 def _around_zero(title: str, unit: str, curves: list[Curve], largest: float) -> Panel:
@@ -559,8 +545,7 @@ def _around_zero(title: str, unit: str, curves: list[Curve], largest: float) -> 
 
 def _span(result: DriveResult) -> float:
     """Time that the trace covers [s]."""
-    trace = result.solution.record.trace
-    return float(trace[-1, 0]) - _begin(result) if len(trace) > 1 else 1e-12
+    return float(result.solution.record.trace[-1, 0]) - _begin(result)
 
 
 def _times(result: DriveResult, times: Array | None = None) -> Array:
@@ -570,21 +555,21 @@ def _times(result: DriveResult, times: Array | None = None) -> Array:
     return factor * since
 
 
-def source_voltage(result: DriveResult, ax: Axes) -> None:
-    """Draw the common-mode voltage of the source over a short time, without its ringing."""
-    _draw(source_panel(result), result, ax)
+def voltage_panels(result: DriveResult) -> list[Panel]:
+    """Voltages over a short time, from top to bottom: of the source, and across the films of the bearings."""
+    return [source_panel(result), *(bearing_panel(result, b) for b in range(2))]
 
 
-def bearing_voltage(result: DriveResult, ax: Axes, *, b: int) -> None:
-    """Draw the voltage across the films of bearing ``b``, 0 at the drive end, and mark its discharges."""
-    _draw(bearing_panel(result, b), result, ax)
+def over_time(result: DriveResult, ax: Axes, *, number: int) -> None:
+    """Draw one of the voltages over a short time, and mark discharges."""
+    draw_panel(voltage_panels(result)[number], ax, time_axis(result))
+    for line in ax.get_lines():
+        # The trace ends with a discharge, whose mark would be cut at the edge.
+        line.set_clip_on(line.get_marker() == "None")
 
 
 # Panels of the figure, from top to bottom.
-VOLTAGE_PANELS: tuple[Draw, ...] = (
-    source_voltage,
-    *(partial(bearing_voltage, b=b) for b in range(2)),
-)
+VOLTAGE_PANELS = tuple(partial(over_time, number=number) for number in range(3))
 
 
 def legend_of(axes: list[Axes]) -> None:
@@ -596,13 +581,6 @@ def legend_of(axes: list[Axes]) -> None:
                 found.setdefault(label, handle)
     if found:
         legend_above(axes[0], list(found.values()))
-
-
-def _draw(panel: Panel, result: DriveResult, ax: Axes) -> None:
-    draw_panel(panel, ax, time_axis(result))
-    for line in ax.get_lines():
-        # The trace ends with a discharge, whose mark would be cut at the edge.
-        line.set_clip_on(line.get_marker() == "None")
 
 
 # Quantities of a discharge, and their columns of a record.

@@ -12,7 +12,7 @@ from matplotlib.contour import ContourSet
 from matplotlib.text import Text
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import outlined
+from ehlectric.figures.style import note, outlined
 from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 
 # Mark of a maximum: a ring that can be seen on any colour.
@@ -35,9 +35,8 @@ def draw_section(
     *,
     limits: tuple[float, float],
     potentials: tuple[float, float],
-    colours: str = "viridis",
+    units: tuple[float, float],
     under: bool = False,
-    units: tuple[float, float] | None = None,
 ) -> ContourSet:
     """Draw a section through the film, coloured by a value, with the bodies below and above it.
 
@@ -47,7 +46,7 @@ def draw_section(
     written on the bodies; ``units``, lengths that the unit of each axis stands for [m]. Returns the filled
     contours, from which a colour bar can be made.
     """
-    filled = fill_section(ax, x, heights, values, limits=limits, colours=colours, under=under)
+    filled = fill_section(ax, x, heights, values, limits=limits, under=under)
     ax.set_xlim(x[0], x[-1])
     _limit_height(ax, heights)
     # The bodies go on beyond the axes, whose heights may be changed.
@@ -58,19 +57,9 @@ def draw_section(
     for surface, (height, where, volts) in enumerate(
         zip((0.04, 0.96), ("bottom", "top"), potentials, strict=True), 1
     ):
-        text = f"surface {surface}, {volts:g} V".replace("-", "−")
-        ax.text(
-            0.82,
-            height,
-            text,
-            transform=ax.transAxes,
-            ha="right",
-            va=where,
-            fontsize=8.0,
-            path_effects=outlined(2.0, BODY),
-        )
-    if units is not None:
-        ax.add_artist(_Enlargement(ax, units))
+        text, edge = f"surface {surface}, {volts:g} V".replace("-", "−"), outlined(2.0, BODY)
+        note(ax, 0.82, height, text, ha="right", va=where, fontsize=8.0, path_effects=edge)
+    ax.add_artist(_Enlargement(ax, units))
     return filled
 
 
@@ -85,7 +74,8 @@ class _Enlargement(Text):
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw the text for the size that the axes have now."""
-        self.set_text(f"heights enlarged\n{_two_digits(self._times())} times")
+        times = float(f"{self._times():.2g}")  # two digits without an exponent
+        self.set_text(f"heights enlarged\n{times:g} times")
         super().draw(renderer)
 
     def _times(self) -> float:
@@ -93,11 +83,6 @@ class _Enlargement(Text):
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
         box = ax.get_window_extent()
         return float(box.height / (abs(high - low) * across) / (box.width / (abs(right - left) * along)))
-
-
-def _two_digits(number: float) -> str:
-    """Number rounded to two digits, without an exponent."""
-    return f"{float(f'{number:.2g}'):g}"
 
 
 def fill_section(

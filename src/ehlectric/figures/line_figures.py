@@ -20,7 +20,7 @@ from ehlectric.figures.contact_curves import (
 )
 from ehlectric.figures.contact_findings import cut_offs, disagreement, per_cent, strength_limit
 from ehlectric.figures.contact_maps import round_levels
-from ehlectric.figures.contact_profiles import Line, field_scale, film_thickness, pressure
+from ehlectric.figures.contact_profiles import Line, field_scale, film_thickness, pressure, shown_range
 from ehlectric.figures.contact_profiles import field_strength as strength_panel
 from ehlectric.figures.data import Curve
 from ehlectric.figures.draw import draw_curves
@@ -164,7 +164,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax, line = axes_or_new(ax), _line(result)
     above, below = pressure(line), film_thickness(line)
     lines = draw_curves(above.curves, ax)
-    ax.set_xlim(*_window(line.x))
+    ax.set_xlim(*shown_range(line.x))
     label_position(result, ax)
     ax.set_ylabel(f"pressure $p$ [{above.unit}]", color=BLUE)
     twin = ax.twinx()
@@ -181,11 +181,6 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
 def _line(result: Result) -> Line:
     """Line contact over x/b."""
     return Line.through(result, 1.0 / result.conditions.half_width)
-
-
-def _window(x: Array) -> tuple[float, float]:
-    """Range of x/b around the contact that figures of the film show, within the domain."""
-    return max(float(x[0]), -2.0), min(float(x[-1]), 1.5)
 
 
 def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
@@ -215,11 +210,12 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
     assert result.smooth is not None
     film, x = result.film, in_half_widths(result, result.film.x)
     change, heights = film.thickness - result.smooth.thickness, result.roughness.sum(axis=0)
-    shown = (x >= _window(x)[0]) & (x <= _window(x)[1])
+    left, right = shown_range(x)
+    shown = (x >= left) & (x <= right)
     factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
     ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.6, label="if not flattened")
     ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
-    ax.set_xlim(*_window(x))
+    ax.set_xlim(*shown_range(x))
     ax.set_ylabel(f"change of film [{unit}]")
     label_position(result, ax)
     legend_above(ax, columns=2)
@@ -361,7 +357,7 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
             for end in (-cut[k], cut[k]):
                 ax.axhline(factor * end, color=color, lw=0.7, ls=":", label=label)
                 label = "_again"
-    ax.set_xlim(*_window(x))
+    ax.set_xlim(*shown_range(x))
     label_position(result, ax)
     length_axis(result, ax)
     ax.margins(y=0.08)

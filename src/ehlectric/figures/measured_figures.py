@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -69,18 +70,13 @@ def _title(factors: FilmFactors) -> list[str]:
     text = factor_text(factors.mean)
     what = "Capacitance" if factors.quantity == "capacitance" else "Central film"
     error = factors.formula_error
-    films = (
-        "solved contacts"
-        if error is None
-        else f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
-    )
+    films = "solved contacts"
+    if error is not None:
+        films = f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
     found = int(factors.found.sum())
     rows = f"{found} of {len(factors.reasons)} rows of {Path(factors.source).name}"
-    return [
-        f"{what}: {text}",
-        factors.title,
-        f"{rows}; {films}, isothermal and fully flooded at film factor 1",
-    ]
+    how = f"{films}, isothermal and fully flooded at film factor 1"
+    return [f"{what}: {text}", factors.title, f"{rows}; {how}"]
 
 
 def _scale(factors: FilmFactors) -> _Scale:
@@ -113,10 +109,7 @@ def _values(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
             ax.fill_between(at, *ends, color=BLUE, alpha=0.18, lw=0.0)
         text = f"computed, film factor {factors.mean.value:.3g}"
         ax.plot(at, factor * columns["fitted"][order][fitted], color=BLUE, label=text)
-    error = columns.get(f"{key}_uncertainty")
-    bars = None if error is None else _TWO_SIDED * factor * error
-    ax.errorbar(x, measured, yerr=bars, color=ORANGE, ls="none", marker="o", ms=3.5, lw=0.9, label="measured")
-    _lower_axis(scale, ax)
+    _dots(scale, ax, measured, columns.get(f"{key}_uncertainty"), factor)
     shown = np.concatenate([measured, factor * columns["computed"]])
     log = is_wide(shown)
     name = "capacitance" if electric else "central film thickness"
@@ -130,22 +123,21 @@ def _values(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
 def _factors(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
     """Draw the film factors of the rows, and their mean with its interval."""
     columns, mean = factors.columns, factors.mean
-    error = columns.get("factor_uncertainty")
-    bars = None if error is None else _TWO_SIDED * error
     ax.axhline(1.0, color=GREY, lw=0.8)
     if mean is not None:
         if mean.low is not None and mean.high is not None:
             ax.axhspan(mean.low, mean.high, color=BLUE, alpha=0.18, lw=0.0)
         ax.axhline(mean.value, color=BLUE)
-    ax.errorbar(
-        scale.values, columns["film_factor"], yerr=bars, color=ORANGE, ls="none", marker="o", ms=3.5, lw=0.9
-    )
-    _lower_axis(scale, ax)
+    _dots(scale, ax, columns["film_factor"], columns.get("factor_uncertainty"))
     tops = [1.0, *columns["film_factor"][factors.found].tolist()]
     tops += [] if mean is None or mean.high is None else [mean.high]
     ax.set_ylim(0.0, 1.15 * max(tops))
     ax.set_ylabel("film factor")
 
 
-def _lower_axis(scale: _Scale, ax: Axes) -> None:
+def _dots(scale: _Scale, ax: Axes, values: Array, error: Array | None, factor: float = 1.0) -> None:
+    """Draw measured values with the bars of their 95 % intervals, and label the lower axis."""
+    bars = None if error is None else _TWO_SIDED * factor * error
+    look: dict[str, Any] = {"color": ORANGE, "ls": "none", "marker": "o", "ms": 3.5, "lw": 0.9}
+    ax.errorbar(scale.values, values, yerr=bars, label="measured", **look)
     scale_axis(ax.xaxis, scale.text, values=scale.values, log=scale.log)

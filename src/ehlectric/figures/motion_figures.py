@@ -19,6 +19,7 @@ from matplotlib.patheffects import withStroke
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.touching import share_text
 from ehlectric.figures.contact_maps import round_levels
+from ehlectric.figures.contact_profiles import shown_range
 from ehlectric.figures.motion_panels import (
     Unit,
     along_label,
@@ -29,7 +30,6 @@ from ehlectric.figures.motion_panels import (
     in_contact,
     in_unit,
     name_run,
-    shown_range,
     time_unit,
 )
 from ehlectric.figures.style import axes_or_new, drawing_of, figure_of, legend_above, new_panels, share_below
@@ -94,9 +94,8 @@ def thinner(moving: float, still: float) -> str:
     part = moving / still - 1.0
     if abs(part) < _SAME:
         return "as thick as with stationary roughness"
-    return (
-        f"{100.0 * abs(part):.2g} % {'thinner' if part < 0.0 else 'thicker'} than with stationary roughness"
-    )
+    more = "thinner" if part < 0.0 else "thicker"
+    return f"{100.0 * abs(part):.2g} % {more} than with stationary roughness"
 
 
 def of_maps(run: MotionRun) -> str:
@@ -454,7 +453,7 @@ def roughness_at(
             if stationary is not None:
                 still, label = run.along(f"roughness_{k}", stationary), f"surface {k}, stationary"
                 ax.plot(run.x, factor * still, color=ORANGE, ls=style, lw=0.8, alpha=0.8, label=label)
-    ax.set(xlim=shown_range(run), ylabel=f"roughness [{name}]")
+    ax.set(xlim=shown_range(run.x), ylabel=f"roughness [{name}]")
     along_label(run, ax)
     legend_above(ax)
     return ax
@@ -511,17 +510,13 @@ def _three(
     """
     ax, (factor, suffix), (label, kind, extreme) = axes_or_new(ax), unit, texts
     lines = [run.along(name, compared_frame(run)), run.along(f"stationary_{name}"), run.along(name, 0)]
-    looks = (
-        ("moving", f"{kind} ", BLUE, "-"),
-        ("stationary", f"{kind} ", ORANGE, "--"),
-        ("before the motion", f"{kind} ", "black", ":"),
-    )
+    looks = (("moving", BLUE, "-"), ("stationary", ORANGE, "--"), ("before the motion", "black", ":"))
     drawn = [factor * line for line in lines]
     extremes = _extremes(run, name, extreme)
-    for line, value, (when, what, colour, style) in zip(drawn, extremes, looks, strict=True):
-        entry = f"{when}, {what}{factor * value:.3g} {suffix}"
+    for line, value, (when, colour, style) in zip(drawn, extremes, looks, strict=True):
+        entry = f"{when}, {kind} {factor * value:.3g} {suffix}"
         ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=entry)
-    ax.set_xlim(*shown_range(run))
+    ax.set_xlim(*shown_range(run.x))
     ax.set_ylabel(f"{label} [{suffix}]")
     along_label(run, ax)
     legend_above(ax, columns=3)

@@ -9,12 +9,9 @@ from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
 from ehlectric.contact.conditions import surface_ratios
-from ehlectric.figures.style import name_over
+from ehlectric.figures.style import label_position, name_over
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.units import unit_for
-
-# Range of x in the figures [half-widths], as in the figures of stationary contacts.
-_BEFORE, _BEHIND = -2.0, 1.5
 
 # By the kind of contact: the smallest number that a film thickness may have in its unit, and the line along
 # which values are drawn. Films of point contacts are measured by interferometry and stated in nanometres.
@@ -45,11 +42,6 @@ def height_unit(heights: Array) -> Unit:
     return unit_for(float(np.max(np.abs(heights), initial=1e-9)), "m", least=1.0)
 
 
-def shown_range(run: MotionRun) -> tuple[float, float]:
-    """Ends of the axis of x, within the domain [half-widths]."""
-    return max(float(run.x[0]), _BEFORE), min(float(run.x[-1]), _BEHIND)
-
-
 def in_contact(run: MotionRun, values: Array) -> Array:
     """Finite values in the Hertz zone, from values of shape (..., nx).
 
@@ -69,10 +61,7 @@ def fitted(*values: Array, least: float = 0.0) -> tuple[float, float]:
 
 def along_label(run: MotionRun, ax: Axes) -> None:
     """Label the axis of positions along entrainment, with the length of the half-width."""
-    b = run.conditions.half_width
-    factor, unit = unit_for(b, "m", least=1.0)
-    line = _ALONG[run.kind.name]
-    ax.set_xlabel(f"$x/b$   ({line}$b$ = {factor * b:.4g} {unit})")
+    label_position(run, ax, line=_ALONG[run.kind.name])
 
 
 def speed_text(run: MotionRun) -> str:

@@ -93,14 +93,14 @@ def over_pressure(report: OilReport) -> list[Axes]:
     """
     highest = max(_PRESSURE, _ROOM * max(report.pressures, default=0.0))
     pressure = np.linspace(0.0, highest, _NODES)
-    panels = [panel for panel in _panels_over_pressure(report) if _known(report.oils, panel, pressure)]
+    panels = [panel for panel in _panels_over_pressure(report) if _known(report.oils, panel, pressure[1])]
     axes = _axes_of(panels)
     if not axes:
         return axes
     for ax, panel in zip(axes, panels, strict=True):
         one = PROPERTIES[panel.names[0]]
         for colour, oil in zip(_colours(len(report.oils)), report.oils, strict=True):
-            values = panel.factor * _curve(one, oil, pressure)
+            values = panel.factor * np.array([_value(one, oil, at) for at in pressure.tolist()])
             within = pressure <= one.range_end(oil)
             ax.plot(1e-9 * pressure[within], values[within], color=colour, label=celsius(oil.temperature))
             _beyond(ax, panel, oil, (pressure, values), colour)
@@ -132,15 +132,9 @@ def _flat(name: str, report: OilReport, pressure: float) -> bool:
     return name in optional and law_behind(name, report.named.table, pressure) == "constant"
 
 
-def _known(oils: Sequence[KnownOil | None], panel: _Panel, pressure: Array) -> bool:
-    """Whether the first property of a panel is known for one of the oils."""
-    one = PROPERTIES[panel.names[0]]
-    return any(bool(np.any(np.isfinite(_curve(one, oil, pressure[1:2])))) for oil in oils)
-
-
-def _curve(one: OilProperty, oil: KnownOil | None, pressure: Array) -> Array:
-    """Values of a property over pressure, SI units; NaN where there is none."""
-    return np.array([_value(one, oil, at) for at in pressure.tolist()])
+def _known(oils: Sequence[KnownOil | None], panel: _Panel, pressure: float) -> bool:
+    """Whether the first property of a panel is known for one of the oils at a pressure [Pa]."""
+    return any(math.isfinite(_value(PROPERTIES[panel.names[0]], oil, pressure)) for oil in oils)
 
 
 def _oil_at(report: OilReport, kelvin: float) -> KnownOil | None:
@@ -186,7 +180,7 @@ def over_temperature(report: OilReport) -> list[Axes]:
     ends = table.temperature_range or (min(_ENDS[0], *known), max(_ENDS[1], *known))
     kelvins = np.linspace(ends[0], ends[1], _FEWER)
     oils = [_oil_at(report, kelvin) for kelvin in kelvins.tolist()]
-    panels = [panel for panel in _OVER_TEMPERATURE if _known(oils, panel, np.zeros(2))]
+    panels = [panel for panel in _OVER_TEMPERATURE if _known(oils, panel, 0.0)]
     panels = [panel for panel in panels if not _flat(panel.names[0], report, 0.0)]
     axes = _axes_of(panels)
     if not axes:
@@ -251,17 +245,13 @@ def _heading(report: OilReport, over: str, pressure: float) -> str:
     missing = [
         one.title
         for one in PROPERTIES.values()
-        if (one.over_pressure or pressure == 0.0) and _unknown(report.oils, one, pressure)
+        if one.over_pressure or pressure == 0.0
+        if all(math.isnan(_value(one, oil, pressure)) for oil in report.oils)
     ]
     lines = [f"{named.name or 'Oil'} {over}", named.title]
     if missing:
         lines.append(f"Not known: {', '.join(missing)}")
     return "\n".join(filter(None, lines))
-
-
-def _unknown(oils: Sequence[KnownOil], one: OilProperty, pressure: float) -> bool:
-    """Whether a property is known at none of the temperatures."""
-    return all(math.isnan(_value(one, oil, pressure)) for oil in oils)
 
 
 def _legend(ax: Axes, report: OilReport, *, ends: bool) -> None:
@@ -283,9 +273,7 @@ def save_oil(report: OilReport, folder: Path, formats: Sequence[str] = ("png",))
     """Write the figures of an oil as files, one of each format. Returns files written; an oil whose viscosity
     does not depend on temperature has no figure over it.
     """
-    draws = (
-        (over_pressure, over_temperature) if depends_on_temperature(report.named.table) else (over_pressure,)
-    )
+    draws = [over_pressure, *([over_temperature] if depends_on_temperature(report.named.table) else [])]
     with style():
         drawn = {name: draw(report) for name, draw in zip(OIL_FIGURE_FILES, draws, strict=False)}
         figures = {name: figure_of(axes[0]) for name, axes in drawn.items() if axes}

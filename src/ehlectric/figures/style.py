@@ -69,40 +69,19 @@ class _Look:
     height: float = 1.0  # ratio of the height of a figure in one column to its height on the screen
 
 
-_SCREEN: dict[str, Any] = {
-    "font.size": 9.0,
-    "axes.labelsize": 9.0,
-    "axes.titlesize": 9.0,
-    "legend.fontsize": 8.0,
-    "lines.linewidth": 1.2,
-    "axes.linewidth": 0.7,
-    "hatch.linewidth": 0.6,
-    "savefig.dpi": 300,
-    "figure.constrained_layout.use": True,
-    # Fonts are embedded in PDF as TrueType, which keeps their text; in SVG, letters are drawn as paths, which
-    # look the same on machines without the font. The salt makes the names inside an SVG file repeatable.
-    "pdf.fonttype": 42,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "ehlectric",
-}
-_JOURNAL: dict[str, Any] = _SCREEN | {
-    "font.size": 8.0,
-    "axes.labelsize": 8.0,
-    "axes.titlesize": 8.0,
-    "xtick.labelsize": 7.0,
-    "ytick.labelsize": 7.0,
-    "legend.fontsize": 7.0,
-    "lines.linewidth": 0.8,
-    "lines.markersize": 4.2,
-    "axes.linewidth": 0.5,
-    "xtick.major.width": 0.5,
-    "ytick.major.width": 0.5,
-    "hatch.linewidth": 0.4,
-    "savefig.dpi": 600,
-}
+def _settings(name: str) -> dict[str, Any]:
+    """Settings of matplotlib of a style sheet of this folder."""
+    sheet = Path(__file__).with_name(f"{name}.mplstyle")
+    return dict(mpl.rc_params_from_file(sheet, use_default_template=False).items())
+
+
+# Widths of one column and of two columns of a journal [inches].
+_COLUMNS = 84.0 / 25.4, 174.0 / 25.4
+
+_SCREEN = _settings("screen")
 _LOOKS: Mapping[str, _Look] = {
     "screen": _Look(_SCREEN),
-    "journal": _Look(_JOURNAL, titled=False, columns=(84.0 / 25.4, 174.0 / 25.4), height=0.75),
+    "journal": _Look(_SCREEN | _settings("journal"), titled=False, columns=_COLUMNS, height=0.75),
 }
 assert tuple(_LOOKS) == STYLES
 
@@ -172,6 +151,14 @@ def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: boo
 def outlined(width: float, colour: str = "white") -> list[AbstractPathEffect]:
     """Edge of a line or text [pt], which keeps it visible on any colour."""
     return [cast("AbstractPathEffect", withStroke(linewidth=width, foreground=colour))]
+
+
+def note(ax: Axes, x: float, y: float, text: str, *, unit: str = "", **look: Any) -> None:
+    """Write a small text at a place in parts of the axes; ``unit`` names an axis, "x" or "y", of whose unit
+    the position along it is.
+    """
+    places = {"": ax.transAxes, "x": ax.get_xaxis_transform(), "y": ax.get_yaxis_transform()}
+    ax.text(x, y, text, transform=places[unit], **({"fontsize": "small"} | look))
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -477,10 +464,10 @@ def in_half_widths(result: OfContact, x: Array) -> Array:
     return x / result.conditions.half_width
 
 
-def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
-    """Label the horizontal axis with x/b or y/b, and with the value of the half-width b."""
+def label_position(result: OfContact, ax: Axes, axis: str = "x", *, line: str = "") -> None:
+    """Label the horizontal axis with x/b or y/b, the ``line`` that it lies on, and the half-width b."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
-    ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
+    ax.set_xlabel(f"${axis}/b$   ({line}$b$ = {factor * result.conditions.half_width:.4g} {unit})")
 
 
 # Room that the axis of lengths above the axes takes [pt], and place of its name beside its numbers [pt].

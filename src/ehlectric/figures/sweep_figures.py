@@ -239,12 +239,10 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
         left, right = new_panels(1, 2, (8.4, high))
         distribution(results, analysis, left)
         parts(results, analysis, right)
-        dropped = (
-            f"{analysis.dropped} of {analysis.rows} rows dropped: not solved" if analysis.dropped else ""
-        )
+        dropped = f"{analysis.dropped} of {analysis.rows} rows dropped: not solved"
         doubtful = f"{analysis.doubtful} of {analysis.used} used rows have points that must not be used"
-        more = ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""]))
-        name_figure(left, results, of_sensitivity(results, analysis), more)
+        more = [dropped] * bool(analysis.dropped) + [doubtful] * bool(analysis.doubtful)
+        name_figure(left, results, of_sensitivity(results, analysis), ", ".join(more))
     return figure_of(left)
 
 

@@ -315,9 +315,7 @@ def _name_lines(
     ]
     named = ax.legend(
         handles=handles[::-1] if selection.numeric else handles,
-        title="\n".join(
-            [label.name, " ".join([label.symbol, f"[{scale.unit}]" if scale.unit else ""])]
-        ).strip(),
+        title=f"{label.name}\n{label.symbol} {f'[{scale.unit}]' if scale.unit else ''}".strip(),
         loc="center left",
         bbox_to_anchor=(1.01, 0.5),
         frameon=False,

@@ -118,11 +118,9 @@ class _Between:
 
     def values(self) -> tuple[Array, Mask]:
         """Drawn values at the nodes, in SI units, and mask of the triangles with values throughout."""
-        return (
-            self.margins()
-            if self.selection.value == self.selection.breakdown.margin
-            else self._at_nodes(self.selection.values)
-        )
+        if self.selection.value == self.selection.breakdown.margin:
+            return self.margins()
+        return self._at_nodes(self.selection.values)
 
     def margins(self) -> tuple[Array, Mask]:
         """Margin of the breakdown voltage at the nodes, and mask of the triangles with values throughout.

@@ -23,6 +23,7 @@ from scipy.special import ndtr, ndtri
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
 from ehlectric.cases.defaults import HOW
+from ehlectric.errors import CODES
 from ehlectric.figures.style import name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
@@ -182,46 +183,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 # Codes of warnings that say that the numbers of a point are less accurate than those of other points. Other
 # warnings, such as that of an expected breakdown, say something about a contact whose numbers are good.
-LESS_ACCURATE = frozenset(
-    {
-        # Laws of lubricant and strength beyond their range
-        "law-range",
-        "temperature-low",
-        "strength-table-exceeded",
-        "tunnelling",
-        # Roughness that is not resolved
-        "roughness-continued",
-        "roughness-unresolved",
-        "variance-missed",
-        # Surfaces that may touch: voltages are upper bounds
-        "surfaces-touch",
-        "asperities-touch",
-        "oil-not-conserved",
-        "thinner-than-atom",
-        "touching",
-        "partial-film",
-        # Discretisation
-        "refine-not-reached",
-        "error-unknown",
-        "grid-too-coarse",
-        "field-grid-too-coarse",
-        "stationary-error",
-        "stationary-not-converged",
-        # Domain
-        "inlet-too-short",
-        "outlet-too-short",
-        "domain-too-small",
-        "field-range-too-narrow",
-        # Geometry of bearings beyond its assumptions
-        "clearance-taken-up",
-        "shoulder-reached",
-        "capacitance-bound",
-        # Drives with a rate of few events
-        "few-discharges",
-        # Warnings of other versions, whose meaning is not known
-        "unclassified",
-    }
-)
+LESS_ACCURATE = frozenset(code for code, cause in CODES.items() if cause.less_accurate)
 
 # Names of kinds in legends, where they differ from the kind.
 _NAMES = {

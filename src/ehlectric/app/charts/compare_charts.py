@@ -42,13 +42,13 @@ def changes(effects: Iterable[Effect]) -> dict[str, Any]:
         "marker": {"color": [_SECOND if value > 0.0 else _FIRST for value in values]},
     }
     reach = 1.05 * max([10.0, *(min(_LONGEST, abs(value)) for value in values)])
-    layout = _layout(70 + 40 * len(rows)) | {
+    layout = {
         "xaxis": {"title": {"text": "change from A to B [%]"}, "range": [-reach, reach], "zeroline": True},
         "yaxis": {"automargin": True, "fixedrange": True, "ticks": ""},
         "showlegend": False,
         "bargap": 0.4,
     }
-    return _figure([bars], layout)
+    return _figure([bars], 70 + 40 * len(rows), layout)
 
 
 def films(sides: Sequence[Side]) -> dict[str, Any]:
@@ -79,16 +79,17 @@ def films(sides: Sequence[Side]) -> dict[str, Any]:
         "angularaxis": {"rotation": -90.0, "direction": "counterclockwise", "ticksuffix": "°"},
         "bgcolor": "rgba(0,0,0,0)",
     }
-    layout = _layout(430) | {
+    layout = {
         "polar": polar,
         "margin": {"l": 42, "r": 42, "t": 30, "b": 45},
         "legend": {"orientation": "h", "x": 0.5, "xanchor": "center", "y": -0.12},
     }
-    return _figure(traces, layout)
+    return _figure(traces, 430, layout)
 
 
-def _layout(height: int) -> dict[str, Any]:
-    return {
+def _figure(data: list[dict[str, Any]], height: int, layout: dict[str, Any]) -> dict[str, Any]:
+    """Figure for Plotly of a height [px], with the look of the page."""
+    look = {
         "height": height,
         "margin": {"l": 20, "r": 20, "t": 20, "b": 45},
         "paper_bgcolor": "rgba(0,0,0,0)",
@@ -96,9 +97,6 @@ def _layout(height: int) -> dict[str, Any]:
         "font": {"size": 13},
         "uirevision": "same",
     }
-
-
-def _figure(data: list[dict[str, Any]], layout: dict[str, Any]) -> dict[str, Any]:
     buttons = {"format": "svg", "filename": "ehlectric-compare"}
     config = {"displaylogo": False, "responsive": True, "toImageButtonOptions": buttons}
-    return {"data": data, "layout": layout, "config": config}
+    return {"data": data, "layout": look | layout, "config": config}

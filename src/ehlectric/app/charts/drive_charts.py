@@ -22,7 +22,6 @@ from ehlectric.figures.drive_figures import (
     COLOURS,
     NAMES,
     QUANTITIES,
-    bearing_panel,
     bins_of,
     breakdown_of,
     events_of,
@@ -31,7 +30,6 @@ from ehlectric.figures.drive_figures import (
     number_of_events,
     shown_discharges,
     shown_range,
-    source_panel,
     time_axis,
     variants,
     voltage_unit,
@@ -86,7 +84,7 @@ def drive_figures(result: DriveResult) -> dict[str, Figure]:
 def voltages_figure(result: DriveResult) -> Figure:
     """Common-mode voltage and both bearing voltages over two periods of the carrier, with discharges."""
     along = time_axis(result)
-    panels = [source_panel(result), *(bearing_panel(result, b) for b in range(2))]
+
     rows = [
         (name, f"{at:.4g}", f"{volts:.3g}")
         for b, name in enumerate(NAMES)
@@ -96,7 +94,7 @@ def voltages_figure(result: DriveResult) -> Figure:
     return Figure(
         "Voltages over two periods of the carrier",
         f"Common-mode voltage and voltages across the films of both bearings over time. {finding}.",
-        stack(along, panels, showlegend=False),
+        stack(along, findings.voltage_panels(result), showlegend=False),
         Table("Discharges of this time", ("bearing", f"time [{along.unit}]", "voltage [V]"), tuple(rows)),
         "Circles mark discharges. Dashed: breakdown voltage of the weakest position, where it is near.",
     )

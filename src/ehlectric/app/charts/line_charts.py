@@ -24,6 +24,8 @@ from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.figures.contact_profiles import (
+    BEFORE,
+    BEHIND,
     SPOTS,
     Line,
     field_scale,
@@ -38,12 +40,6 @@ from ehlectric.figures.data import Along
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 
-# Range of x/b that figures show at first, as in the figures of the command.
-BEFORE, BEHIND = -2.0, 1.5
-
-# Ratio of the semi-axes above which the long axis lies along the page, as in the figures of the command.
-_TURNED = 1.2
-
 
 @dataclass(frozen=True)
 class Lengths:
@@ -56,11 +52,6 @@ class Lengths:
     def of(cls, result: Result | PointResult) -> Lengths:
         """Unit that suits the half-width of a contact, or its semi-axis along entrainment."""
         return cls(*unit_for(result.conditions.half_width, "m", least=1.0))
-
-
-def is_turned(result: PointResult) -> bool:
-    """Whether maps have y to the right and entrainment downwards."""
-    return result.conditions.ratio > _TURNED
 
 
 def main_numbers(result: Result | PointResult) -> str:

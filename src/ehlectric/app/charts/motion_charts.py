@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.charts.line_charts import BEFORE, BEHIND
 from ehlectric.app.charts.plotly_panels import (
     FILM_COLOURS,
     NARROW,
@@ -25,6 +24,7 @@ from ehlectric.app.charts.plotly_panels import axis as plot_axis
 from ehlectric.app.charts.plotly_panels import values as listed
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact.conditions import PointConditions
+from ehlectric.figures.contact_profiles import BEFORE, BEHIND
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages

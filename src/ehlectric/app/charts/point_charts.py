@@ -11,11 +11,8 @@ import numpy as np
 
 from ehlectric.app.answers import Reach, Shown
 from ehlectric.app.charts.line_charts import (
-    BEFORE,
-    BEHIND,
     BEYOND,
     Lengths,
-    is_turned,
     main_numbers,
     mark,
     spot_marks,
@@ -39,12 +36,15 @@ from ehlectric.app.charts.plotly_panels import (
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult
 from ehlectric.figures.contact_profiles import (
+    BEFORE,
+    BEHIND,
     SPOTS,
     Line,
     field_scale,
     field_strength,
     film_scale,
     film_thickness,
+    is_turned,
     pressure,
     touches,
 )
@@ -153,7 +153,7 @@ def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
         "tickfont": {"size": 12},
     }
     # A long contact is seen from the inlet, with its long axis across the page.
-    eye = {"x": -1.9, "y": -0.5, "z": 1.5} if is_turned(result) else {"x": -0.95, "y": -1.6, "z": 1.5}
+    x, y = (-1.9, -0.5) if is_turned(result.conditions) else (-0.95, -1.6)
     return {
         "scene": {
             "xaxis": {"title": {"text": f"x [{lengths.unit}]"}, **look},
@@ -161,7 +161,7 @@ def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
             "zaxis": {"title": {"text": f"film [{unit}]"}, "range": [0.0, _top(result)], **look},
             "aspectmode": "manual",
             "aspectratio": {"x": ratio**-0.5, "y": ratio**0.5, "z": 0.45},
-            "camera": {"eye": eye, "center": {"x": 0.0, "y": 0.0, "z": -0.12}},
+            "camera": {"eye": {"x": x, "y": y, "z": 1.5}, "center": {"x": 0.0, "y": 0.0, "z": -0.12}},
             "uirevision": "same",
         },
         "margin": {"l": 0, "r": 0, "t": 30, "b": 0},
@@ -210,7 +210,7 @@ def reach_of(result: PointResult) -> Reach:
     ]
     x, y = (lengths.factor * at for at in spot_position(result))
     first = "the spot of the highest pressure" if touches(result) else "the smallest film"
-    return Reach(ends[0], ends[1], (x, y), lengths.unit, is_turned(result), first)
+    return Reach(ends[0], ends[1], (x, y), lengths.unit, is_turned(result.conditions), first)
 
 
 def point_figures(result: PointResult) -> tuple[Shown, ...]:
@@ -218,8 +218,10 @@ def point_figures(result: PointResult) -> tuple[Shown, ...]:
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):
         return ()
-    maps = (_film_map(result), _pressure_map(result))
-    return maps if not result.converged else (*maps, _field_map(result), film_surface(result))
+    film_and_pressure = _drawn(result, _film_map(result)), _drawn(result, _pressure_map(result))
+    if not result.converged:
+        return film_and_pressure
+    return *film_and_pressure, _drawn(result, _field_map(result)), film_surface(result)
 
 
 @dataclass(frozen=True)
@@ -239,76 +241,67 @@ class _Map:
     caption: str = ""
 
 
-def _film_map(result: PointResult) -> Shown:
+def _film_map(result: PointResult) -> _Map:
     film = result.film
     factor, unit = unit_for(film_scale(result), "m")
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
     least = factor * film.minimum_thickness
-    return _drawn(
-        result,
-        _Map(
-            "film-map",
-            "Film thickness",
-            (film.x, film.y),
-            factor * film.thickness,
-            unit,
-            (least, max(highest, 1.001 * least)),
-            FILM_COLOURS,
-            film.minimum_position,
-            "" if touches(result) else f"minimum film, {least:.4g} {unit}",
-            f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
-        ),
+    return _Map(
+        "film-map",
+        "Film thickness",
+        (film.x, film.y),
+        factor * film.thickness,
+        unit,
+        (least, max(highest, 1.001 * least)),
+        FILM_COLOURS,
+        film.minimum_position,
+        "" if touches(result) else f"minimum film, {least:.4g} {unit}",
+        f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
     )
 
 
-def _pressure_map(result: PointResult) -> Shown:
+def _pressure_map(result: PointResult) -> _Map:
     film = result.film
     factor, unit = unit_for(film.max_pressure, "Pa")
     i, j = np.unravel_index(np.argmax(film.pressure), film.pressure.shape)
     most = factor * film.max_pressure
-    return _drawn(
-        result,
-        _Map(
-            "pressure-map",
-            "Pressure",
-            (film.x, film.y),
-            factor * film.pressure,
-            unit,
-            (0.0, most),
-            PRESSURE_COLOURS,
-            (float(film.x[i]), float(film.y[j])),
-            f"maximum pressure, {most:.4g} {unit}",
-        ),
+    return _Map(
+        "pressure-map",
+        "Pressure",
+        (film.x, film.y),
+        factor * film.pressure,
+        unit,
+        (0.0, most),
+        PRESSURE_COLOURS,
+        (float(film.x[i]), float(film.y[j])),
+        f"maximum pressure, {most:.4g} {unit}",
     )
 
 
-def _field_map(result: PointResult) -> Shown:
+def _field_map(result: PointResult) -> _Map:
     field = result.field
     scale = field_scale(result)
     factor, unit = unit_for(scale, "V/m")
     low = factor * _least_field(result)
-    return _drawn(
-        result,
-        _Map(
-            "field-map",
-            "Maximum field across the film",
-            (field.x, field.y),
-            factor * np.max(field.strength, axis=-1),
-            unit,
-            (low, factor * scale),
-            FIELD_COLOURS,
-            field.max_strength_position,
-            "" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
-            f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
-            + (f" {BEYOND}" if touches(result) else ""),
-        ),
+    return _Map(
+        "field-map",
+        "Maximum field across the film",
+        (field.x, field.y),
+        factor * np.max(field.strength, axis=-1),
+        unit,
+        (low, factor * scale),
+        FIELD_COLOURS,
+        field.max_strength_position,
+        "" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
+        f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
+        + (f" {BEYOND}" if touches(result) else ""),
     )
 
 
 def _drawn(result: PointResult, what: _Map) -> Shown:
     """Map with lines of equal values, the edge of the dry contact, its extreme and the lines of the cuts."""
-    lengths, turned = Lengths.of(result), is_turned(result)
+    lengths, turned = Lengths.of(result), is_turned(result.conditions)
     kept = [_window(result, axis_, k, what.mark[k]) for k, axis_ in enumerate(what.axes)]
     x, y = (lengths.factor * axis_[one] for axis_, one in zip(what.axes, kept, strict=True))
     inside = what.values[np.ix_(*kept)]
@@ -364,7 +357,7 @@ def _plane(result: PointResult, names: tuple[str, str], lengths: Lengths, ends: 
         "xaxis": axis(f"{names[0]} [{lengths.unit}]", constrain="domain"),
         "yaxis": axis(
             f"{names[1]} [{lengths.unit}]{note}",
-            range=vertical[::-1] if is_turned(result) else vertical,
+            range=vertical[::-1] if is_turned(result.conditions) else vertical,
             scaleanchor="x",
             scaleratio=stretch,
             constrain="domain",
@@ -409,7 +402,8 @@ def _shapes(result: PointResult, lengths: Lengths) -> list[Plot]:
     """Edge of the dry contact, and the lines of the cuts, the third and the fourth."""
     b, a = (lengths.factor * length for length in result.conditions.semi_axes)
     at = [lengths.factor * place for place in spot_position(result)]
-    (across, down), (across_at, down_at) = ((a, b), at[::-1]) if is_turned(result) else ((b, a), at)
+    turned = is_turned(result.conditions)
+    (across, down), (across_at, down_at) = ((a, b), at[::-1]) if turned else ((b, a), at)
     cut = {"color": ORANGE, "width": 1}
     ellipse = {"type": "circle", "x0": -across, "x1": across, "y0": -down, "y1": down}
     # White dashes on black are seen on every colour.

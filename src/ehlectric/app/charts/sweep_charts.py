@@ -32,6 +32,9 @@ _FEW = 400
 
 _SELECTED = "chosen point"
 
+# Keys of a trace without a bar of colours and without a text at the pointer.
+_SILENT: Mapping[str, Any] = {"showscale": False, "hoverinfo": "skip"}
+
 
 def figure_of(chart: Chart, chosen: int | None = None) -> dict[str, Any]:
     """Figure of a sweep: a map over two inputs, a line over one. Returns data, layout and settings for
@@ -62,16 +65,25 @@ def place(chart: Chart, number: int) -> tuple[int, int]:
 
 
 def _map(chart: Chart) -> list[dict[str, Any]]:
-    values = [point.value for point in chart.points if point.value is not None]
-    log = bool(values) and min(values) > 0.0 and max(values) > _WIDE * min(values)
     traces = [_cells(chart)]
-    if values:
+    if values := _known(chart):
+        log = _is_wide(values)
         traces.append(_coloured(chart, values, log=log))
         # Lines of equal value between a few solved points would move with every further one.
         whole = not any(point.state == "open" for point in chart.points)
         traces += [_levels(chart)] if whole and not log else []
         traces += [*_critical(chart), *_below(chart)]
     return traces + _states(chart)
+
+
+def _known(chart: Chart) -> list[float]:
+    """Values of the points that have one."""
+    return [point.value for point in chart.points if point.value is not None]
+
+
+def _is_wide(values: Sequence[float]) -> bool:
+    """Whether colours, or the axis of the values, follow the logarithm."""
+    return bool(values) and min(values) > 0.0 and max(values) > _WIDE * min(values)
 
 
 def _cells(chart: Chart) -> dict[str, Any]:
@@ -83,15 +95,11 @@ def _cells(chart: Chart) -> dict[str, Any]:
         "z": _grid(chart, tried),
         "colorscale": [[0.0, MIDDLE_GREY], [1.0, MIDDLE_GREY]],
         "opacity": 0.35,
-        "showscale": False,
-        "hoverinfo": "skip",
+        **_SILENT,
     }
 
 
 def _coloured(chart: Chart, values: Sequence[float], *, log: bool) -> dict[str, Any]:
-    def shown(value: float | None) -> float | None:
-        return value if value is None or not log else math.log10(value)
-
     bar: dict[str, Any] = {
         "title": {"text": chart.title, "side": "right"},
         "thickness": 14,
@@ -103,7 +111,7 @@ def _coloured(chart: Chart, values: Sequence[float], *, log: bool) -> dict[str, 
     return {
         "type": "heatmap",
         **_axes_of_cells(chart),
-        "z": _grid(chart, [shown(point.value) for point in chart.points]),
+        "z": _grid(chart, [_log(point.value) if log else point.value for point in chart.points]),
         "text": _grid(chart, [_hover(point) for point in chart.points]),
         "customdata": _grid(chart, [point.number for point in chart.points]),
         "hovertemplate": "%{text}<extra></extra>",
@@ -130,9 +138,8 @@ def _levels(chart: Chart) -> dict[str, Any]:
         "autocontour": True,
         "ncontours": 8,
         "connectgaps": False,
-        "showscale": False,
-        "hoverinfo": "skip",
         "showlegend": False,
+        **_SILENT,
     }
 
 
@@ -149,8 +156,7 @@ def _critical(chart: Chart) -> list[dict[str, Any]]:
         "contours": {"coloring": "none", "start": 0.0, "end": 0.0, "size": 1.0},
         "autocontour": False,
         "connectgaps": False,
-        "showscale": False,
-        "hoverinfo": "skip",
+        **_SILENT,
     }
     halo = line | {"line": {"color": "#ffffff", "width": 6}, "showlegend": False}
     return [
@@ -246,8 +252,7 @@ def _layout(chart: Chart) -> dict[str, Any]:
         "autosize": True,
     }
     if chart.y is None:
-        values = [point.value for point in chart.points if point.value is not None]
-        if values and min(values) > 0.0 and max(values) > _WIDE * min(values):
+        if _is_wide(_known(chart)):
             layout["yaxis"]["type"] = "log"
         layout["yaxis"]["zeroline"] = False
         layout["yaxis2"] = {"range": [0.0, 1.0], "overlaying": "y", "visible": False, "fixedrange": True}
