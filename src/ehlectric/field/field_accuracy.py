@@ -398,8 +398,7 @@ def _promise(place: Place, tried: Sequence[tuple[Place, StrengthError]]) -> floa
 
 def _replaced(problem: ProblemT, **changes: Any) -> ProblemT:
     """Changed copy of a problem; both kinds of problems are dataclasses."""
-    changed: ProblemT = replace(problem, **changes)  # type: ignore[type-var]
-    return changed
+    return replace(problem, **changes)  # type: ignore[type-var]
 
 
 @dataclass(frozen=True)

@@ -53,8 +53,7 @@ class Gap:
         ``columns`` selects the nodes of P within ``rows``.
         """
         kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
-        block: Array = kernel[:, columns]
-        return block
+        return kernel[:, columns]
 
     def matrix(self) -> Array:
         """Derivative of H by P of all nodes, dense, shape (nx ny, nx ny); for the coarsest grid."""
@@ -70,5 +69,4 @@ class Gap:
         It is the change of the wedge term at a node if the pressure P of the node rises by one and P of its
         neighbour falls by one. ``density`` (nx, ny) is rho/rho_0.
         """
-        weight: Array = density * ((self.along(0) - self.along(1)) * self.level.rate)
-        return weight
+        return density * ((self.along(0) - self.along(1)) * self.level.rate)

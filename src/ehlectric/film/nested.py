@@ -365,8 +365,7 @@ def _filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
     else:
         at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
         part = RegularGridInterpolator((coarse.x, coarse.y), filled.astype(float))(at)
-    on_mesh: Mask = part > 0.5
-    return on_mesh
+    return part > 0.5
 
 
 def _finer(level: Level, of: Mesh, values: Array) -> Array:

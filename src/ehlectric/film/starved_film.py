@@ -76,8 +76,7 @@ class Supply:
     @property
     def low(self) -> Mask:
         """Nodes whose mass is extrapolated nowhere."""
-        low: Mask = np.asarray(self.upwind) | (False if self.steep is None else self.steep)
-        return low
+        return np.asarray(self.upwind) | (False if self.steep is None else self.steep)
 
     def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
         """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""

@@ -114,8 +114,7 @@ class Carried:
     def hollow(self) -> Mask:
         """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
         ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
-        hollow: Mask = ~self.filled & ahead
-        return hollow
+        return ~self.filled & ahead
 
     def on(self, level: Level) -> Carried:
         """Filled nodes and supply on the next coarser grid, for its equations only."""
@@ -143,8 +142,7 @@ def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
     set method; the edges of the domain are never among them.
     """
     excess = state.contact_pressure - (state.thickness - boundary_film) / node_compliance(level)
-    contact: Mask = (excess > 0.0) & level.mesh.inner
-    return contact
+    return (excess > 0.0) & level.mesh.inner
 
 
 def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: Mask) -> Mask:
@@ -152,8 +150,7 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
     if np.isinf(asperities.hardness):
         return np.zeros(contact.shape, dtype=bool)
     sunk = (asperities.boundary_film - state.thickness) / node_compliance(level)
-    plastic: Mask = contact & (state.pressure - asperities.hardness + sunk > 0.0)
-    return plastic
+    return contact & (state.pressure - asperities.hardness + sunk > 0.0)
 
 
 def assess_touching(

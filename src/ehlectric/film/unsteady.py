@@ -111,8 +111,7 @@ def carried(values: Array, distance: float) -> Array:
     padded = np.concatenate([before, values, beyond])
     start, n = ghosts - whole, values.shape[0]
     if abs(part) <= SAME_NODE:
-        moved: Array = padded[start : start + n].copy()
-        return moved
+        return padded[start : start + n].copy()
     weights = zip((-2, -1, 0, 1), lagrange_weights(part), strict=True)
     return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
 

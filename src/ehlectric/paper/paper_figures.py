@@ -49,8 +49,7 @@ def _text(ax: Axes, x: float, y: float, text: str, **options: object) -> None:
 def _gap(x: Array) -> Array:
     """Half of a schematic film thickness: flat from x = -1 to 1 with an exit constriction, wider outside."""
     outside = np.maximum(np.abs(x) - 1.0, 0.0)
-    gap: Array = 0.16 + 0.35 * outside**1.5 - 0.05 * np.exp(-(((x - 0.95) / 0.12) ** 2))
-    return gap
+    return 0.16 + 0.35 * outside**1.5 - 0.05 * np.exp(-(((x - 0.95) / 0.12) ** 2))
 
 
 def film_model() -> Figure:
