@@ -41,10 +41,9 @@ from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
-    ROUNDING,
+    GridProblem,
     GridSolution,
     NewtonStep,
-    Progress,
     Residual,
     State,
     Status,
@@ -482,37 +481,31 @@ _NEAR = 1e-3
 
 
 def touching_newton(
-    fluid: Fluid,
-    levels: list[Level],
+    problem: GridProblem,
     state: State,
-    *,
     asperities: Asperities,
-    tolerance: float,
-    max_iterations: int,
+    *,
     first_damping: float = 1.0,
-    progress: Progress | None = None,
     carried: Carried | None = None,
 ) -> GridSolution:
-    """Last iterate of Newton's method on the first of ``levels``, where the surfaces may touch.
+    """Last iterate of Newton's method on one grid, where the surfaces may touch.
 
     Where the oil in cavities is carried through them, ``carried`` has the nodes that oil fills in the initial
     guess. The state of the result has the contact pressure.
     """
-    level = levels[0]
-    tolerance = max(tolerance, ROUNDING * level.rate)
+    fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory()
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
-    while len(steps) < min(max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
-        if progress is not None:
-            progress(level.nodes, len(steps), now.norm)
+    while len(steps) < min(problem.max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
+        problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0)
         before = now.norm
-        step = newton_step(fluid, levels, state, now, asperities, close, damping)
+        step = newton_step(fluid, problem.levels, state, now, asperities, close, damping)
         steps.append(step.record)
         assessed = step.now
         if not np.isfinite(assessed.norm):

@@ -43,7 +43,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.nested import levels_of
-from ehlectric.film.newton import GridSolution, State, assess, newton
+from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.starved_solver import StarvedFilm
@@ -428,23 +428,17 @@ class UnsteadyFilm:
     def _stepped(self, history: History, step: float) -> tuple[Instant | None, Effort]:
         """Instant one step later, or None if Newton's method does not converge, with the work."""
         time = history.now.time + step
+        tolerance = max(self.problem.tolerance, STEP_TOLERANCE)
         levels = self._levels_at(history, step)
+        posed = GridProblem(self.problem.fluid, levels, tolerance, _MANY_ITERATIONS)
         effort = Effort()
         starts = self._starts(levels, history, step)
         limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
         for (start, spike), iterations in zip(starts, limits, strict=True):
             if history.now.state.touching.any():
                 break
-            solution = newton(
-                self.problem.fluid,
-                levels,
-                start,
-                tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
-                max_iterations=iterations,
-                min_iterations=1,
-                eliminate_spike=spike,
-                transient=True,
-            )
+            limited = replace(posed, max_iterations=iterations)
+            solution = newton(limited, start, min_iterations=1, eliminate_spike=spike, transient=True)
             effort += Effort.of(solution)
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
@@ -453,24 +447,14 @@ class UnsteadyFilm:
                     break
                 return self._instant(time, solution), effort
         if self.problem.boundary_film > 0.0 and self.layer is None:
-            solution = self._touching(levels, history)
+            # The surfaces touch or part in this step: it starts from the last film.
+            last = history.now.state
+            start = State.of(levels[0], last.pressure, last.h00, last.contact_pressure)
+            solution = touching_newton(posed, start, self.problem.asperities, first_damping=0.0)
             effort += Effort.of(solution)
             if solution.status == "converged":
                 return self._instant(time, solution), effort
         return None, effort
-
-    def _touching(self, levels: list[Level], history: History) -> GridSolution:
-        """Film after a time step in which the surfaces touch or part, from the last film."""
-        last = history.now.state
-        return touching_newton(
-            self.problem.fluid,
-            levels,
-            State.of(levels[0], last.pressure, last.h00, last.contact_pressure),
-            asperities=self.problem.asperities,
-            tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
-            max_iterations=_MANY_ITERATIONS,
-            first_damping=0.0,
-        )
 
     def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
