@@ -55,14 +55,6 @@ class Gap:
         kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
         return kernel[:, columns]
 
-    def matrix(self) -> Array:
-        """Derivative of H by P of all nodes, dense, shape (nx ny, nx ny); for the coarsest grid."""
-        return self.level.deflection.matrix
-
-    def load_weights(self) -> Array:
-        """Derivative of the load by P of the nodes, shape (nx, ny)."""
-        return self.level.weights
-
     def elastic_weight(self, density: Array) -> Array:
         """Elastic part of the diagonal of the Reynolds equation, shape (nx, ny).
 

@@ -488,7 +488,7 @@ class HeatedSolution:
     zeta: Array  # positions z/h of these nodes, shape (nz,)
     mid_temperature: Array | None  # temperature at mid-film [K], shape (nx, ny)
     # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature over that of
-    # the oil that enters [K], and the estimate of its error (``accuracy.rise_error``).
+    # the oil that enters [K], and the estimate of its error (``rise_error``).
     max_temperature_rise: float | None
     temperature_rise_error: float | None
     shear_stress: Array  # shear stress along x at mid-film [Pa], shape (nx, ny)

@@ -65,22 +65,29 @@ def step_levels(
     -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
     the inlet, the difference is over one step only.
     """
-    finest, mesh = levels[0], levels[0].mesh
-    step, last = steps
+    mesh, (step, last) = levels[0].mesh, steps
     ratio = step / last
     here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
     first = carried(masses[0], step / mesh.dx)
     second = carried(masses[1], (step + last) / mesh.dx)
     outside = mesh.x - mesh.x[0] < (step + last) - SAME_NODE * mesh.dx
     source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
-    source[~mesh.inner] = 0.0
-    rates = np.where(outside, 1.0 / step, here)
-    new = replace(
-        in_time(finest, here),
-        wedge=_mass_term(mesh.shape, rates[:, np.newaxis]),
+    rates = np.where(outside, 1.0 / step, here)[:, np.newaxis]
+    return _of_time_step(levels, here, rates, source, added_gap)
+
+
+def _of_time_step(
+    levels: list[Level], rate: float, rates: Array, source: Array, added_gap: Array
+) -> list[Level]:
+    """Grids of a time step, with the rates of the mass, the right side and the gap of the finest one."""
+    finest, *coarser = (in_time(level, rate) for level in levels)
+    finest = replace(
+        finest,
+        wedge=_mass_term(finest.mesh.shape, rates),
         dry_gap=finest.dry_gap + added_gap,
+        source=np.where(finest.mesh.inner, source, 0.0),
     )
-    return [replace(new, source=source), *(in_time(level, here) for level in levels[1:])]
+    return [finest, *coarser]
 
 
 def in_time(level: Level, rate: float) -> Level:
@@ -252,8 +259,7 @@ def supplied_step_levels(
 
     On lines that are filled at the inlet edge the scheme is that of ``step_levels``.
     """
-    finest, mesh = levels[0], levels[0].mesh
-    (now, before), (step, last) = instants, steps
+    mesh, (now, before), (step, last) = levels[0].mesh, instants, steps
     ratio, dx = step / last, mesh.dx
     second = ratio / (1.0 + ratio)
     feet, filled = now.at_feet(step / dx), now.filled_feet(step / dx)
@@ -265,15 +271,7 @@ def supplied_step_levels(
     rates = np.where(filled, 1.0 + second, 1.0) / step
     behind = np.where(now.first, -step / dx * now.rise, 0.0)
     source = (carried + second * np.where(filled, feet, behind)) / step
-    source[~mesh.inner] = 0.0
-    here = (1.0 + second) / step
-    new = replace(
-        in_time(finest, here),
-        wedge=_mass_term(mesh.shape, rates),
-        dry_gap=finest.dry_gap + added_gap,
-        source=source,
-    )
-    return [new, *(in_time(level, here) for level in levels[1:])]
+    return _of_time_step(levels, (1.0 + second) / step, rates, source, added_gap)
 
 
 def oil_after(step: GridSolution, layer: Array) -> Oil:

@@ -410,7 +410,7 @@ def contact_probability(film_parameter: ArrayLike) -> Array:
 
     Clarke et al. fitted electrical contact resistances of discs; it is quoted after Arana. Contact begins
     below lambda = 2 and rises steeply below 1. The fit is of one test rig: area of the contact, speed and
-    spacing of the asperities are not in it, whereas they are in ``intermittency.contact_time_share``.
+    spacing of the asperities are not in it, whereas they are in ``contact_time_share``.
 
     Examples
     --------
