@@ -130,19 +130,12 @@ class HotOil:
     curved: bool = False
 
     @classmethod
-    def through(
-        cls,
-        oil_at: Callable[[float], Oil],
-        lowest: float,
-        highest: float,
-        *,
-        temperatures: int = _TEMPERATURES,
-    ) -> HotOil:
+    def through(cls, oil_at: Callable[[float], Oil], lowest: float, highest: float) -> HotOil:
         """Oil through the oils at Chebyshev temperatures. ``oil_at`` [K]; ``lowest`` and ``highest``, range
         of temperature [K]. Raises InputError if the oil has no density, thermal conductivity or heat
         capacity.
         """
-        at = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * chebyshev.chebpts1(temperatures)
+        at = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * chebyshev.chebpts1(_TEMPERATURES)
         oils = tuple(oil_at(float(temperature)) for temperature in at)
         for key, value in (
             ("lubricant.density", oils[0].density),

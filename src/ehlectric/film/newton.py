@@ -74,8 +74,11 @@ class State:
 
     def lifted(self, smallest: float) -> State:
         """State with H00 raised, if necessary, so that H is at least ``smallest`` everywhere."""
-        lift = max(0.0, smallest - float(self.thickness.min()))
-        return State(self.pressure, self.h00 + lift, self.thickness + lift)
+        return self.shifted(max(0.0, smallest - float(self.thickness.min())))
+
+    def shifted(self, shift: float) -> State:
+        """State without contact pressure whose surfaces are further apart by ``shift``."""
+        return State(self.pressure, self.h00 + shift, self.thickness + shift)
 
 
 @dataclass(frozen=True)

@@ -194,8 +194,7 @@ class StarvedProblem:
         centre = at_centre(mesh, state.thickness)
         density = self.flooded_mass / at_centre(mesh, self.flooded.state.thickness)
         shift = min(least, self.flooded_mass) / density - centre
-        state = State(state.pressure, state.h00 + shift, state.thickness + shift)
-        state = state.lifted(_LEAST_GAP * min(least, self.flooded_mass))
+        state = state.shifted(shift).lifted(_LEAST_GAP * min(least, self.flooded_mass))
         inlet = mesh.x[:, np.newaxis] < 0.0
         return state, filled & ~(inlet & (state.thickness > _FILLED * layer))
 
@@ -224,8 +223,8 @@ class StarvedProblem:
         state = last.solution.state
         fall = at_centre_line(self.level, layer) / at_centre_line(self.level, last.layer)
         shift = (fall - 1.0) * at_centre(self.level.mesh, state.thickness)
-        lowered = State(state.pressure, state.h00 + shift, state.thickness + shift)
-        return lowered.lifted(_LEAST_GAP * fall * float(np.min(state.thickness))), last.content.filled
+        lowered = state.shifted(shift).lifted(_LEAST_GAP * fall * float(np.min(state.thickness)))
+        return lowered, last.content.filled
 
 
 def at_centre_line(level: Level, layer: Array) -> float:

@@ -31,13 +31,13 @@ def _canvas(size: tuple[float, float]) -> Axes:
     return ax
 
 
-def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float], style: str = "-|>") -> None:
+def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float]) -> None:
     """Draw an arrow between two points."""
     ax.annotate(
         "",
         xy=stop,
         xytext=start,
-        arrowprops={"arrowstyle": style, "color": _INK, "lw": 1.0, "mutation_scale": 12},
+        arrowprops={"arrowstyle": "-|>", "color": _INK, "lw": 1.0, "mutation_scale": 12},
     )
 
 
