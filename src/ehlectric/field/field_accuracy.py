@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
@@ -24,6 +24,12 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
+
+if TYPE_CHECKING:
+    from ehlectric.field.poisson import FieldProblem
+    from ehlectric.field.poisson_3d import PointFieldProblem
+
+    GapProblem: TypeAlias = FieldProblem | PointFieldProblem
 
 # Long names in files of results.
 _POSITION = "position along entrainment, columns of the field"
@@ -114,46 +120,6 @@ _MOST_PLACES = 100
 
 # Factor of the rise of first order, for the terms of higher order.
 HIGHER_ORDER = 1.25
-
-
-class GapProblem(Protocol):
-    """Attributes that the field problems of line and of point contacts share."""
-
-    @property
-    def lower(self) -> Array:
-        """Height of the lower wall [m]."""
-
-    @property
-    def upper(self) -> Array:
-        """Height of the upper wall [m]."""
-
-    @property
-    def permittivity(self) -> Array:
-        """Relative permittivity, one value per column."""
-
-    @property
-    def potential_1(self) -> float:
-        """Potential of the lower wall [V]."""
-
-    @property
-    def potential_2(self) -> float:
-        """Potential of the upper wall [V]."""
-
-    @property
-    def positions(self) -> dict[str, Array]:
-        """Positions of the columns along each axis [m], by the name of the attribute."""
-
-    @property
-    def degree(self) -> int:
-        """Polynomial degree across the gap."""
-
-    @property
-    def most_degree(self) -> int | None:
-        """Degree up to which the degree may be raised."""
-
-    @property
-    def plain(self) -> bool:
-        """Whether the permittivity is constant across the gap, and nothing but the walls is prescribed."""
 
 
 @dataclass(frozen=True)
@@ -312,7 +278,8 @@ _HALVED = 5.0 / 3.0
 TOLERANCE = 5e-3
 
 
-ProblemT = TypeVar("ProblemT", bound=GapProblem)
+# Field problem of a line contact or of a point contact.
+ProblemT = TypeVar("ProblemT", bound="GapProblem")
 FieldT = TypeVar("FieldT", bound=GapField)
 
 
@@ -396,12 +363,6 @@ def _promise(place: Place, tried: Sequence[tuple[Place, StrengthError]]) -> floa
     return place.strength * (1.0 + max(share * place.missing, columns))
 
 
-def _replaced(problem: ProblemT, **changes: Any) -> ProblemT:
-    """Changed copy of a problem; both kinds of problems are dataclasses."""
-    changed: ProblemT = replace(problem, **changes)  # type: ignore[type-var]
-    return changed
-
-
 @dataclass(frozen=True)
 class _Window(Generic[ProblemT]):
     """Part of a field problem around a peak, and the ends of the central part whose field is compared [m]."""
@@ -413,11 +374,13 @@ class _Window(Generic[ProblemT]):
     def around(cls, problem: ProblemT, peak: tuple[int, ...]) -> _Window[ProblemT]:
         most = _MOST_WINDOW_COLUMNS[len(peak)]
         parts = around(problem, peak, reach=_REACH, least=_LEAST_COLUMNS, most=most)
-        axes = {name: axis[part] for (name, axis), part in zip(problem.positions.items(), parts, strict=True)}
+        axes: dict[str, Any] = {
+            name: axis[part] for (name, axis), part in zip(problem.positions.items(), parts, strict=True)
+        }
         center = around(problem, peak, reach=0.5, least=1, most=most // 2)
         inside = [axis[part] for axis, part in zip(problem.positions.values(), center, strict=True)]
         return cls(
-            _replaced(
+            replace(
                 problem,
                 lower=problem.lower[parts],
                 upper=problem.upper[parts],
@@ -429,7 +392,7 @@ class _Window(Generic[ProblemT]):
 
     def of_degree(self, degree: int) -> _Window[ProblemT]:
         """The window with another polynomial degree."""
-        return replace(self, problem=_replaced(self.problem, degree=degree))
+        return replace(self, problem=replace(self.problem, degree=degree))
 
     def halved(self) -> _Window[ProblemT]:
         """The window with a further column between neighbours; its walls are interpolated.
@@ -441,15 +404,15 @@ class _Window(Generic[ProblemT]):
             np.log(self.problem.upper - self.problem.lower),
             self.problem.permittivity,
         ]
-        axes = {}
+        changed: dict[str, Any] = {}
         for k, (name, axis) in enumerate(self.problem.positions.items()):
             fine = np.empty(2 * axis.size - 1)
             fine[::2], fine[1::2] = axis, 0.5 * (axis[:-1] + axis[1:])
             values = [Akima1DInterpolator(axis, value, axis=k, method="makima")(fine) for value in values]
-            axes[name] = fine
+            changed[name] = fine
         middle, gap, permittivity = values[0], np.exp(values[1]), values[2]
-        walls = {"lower": middle - 0.5 * gap, "upper": middle + 0.5 * gap}
-        return replace(self, problem=_replaced(self.problem, **axes, **walls, permittivity=permittivity))
+        changed |= {"lower": middle - 0.5 * gap, "upper": middle + 0.5 * gap, "permittivity": permittivity}
+        return replace(self, problem=replace(self.problem, **changed))
 
     def strength(self, solve: Callable[[ProblemT], GapField]) -> float:
         """Largest field strength of the central part [V/m]."""
@@ -497,14 +460,11 @@ def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT
     found = strength_error(problem, field.column_strength, solve)
     most = problem.degree if problem.most_degree is None else problem.most_degree
     if found is not None and problem.degree < min(found.degree, most):
-        problem = _replaced(problem, degree=min(found.degree, most))
+        problem = replace(problem, degree=min(found.degree, most))
         field = solve(problem)
         if problem.degree == found.degree:
-            return _with(field, found.total_there, found.degree)
+            return replace(field, strength_error=found.total_there, sufficient_degree=found.degree)
         found = strength_error(problem, field.column_strength, solve)
-    return field if found is None else _with(field, found.total, found.degree)
-
-
-def _with(field: FieldT, error: float, degree: int) -> FieldT:
-    """Field with its error and its sufficient degree."""
-    return replace(field, strength_error=error, sufficient_degree=degree)
+    if found is None:
+        return field
+    return replace(field, strength_error=found.total, sufficient_degree=found.degree)

@@ -205,8 +205,7 @@ class GapMultigrid:
         """Correction of the potential for a residual, both (nx, ny, ns); it is zero on the walls."""
         by_mode = self.modes.T @ residual.reshape(-1, residual.shape[2]).T
         corrected = self._cycle(by_mode.ravel(), 0).reshape(by_mode.shape)
-        correction: Array = (corrected.T @ self.modes.T).reshape(residual.shape)
-        return correction
+        return (corrected.T @ self.modes.T).reshape(residual.shape)
 
     def _cycle(self, right: Array, depth: int) -> Array:
         """Symmetric V-cycle from the level ``depth``, on the residual ``right`` of all modes.

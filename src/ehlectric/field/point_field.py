@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -122,22 +123,19 @@ class PointField(GapField):
         field_y = self.field_y.copy()
         field_y[:, 0] = 0.0
         field_x, field_y, field_z = both(self.field_x), both(field_y, -1.0), both(self.field_z)
+        alike = ("z", "permittivity", "potential", "thin_gap_strength", "capacitance_density")
+        whole: dict[str, Any] = {name: both(getattr(self, name)) for name in alike}
+        for name in ("capacitance", "capacitance_by_charge", "thin_gap_capacitance"):
+            whole[name] = 2.0 * getattr(self, name)
         return replace(
             self,
             y=np.concatenate([-self.y[:0:-1], self.y]),
-            z=both(self.z),
-            permittivity=both(self.permittivity),
-            potential=both(self.potential),
+            **whole,
             field_x=field_x,
             field_y=field_y,
             field_z=field_z,
             strength=_magnitude(field_x, field_y, field_z),
             middle_strength=_middle(field_x, field_y, field_z),
-            thin_gap_strength=both(self.thin_gap_strength),
-            capacitance=2.0 * self.capacitance,
-            capacitance_by_charge=2.0 * self.capacitance_by_charge,
-            thin_gap_capacitance=2.0 * self.thin_gap_capacitance,
-            capacitance_density=both(self.capacitance_density),
         )
 
 

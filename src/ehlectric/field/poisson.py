@@ -218,8 +218,7 @@ def mean_permittivity(permittivity: Array) -> Array:
 
     It is the harmonic mean, as layers of different permittivity are in series.
     """
-    mean: Array = 1.0 / ((1.0 / permittivity) @ Across.of_degree(permittivity.shape[-1] - 1).weights)
-    return mean
+    return 1.0 / ((1.0 / permittivity) @ Across.of_degree(permittivity.shape[-1] - 1).weights)
 
 
 class BandedSolver:

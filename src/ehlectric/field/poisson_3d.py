@@ -90,8 +90,7 @@ def by_node(permittivity: Array) -> Array:
 def _between(values: Array, at: float, axis: int) -> Array:
     """Linear interpolation between neighbours along an axis, at the fraction ``at`` of their distance."""
     v = np.moveaxis(values, axis, 0)
-    interpolated: Array = np.moveaxis((1.0 - at) * v[:-1] + at * v[1:], 0, axis)
-    return interpolated
+    return np.moveaxis((1.0 - at) * v[:-1] + at * v[1:], 0, axis)
 
 
 def _at_points(values: Array) -> list[Array]:

@@ -41,8 +41,7 @@ def areas(axes: Axes, within: Axes | None = None) -> Array:
     """
     ends = [(-np.inf, np.inf)] * len(axes) if within is None else [(axis[0], axis[-1]) for axis in within]
     widths = [part_widths(axis, *end) for axis, end in zip(axes, ends, strict=True)]
-    area: Array = reduce(np.multiply.outer, widths)
-    return area
+    return reduce(np.multiply.outer, widths)
 
 
 def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
@@ -164,8 +163,7 @@ def node_areas(x: Array, y: Array) -> Array:
     for at in (x, y):
         halves = 0.5 * np.diff(at)
         widths.append(np.append(halves, 0.0) + np.append(0.0, halves))
-    areas: Array = np.outer(*widths)
-    return areas
+    return np.outer(*widths)
 
 
 def zone_areas(x: Array, y: Array, zone: Zone) -> Array:

@@ -52,8 +52,7 @@ def full_film_nodes(
     array([ True,  True, False])
     """
     c = 1.0 / np.maximum(_WEDGE_PART * rate * thickness, poiseuille)
-    full: Mask = (excess - c * residual >= 0.0) & inner
-    return full
+    return (excess - c * residual >= 0.0) & inner
 
 
 def with_refilled_nodes(full_film: Mask, residual: Array) -> Mask:

@@ -57,8 +57,7 @@ def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
     x, y = ((np.arange(n + 1) - 0.5) * d for n, d in zip(nodes, (dx, dy), strict=True))
     x = x[:, np.newaxis]
     antiderivative = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
-    influence: Array = np.diff(np.diff(antiderivative, axis=0), axis=1)
-    return influence
+    return np.diff(np.diff(antiderivative, axis=0), axis=1)
 
 
 @dataclass(frozen=True)

@@ -59,8 +59,7 @@ def _grid_differences(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, o
     """Richardson estimates of the relative errors of the minimum and the central film thickness, (2,)."""
     gains = (coarse[0].dx / fine[0].dx) ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
     on_fine, on_coarse = (_key_thicknesses(*film) for film in (fine, coarse))
-    estimates: Array = np.abs(on_fine - on_coarse) / (gains * on_fine)
-    return estimates
+    return np.abs(on_fine - on_coarse) / (gains * on_fine)
 
 
 def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:

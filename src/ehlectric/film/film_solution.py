@@ -107,8 +107,7 @@ class FilmSolution(Values):
         """Nodes where the surfaces touch, as a mask of the shape of the film."""
         if self.contact_pressure is None:
             return np.zeros(self.thickness.shape, dtype=bool)
-        touching: Mask = self.contact_pressure > 0.0
-        return touching
+        return self.contact_pressure > 0.0
 
     @property
     def minimum_thickness(self) -> float:

@@ -19,13 +19,7 @@ from ehlectric.film.film_error import (
     upstream_deficits,
 )
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import (
-    filled_state,
-    grids_of_solution,
-    levels_of,
-    nested_iteration,
-    tolerance_of,
-)
+from ehlectric.film.nested import filled_state, levels_of, nested_iteration, on_grid
 from ehlectric.film.newton import GridSolution, Progress, State
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
@@ -344,8 +338,7 @@ def _flooded_on_grids(
     grids = []
     while problem.nodes in on_grid and problem.nodes > coarsest:
         grids.append((problem, on_grid[problem.nodes]))
-        width = None if problem.width is None else problem.width.coarser()
-        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+        problem = problem.halved()
     return grids[::-1]
 
 
@@ -356,14 +349,10 @@ def _starved_problem(
     levels = levels_of(problem)
     mesh = levels[0].mesh
     return StarvedProblem(
-        fluid=problem.fluid,
-        levels=grids_of_solution(levels),
+        on_grid(problem, levels, progress, finest=finest, times=_MORE),
         order=problem.wedge_order,
         flooded=flooded,
         dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
-        tolerance=tolerance_of(problem, finest=finest),
-        max_iterations=_MORE * problem.max_iterations,
-        progress=progress,
     )
 
 

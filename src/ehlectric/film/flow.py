@@ -100,8 +100,7 @@ class FaceFlow:
 
     def weight(self) -> Array:
         """Sum of the conductances of the two faces of the inner nodes, shape (n - 2, m)."""
-        weight: Array = self.conductance[1:] + self.conductance[:-1]
-        return weight
+        return self.conductance[1:] + self.conductance[:-1]
 
     def by_pressure(self) -> tuple[Array, Array, Array]:
         """Derivatives of -dF/dX at the inner nodes by P, each of shape (n - 2, m).

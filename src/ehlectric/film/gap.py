@@ -53,16 +53,7 @@ class Gap:
         ``columns`` selects the nodes of P within ``rows``.
         """
         kernel = toeplitz(self.level.deflection.influence[: rows.stop - rows.start, 0])
-        block: Array = kernel[:, columns]
-        return block
-
-    def matrix(self) -> Array:
-        """Derivative of H by P of all nodes, dense, shape (nx ny, nx ny); for the coarsest grid."""
-        return self.level.deflection.matrix
-
-    def load_weights(self) -> Array:
-        """Derivative of the load by P of the nodes, shape (nx, ny)."""
-        return self.level.weights
+        return kernel[:, columns]
 
     def elastic_weight(self, density: Array) -> Array:
         """Elastic part of the diagonal of the Reynolds equation, shape (nx, ny).
@@ -70,5 +61,4 @@ class Gap:
         It is the change of the wedge term at a node if the pressure P of the node rises by one and P of its
         neighbour falls by one. ``density`` (nx, ny) is rho/rho_0.
         """
-        weight: Array = density * ((self.along(0) - self.along(1)) * self.level.rate)
-        return weight
+        return density * ((self.along(0) - self.along(1)) * self.level.rate)

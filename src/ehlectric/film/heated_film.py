@@ -30,8 +30,8 @@ from ehlectric.film.film_solver import RefinedSolution, refined_solution
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.nested import grids_of_solution, interpolated_state, levels_of, tolerance_of
-from ehlectric.film.newton import GridSolution, NewtonStep, Progress, State, Status, newton
+from ehlectric.film.nested import interpolated_state, levels_of, on_grid
+from ehlectric.film.newton import GridProblem, GridSolution, NewtonStep, Progress, State, Status, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
 from ehlectric.film.shear_laws import UNBOUNDED
@@ -85,10 +85,8 @@ class OuterIteration:
     """Outer iteration on one grid."""
 
     problem: FilmProblem
-    levels: list[Level]  # grid, and the coarser grids of its preconditioner
-    tolerance: float
+    on_grid: GridProblem  # grid, coarser grids of its preconditioner, and stopping rule of the film
     finer: int  # number of finer grids that follow
-    progress: Progress | None  # function that is called before every Newton step
     # Whether properties are evaluated again at the pressure of each film, and changes count as they are and
     # not as parts of a geometric sequence: slower, and it converges for hotter films.
     careful: bool = False
@@ -99,6 +97,11 @@ class OuterIteration:
     # Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
     # cavities count as full, shape (nx, ny).
     filled: Mask | None = None
+
+    @property
+    def level(self) -> Level:
+        """Grid of the film."""
+        return self.on_grid.level
 
     @property
     def physics(self) -> Physics:
@@ -118,7 +121,7 @@ class OuterIteration:
         if thermal is not None and heat is not None:
             profile = FrozenTemperature(
                 Across.of(self.degree),
-                self.levels[0].mesh,
+                self.level.mesh,
                 heat,
                 self._clipped(state),
                 thermal.oil,
@@ -153,34 +156,19 @@ class OuterIteration:
         """
         flow = self.flow(state, heat)
         fluid = replace(self.problem.fluid, flow=flow)
+        posed = replace(self.on_grid, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if filled is None:
-            solution = newton(
-                fluid,
-                self.levels,
-                state,
-                tolerance=tolerance,
-                max_iterations=steps,
-                min_iterations=1,
-                progress=self.progress,
-                eliminate_spike=spike and self.problem.width is None,
-            )
+            line = self.problem.width is None
+            solution = newton(posed, state, min_iterations=1, eliminate_spike=spike and line)
         else:
-            solution = conserving_film(
-                fluid,
-                self.levels,
-                (state, filled),
-                order=self.problem.wedge_order,
-                tolerance=tolerance,
-                max_iterations=steps,
-                progress=self.progress,
-            )
+            solution = conserving_film(posed, (state, filled), self.problem.wedge_order)
         if isinstance(flow.profile, FrozenTemperature):
             heat = flow.profile.at(self._clipped(solution.state))
         return solution, flow, heat
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
-        state, mesh = solution.state, self.levels[0].mesh
+        state, mesh = solution.state, self.level.mesh
         found = flow.columns(self.problem.fluid, state.pressure, state.thickness, mesh)
         if solution.fraction is not None:
             return found, solution.fraction
@@ -198,7 +186,7 @@ class OuterIteration:
             pressure=np.maximum(scales.pressure * solution.state.pressure, scales.ambient_pressure),
             thickness=scales.thickness * solution.state.thickness,
             filled=filled,
-            mesh=self.levels[0].mesh,
+            mesh=self.level.mesh,
             length=scales.length,
             pressure_scale=scales.pressure,
             speed=self.physics.mean_speed,
@@ -207,7 +195,7 @@ class OuterIteration:
 
     def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
         """Surfaces of both bodies on the grid."""
-        mesh, length = self.levels[0].mesh, self.problem.scales.length
+        mesh, length = self.level.mesh, self.problem.scales.length
         first, second = (
             moving_surface(body, speed, nodes=mesh.x.size, spacing=mesh.dx * length, half_width=length)
             for body, speed in zip(thermal.bodies, self.physics.speeds, strict=True)
@@ -216,7 +204,7 @@ class OuterIteration:
 
     def start(self, thermal: Thermal) -> Heat:
         """Temperature of a film that is nowhere heated: linear between the bodies."""
-        shape = self.levels[0].mesh.shape
+        shape = self.level.mesh.shape
         a, b = (body.temperature for body in thermal.bodies)
         zeta = Across.of(self.degree).zeta[:, np.newaxis, np.newaxis]
         temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
@@ -244,16 +232,18 @@ class OuterIteration:
             if filled is not None:
                 most *= _CARRYING
             solution, flow, _ = self.film(
-                state, None, steps=most, tolerance=self.tolerance, spike=spike, filled=filled
+                state, None, steps=most, tolerance=self.on_grid.tolerance, spike=spike, filled=filled
             )
             return HeatedGrid(solution, None, flow, 0)
         heat = self.start(thermal) if heat is None else heat
-        surfaces, weight = self.surfaces(thermal), _weight(self.levels[0], state)
+        surfaces, weight = self.surfaces(thermal), _weight(self.level, state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
         for loop in range(_LOOPS):
-            steps, tolerance = (most, self.tolerance) if ends else (_STEPS, max(self.tolerance, _LOOSE))
+            steps, tolerance = (
+                (most, self.on_grid.tolerance) if ends else (_STEPS, max(self.on_grid.tolerance, _LOOSE))
+            )
             if filled is not None:
                 steps *= _CARRYING
             solution, flow, heat = self.film(
@@ -262,7 +252,7 @@ class OuterIteration:
             assert heat is not None
             filled = None if filled is None else solution.final.full_film
             taken += solution.steps
-            before, central = central, at_centre(self.levels[0].mesh, solution.state.thickness)
+            before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * central))
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":
@@ -436,7 +426,7 @@ def _growing_peak(
     coarse: tuple[OuterIteration, HeatedGrid], fine: tuple[OuterIteration, HeatedGrid]
 ) -> float:
     """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
-    meshes = [iteration.levels[0].mesh for iteration, _ in (coarse, fine)]
+    meshes = [iteration.level.mesh for iteration, _ in (coarse, fine)]
     before, now = (mid_film(grid.heat.temperature) for _, grid in (coarse, fine) if grid.heat is not None)
     growth = np.maximum(now - on_mesh(before[np.newaxis], *meshes)[0], 0.0)
     times = _GROWTH_UNBOUNDED if fine[0].physics.rheology.name in UNBOUNDED else _GROWTH
@@ -498,7 +488,7 @@ class HeatedSolution:
     zeta: Array  # positions z/h of these nodes, shape (nz,)
     mid_temperature: Array | None  # temperature at mid-film [K], shape (nx, ny)
     # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature over that of
-    # the oil that enters [K], and the estimate of its error (``accuracy.rise_error``).
+    # the oil that enters [K], and the estimate of its error (``rise_error``).
     max_temperature_rise: float | None
     temperature_rise_error: float | None
     shear_stress: Array  # shear stress along x at mid-film [Pa], shape (nx, ny)
@@ -543,8 +533,7 @@ def _on_grids(
     if finest.width is not None:
         least = _FIRST_POINT
     while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
-        width = None if grids[-1].width is None else grids[-1].width.coarser()
-        grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
+        grids.append(grids[-1].halved())
     found: list[tuple[OuterIteration, HeatedGrid]] = []
     for finer, posed in reversed(list(enumerate(grids))):
         iteration = replace(_iteration_on(posed, finer=finer, progress=progress), careful=careful)
@@ -592,8 +581,8 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmPr
 
 def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
     """Outer iteration on the grid of a problem."""
-    levels = grids_of_solution(levels_of(problem))
-    return OuterIteration(problem, levels, tolerance_of(problem, finest=finer == 0), finer, progress)
+    posed = on_grid(problem, levels_of(problem), progress, finest=finer == 0)
+    return OuterIteration(problem, posed, finer)
 
 
 def _by_slip(iteration: OuterIteration, simple: RefinedSolution) -> HeatedGrid:
@@ -615,7 +604,7 @@ def _start(
     iteration: OuterIteration, simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]
 ) -> tuple[State, Heat | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
-    level = iteration.levels[0]
+    level = iteration.level
     if found and found[-1][1].converged:
         coarse = found[-1][1]
         state = interpolated_state(level, coarse.solution)
@@ -636,17 +625,17 @@ def _solution(simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedG
     """Results of the film on its finest grid."""
     iteration, last = found[-1]
     problem, physics = iteration.problem, iteration.physics
-    mesh, state = iteration.levels[0].mesh, last.solution.state
+    mesh, state = iteration.level.mesh, last.solution.state
     columns, filled = iteration.columns(last.solution, last.flow)
     friction = traction(
         columns,
         state.thickness,
         mesh,
-        load=iteration.levels[0].load,
+        load=iteration.level.load,
         stress_ratio=iteration.stress_scale / problem.scales.pressure,
         filled=filled,
     )
-    scales, level = problem.scales, iteration.levels[0]
+    scales, level = problem.scales, iteration.level
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat = last.heat
     middle = None if heat is None else mid_film(heat.temperature)

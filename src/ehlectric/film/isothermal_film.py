@@ -117,8 +117,7 @@ def _film(found: RefinedSolution) -> Film:
 
 def _on_line(values: NDArray[Any]) -> NDArray[Any]:
     """Nodal values (nx,) from those with one node across (nx, 1)."""
-    line: NDArray[Any] = values[:, 0]
-    return line
+    return values[:, 0]
 
 
 # Points of the quadrature over the Hertz ellipse, along its radius and around its circumference.
@@ -184,8 +183,7 @@ class PointFilm(FilmSolution):
 
     def _at(self, x: Array, y: Array) -> Array:
         """Film thickness at positions x and y of one shape [m], by linear interpolation."""
-        thickness: Array = RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
-        return thickness
+        return RegularGridInterpolator((self.x, self.y), self.thickness)((x, y))
 
     @property
     def central_thickness(self) -> float:

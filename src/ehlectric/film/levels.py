@@ -116,8 +116,7 @@ class Level:
 
     def inside(self, nodes: Mask) -> Mask:
         """Nodes of this grid inside a mask (nx, ny) of the next finer grid; none that lies on its border."""
-        inside: Mask = self.inject(nodes.astype(float)) > 1.0 - 1e-9
-        return inside
+        return self.inject(nodes.astype(float)) > 1.0 - 1e-9
 
     def prolong(self, values: Array) -> Array:
         """Interpolate values (nx, ny) of this grid linearly to the nodes of the next finer grid."""

@@ -280,9 +280,9 @@ class DenseSolver:
         if full_film.shape[1] == 1:
             _fill_of_line(matrix, gap, by_p, by_h, part)
         else:
-            matrix[:n, :n] = (by_p.matrix() + by_h.times(gap.matrix()))[part, part]
+            matrix[:n, :n] = (by_p.matrix() + by_h.times(gap.level.deflection.matrix))[part, part]
         matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()[part]
-        matrix[n, :n] = np.where(full_film, gap.load_weights(), 0.0).ravel()[part]
+        matrix[n, :n] = np.where(full_film, gap.level.weights, 0.0).ravel()[part]
         cavitated = np.flatnonzero(~full_film.ravel()[part])
         matrix[cavitated, cavitated] = 1.0
         # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.

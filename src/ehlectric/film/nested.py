@@ -18,7 +18,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import GridSolution, Progress, State, newton
+from ehlectric.film.newton import GridProblem, GridSolution, Progress, State, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
@@ -132,15 +132,8 @@ def _conserving(
 
     ``times`` multiplies the largest number of Newton steps of a film.
     """
-    return conserving_film(
-        problem.fluid,
-        grids_of_solution(levels),
-        start,
-        order=problem.wedge_order,
-        tolerance=tolerance_of(problem, finest=levels[0].nodes == problem.nodes),
-        max_iterations=times * problem.max_iterations,
-        progress=progress,
-    )
+    posed = on_grid(problem, levels, progress, times=times)
+    return conserving_film(posed, start, problem.wedge_order)
 
 
 def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
@@ -174,12 +167,10 @@ def _mixed(
     elif coarse is not None:
         near = interpolated_state(level, coarse)
     finest = level.nodes == problem.nodes
-    tolerance = tolerance_of(problem, finest=finest)
-    most = (_MIXED if finest else _MIXED_COARSE) * problem.max_iterations
-
-    conserving = Conserving(
-        problem.fluid, levels, problem.asperities, problem.wedge_order, tolerance, most, progress
-    )
+    posed = on_grid(problem, levels, progress, times=_MIXED if finest else _MIXED_COARSE)
+    # A film whose surfaces touch needs all grids.
+    posed = replace(posed, levels=levels)
+    conserving = Conserving(posed, problem.asperities, problem.wedge_order)
     found: list[GridSolution] = []
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = with_inlet(coarse.final.full_film)
@@ -191,14 +182,10 @@ def _mixed(
         # The dry contact lies between two nodes of this grid.
         return found
     counted_full = touching_films(
-        problem.fluid,
-        levels,
+        posed,
         dry,
-        asperities=problem.asperities,
+        problem.asperities,
         film_guess=problem.thickness_guess,
-        tolerance=tolerance,
-        max_iterations=most,
-        progress=progress,
         near=near,
         thorough=finest,
     )
@@ -228,20 +215,12 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
     last iterate on the grid with ``nodes`` nodes; its tolerance is that of the coarser grids of the nested
     iteration.
     """
-    width, fluid = problem.width, problem.fluid
+    fluid = problem.fluid
     # All laws by name are those of a Newtonian fluid. The law of a sheared oil stays.
     if isinstance(fluid.flow, str):
         fluid = replace(fluid, flow="newtonian")
-    if width is not None and nodes != problem.nodes:
-        width = width.coarser()
-    posed = replace(
-        problem,
-        fluid=fluid,
-        nodes=nodes,
-        width=width,
-        wedge_order=3,
-        tolerance=NESTED_TOLERANCE,
-    )
+    posed = problem if nodes == problem.nodes else problem.halved()
+    posed = replace(posed, fluid=fluid, nodes=nodes, wedge_order=3, tolerance=NESTED_TOLERANCE)
     return _newton_on(posed, levels_of(posed), None, spike=True)(start)
 
 
@@ -255,24 +234,32 @@ def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
     grids = [levels_of(problem)]
     while (len(grids) < 2 and not solved) or problem.nodes // 2 + 1 >= max(least, solved + 1):
-        width = None if problem.width is None else problem.width.coarser()
-        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+        problem = problem.halved()
         coarser = grids[-1][1:]
-        shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, width).shape
+        shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, problem.width).shape
         known = len(coarser) > 0 and coarser[0].mesh.shape == shape
         grids.append(coarser if known else levels_of(problem))
     return grids
 
 
-def grids_of_solution(levels: list[Level]) -> list[Level]:
-    """Grids that a Newton step needs: only the first of a small line contact, which is solved directly."""
+def on_grid(
+    problem: FilmProblem,
+    levels: list[Level],
+    progress: Progress | None,
+    *,
+    finest: bool | None = None,
+    times: int = 1,
+) -> GridProblem:
+    """Film to be solved on the first of ``levels``, with ``times`` the number of Newton steps of the problem.
+
+    The tolerance is that of the problem on its own grid or, if ``finest`` is given, where that is true, and
+    larger on coarser grids. A small line contact is solved directly, without coarser grids.
+    """
+    finest = levels[0].nodes == problem.nodes if finest is None else finest
+    tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
     direct = levels[0].mesh.dy is None and levels[0].nodes <= DIRECT
-    return levels[:1] if direct else levels
-
-
-def tolerance_of(problem: FilmProblem, *, finest: bool) -> float:
-    """Tolerance of the residual on the finest grid of a problem, or the larger one of the coarser grids."""
-    return problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
+    grids = levels[:1] if direct else levels
+    return GridProblem(problem.fluid, grids, tolerance, times * problem.max_iterations, progress)
 
 
 def levels_of(problem: FilmProblem) -> list[Level]:
@@ -318,13 +305,9 @@ def _newton_on(
     """
     return partial(
         newton,
-        problem.fluid,
-        grids_of_solution(levels),
-        tolerance=tolerance_of(problem, finest=levels[0].nodes == problem.nodes),
-        max_iterations=problem.max_iterations,
+        on_grid(problem, levels, progress),
         # The residual of an interpolated film may be small although the film is that of the coarser grid.
         min_iterations=1,
-        progress=progress,
         # The spike of a point contact is a ridge, of which no single line can be solved separately.
         eliminate_spike=spike and problem.width is None,
     )
@@ -365,8 +348,7 @@ def _filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
     else:
         at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
         part = RegularGridInterpolator((coarse.x, coarse.y), filled.astype(float))(at)
-    on_mesh: Mask = part > 0.5
-    return on_mesh
+    return part > 0.5
 
 
 def _finer(level: Level, of: Mesh, values: Array) -> Array:

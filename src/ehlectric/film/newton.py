@@ -7,7 +7,7 @@ Reynolds equation at the nodes with a full film, P = P_amb at the cavitated node
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
@@ -74,8 +74,11 @@ class State:
 
     def lifted(self, smallest: float) -> State:
         """State with H00 raised, if necessary, so that H is at least ``smallest`` everywhere."""
-        lift = max(0.0, smallest - float(self.thickness.min()))
-        return State(self.pressure, self.h00 + lift, self.thickness + lift)
+        return self.shifted(max(0.0, smallest - float(self.thickness.min())))
+
+    def shifted(self, shift: float) -> State:
+        """State without contact pressure whose surfaces are further apart by ``shift``."""
+        return State(self.pressure, self.h00 + shift, self.thickness + shift)
 
 
 @dataclass(frozen=True)
@@ -124,6 +127,33 @@ class GridSolution:
         return bool(np.any(self.state.touching))
 
 
+@dataclass(frozen=True)
+class GridProblem:
+    """Film to be solved on one grid, with the stopping rule of its iteration."""
+
+    fluid: Fluid  # lubricant over dimensionless pressure
+    levels: list[Level]  # grids from the one to solve on to the coarsest of the preconditioner
+    tolerance: float  # residual at which to stop, a pressure over p_h
+    max_iterations: int  # largest number of Newton steps from each start
+    # Function that is called with (nodes, Newton step, residual) before every step.
+    progress: Progress | None = None
+
+    @property
+    def level(self) -> Level:
+        """Grid to solve on."""
+        return self.levels[0]
+
+    @property
+    def reachable_tolerance(self) -> float:
+        """Tolerance, at least the residual that is caused by rounding of H, whose differences are over dX."""
+        return max(self.tolerance, ROUNDING * self.level.rate)
+
+    def report(self, steps: Sequence[NewtonStep], residual: float) -> None:
+        """Call ``progress`` with the residual after the steps so far."""
+        if self.progress is not None:
+            self.progress(self.level.nodes, len(steps), residual)
+
+
 # Residual times dX that is caused by rounding of H: about 40 times the machine epsilon.
 ROUNDING = 40.0 * np.finfo(float).eps
 
@@ -154,23 +184,16 @@ LOAD_WEIGHT = 10.0
 
 
 def newton(
-    fluid: Fluid,
-    levels: list[Level],
+    problem: GridProblem,
     state: State,
     *,
-    tolerance: float,
-    max_iterations: int,
     min_iterations: int = 0,
-    progress: Progress | None = None,
     eliminate_spike: bool = False,
     transient: bool = False,
 ) -> GridSolution:
-    """Solve the film equations on the first of ``levels`` by Newton's method. ``fluid``, lubricant over
-    dimensionless pressure. Returns last iterate, with its status.
-    """
-    level = levels[0]
-    # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
-    tolerance = max(tolerance, ROUNDING * level.rate)
+    """Last iterate of Newton's method for the film equations on one grid, with its status."""
+    fluid, levels, level = problem.fluid, problem.levels, problem.level
+    tolerance = problem.reachable_tolerance
     # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
     # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids.
     loose = transient or level.mesh.dy is not None
@@ -180,9 +203,8 @@ def newton(
     now = assess(fluid, level, state)
     jacobians: list[Linearised] = []
     before = np.inf
-    while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < max_iterations):
-        if progress is not None:
-            progress(level.nodes, len(steps), now.norm)
+    while len(steps) < min_iterations or (now.norm > tolerance and len(steps) < problem.max_iterations):
+        problem.report(steps, now.norm)
         if eliminate_spike:
             relaxed = without_spike(fluid, level, state, now)
             if relaxed is not None:

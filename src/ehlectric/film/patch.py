@@ -118,8 +118,7 @@ class Patch:
         mesh = self.coarse.level.mesh
         along = _part(mesh.x.size, self.rows, (at_edge, at_edge))
         across = _part(mesh.y.size, self.lines, (1.0 if mesh.symmetric else at_edge, at_edge))
-        outside: Array = self.coarse.state.pressure * (1.0 - along[:, np.newaxis] * across)
-        return outside
+        return self.coarse.state.pressure * (1.0 - along[:, np.newaxis] * across)
 
     def _spline(self, values: Array) -> OnGrid:
         mesh = self.coarse.level.mesh

@@ -129,6 +129,11 @@ class FilmProblem:
         width = None if self.width is None else replace(self.width, nodes=2 * self.width.nodes - 1)
         return replace(self, nodes=2 * self.nodes - 1, width=width)
 
+    def halved(self) -> FilmProblem:
+        """Problem on the grid with half as many intervals along both axes."""
+        width = None if self.width is None else self.width.coarser()
+        return replace(self, nodes=self.nodes // 2 + 1, width=width)
+
 
 def velocity_parameter(
     *, viscosity: float, entrainment_speed: float, radius: float, half_width: float, max_pressure: float

@@ -133,32 +133,25 @@ def _at_points(
     profile: tuple[Array, Array] | None,
     quadrature: Quadrature,
 ) -> Flux:
-    """Flux of some columns (n,) by one quadrature; arguments as for ``flux_of``."""
+    """Flux of some columns (n,) by one quadrature, by the equations of their law and number of axes.
+
+    The arguments are those of ``flux_of``.
+    """
     if profile is None:
         fluidity, weight = mean[np.newaxis], quadrature.offset[:, np.newaxis]
-        return _by_law(rheology, fluidity, weight, gradient, slip, quadrature)
-    ratio, layers = profile
-    values, below = to_points(len(ratio) - 1, quadrature.offset.size)
-    found = _by_law(rheology, mean * np.exp(-values @ ratio), below @ layers, gradient, slip, quadrature)
-    assert found.by_weight is not None
-    by_ratio, by_layers = values.T @ found.by_viscosity, below.T @ found.by_weight
-    return Flux(found.flux, found.by_gradient, found.by_slip, by_ratio, by_layers)
-
-
-def _by_law(
-    rheology: Rheology,
-    fluidity: Array,
-    weight: Array,
-    gradient: Array,
-    slip: Array,
-    quadrature: Quadrature,
-) -> Flux:
-    """Flux of columns by the equations of their law and of the number of axes."""
+    else:
+        values, below = to_points(len(profile[0]) - 1, quadrature.offset.size)
+        fluidity, weight = mean * np.exp(-values @ profile[0]), below @ profile[1]
     if rheology.law.even:
-        return even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
-    if len(gradient) == 2:
-        return plane_flux(rheology, fluidity, weight, gradient, slip, quadrature)
-    return column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
+        found = even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+    elif len(gradient) == 2:
+        found = plane_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+    else:
+        found = column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
+    if profile is None or found.by_weight is None:
+        return found
+    by_ratio, by_layers = values.T @ found.by_viscosity, below.T @ found.by_weight
+    return replace(found, by_viscosity=by_ratio, by_weight=by_layers)
 
 
 # Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
@@ -195,7 +188,7 @@ class ShearedFlow:
     def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
         """Flow through all faces at P (nx, ny) and H (nx, ny) on a mesh."""
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
-        nodes = _Nodes.of(k, properties, pressure, thickness)
+        nodes = _Nodes(k, properties, thickness, pressure)
         slip = fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0
         if mesh.dy is None:
             return Flow(k, self._through(nodes, mesh.dx, slip, fluid, None), None)
@@ -265,7 +258,8 @@ class ShearedFlow:
         across: bool = False,
     ) -> FaceFlow:
         """Flow along the first axis; ``beside`` is the gradient of P along the other axis at the nodes."""
-        mean, by_before, by_after = logarithmic_mean(nodes.log_viscosity, nodes.fluidity)
+        k, properties = nodes.uniform, nodes.profile
+        mean, by_before, by_after = logarithmic_mean(k.log_viscosity, k.fluidity)
         gap = _mean(nodes.thickness)
         difference = np.diff(nodes.pressure, axis=0)
         lowest = fluid.ambient_pressure
@@ -279,14 +273,15 @@ class ShearedFlow:
             gradient = np.concatenate([gradient, (gap * _mean(beside) / scale)[np.newaxis]])
             still = np.zeros_like(sliding)
             sliding = np.concatenate([still, sliding] if across else [sliding, still])
-        found = flux_of(self.rheology, mean, gradient, sliding, nodes.profile())
+        profile = None if properties is None else (_mean(properties.log_ratio), _mean(properties.density))
+        found = flux_of(self.rheology, mean, gradient, sliding, profile)
 
         size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
         of_scale = found.flux - np.sum(gradient * found.by_gradient + sliding * found.by_slip, axis=0)
         of_gap = 2.0 * found.flux + np.sum(gradient * found.by_gradient - sliding * found.by_slip, axis=0)
         by_scale = 0.5 * size * of_scale * np.where(_mean(nodes.pressure) > lowest, scale_p, 0.0)
         amount = size * scale
-        mass = 1.0 if nodes.layers is not None else _mean(nodes.density)
+        mass = _mean(k.density) if properties is None else 1.0
         half_gap = 0.5 * amount * mass * of_gap / gap
         before, after = nodes.by_properties(found, by_before / mean, by_after / mean)
         return FaceFlow(
@@ -315,25 +310,10 @@ def _mean(values: Array) -> Array:
 class _Nodes:
     """Quantities at nodes (n, m) that determine the flow along the first axis; profiles are (nz, n, m)."""
 
-    log_viscosity: Array
-    log_viscosity_p: Array
-    fluidity: Array
-    density: Array
-    density_p: Array
+    uniform: Coefficients
+    profile: Properties | None
     thickness: Array
     pressure: Array
-    log_ratio: Array | None = None
-    log_ratio_p: Array | None = None
-    layers: Array | None = None
-    layers_p: Array | None = None
-
-    @classmethod
-    def of(cls, k: Coefficients, properties: Properties | None, pressure: Array, thickness: Array) -> _Nodes:
-        uniform = (k.log_viscosity, k.log_viscosity_p, k.fluidity, k.density, k.density_p)
-        if properties is None:
-            return cls(*uniform, thickness, pressure)
-        varying = (properties.log_ratio, properties.log_ratio_p, properties.density, properties.density_p)
-        return cls(*uniform, thickness, pressure, *varying)
 
     def turned(self, mesh: Mesh) -> _Nodes:
         """Quantities with the axes swapped, and the mirror image of a symmetric mesh."""
@@ -343,29 +323,27 @@ class _Nodes:
                 values = np.concatenate([values[..., 1:2], values], axis=-1)
             return np.swapaxes(values, -1, -2)
 
-        fields = {name: value for name, value in vars(self).items() if value is not None}
-        return _Nodes(**{name: turn(value) for name, value in fields.items()})
-
-    def profile(self) -> tuple[Array, Array] | None:
-        """Logarithm of the viscosity ratio and density across the film at the faces, (nz, n - 1, m)."""
-        if self.log_ratio is None or self.layers is None:
-            return None
-        return _mean(self.log_ratio), _mean(self.layers)
+        uniform = Coefficients(**{name: turn(values) for name, values in vars(self.uniform).items()})
+        profile = self.profile
+        if profile is not None:
+            profile = Properties(*(turn(values) for values in vars(profile).values()))
+        return _Nodes(uniform, profile, turn(self.thickness), turn(self.pressure))
 
     def by_properties(self, found: Flux, before: Array, after: Array) -> tuple[Array, Array]:
         """Derivatives of the mass flux by P of both nodes through viscosity and density.
 
         ``before`` and ``after`` are the derivatives of ln of the mean fluidity by ln eta of both nodes.
         """
-        of_all = -np.sum(found.by_viscosity, axis=0)
+        of_all, k, profile = -np.sum(found.by_viscosity, axis=0), self.uniform, self.profile
         sides = []
         for side, log_mean in ((slice(None, -1), before), (slice(1, None), after)):
-            uniform = of_all * log_mean * self.log_viscosity_p[side]
-            if self.log_ratio_p is None or self.layers_p is None or found.by_weight is None:
-                sides.append(_mean(self.density) * uniform + 0.5 * found.flux * self.density_p[side])
+            uniform = of_all * log_mean * k.log_viscosity_p[side]
+            if profile is None or found.by_weight is None:
+                sides.append(_mean(k.density) * uniform + 0.5 * found.flux * k.density_p[side])
                 continue
             varying = (
-                found.by_viscosity * self.log_ratio_p[:, side] + found.by_weight * self.layers_p[:, side]
+                found.by_viscosity * profile.log_ratio_p[:, side]
+                + found.by_weight * profile.density_p[:, side]
             )
             sides.append(uniform + 0.5 * np.sum(varying, axis=0))
         return sides[0], sides[1]

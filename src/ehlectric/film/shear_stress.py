@@ -155,8 +155,7 @@ def _by_newton(law: ShearLaw, constants: Constants, weights: Array, shape: Array
         t = following
         if step < _EXACT:
             break
-    middle: Array = sign * t
-    return middle
+    return sign * t
 
 
 def column_flux(

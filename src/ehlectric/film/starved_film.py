@@ -34,11 +34,10 @@ from ehlectric.film.newton import (
     KRYLOV_LIMIT,
     LINEAR_TOLERANCE,
     LOAD_WEIGHT,
-    ROUNDING,
     SMALLEST_GAP,
+    GridProblem,
     GridSolution,
     NewtonStep,
-    Progress,
     Residual,
     State,
     Status,
@@ -76,8 +75,7 @@ class Supply:
     @property
     def low(self) -> Mask:
         """Nodes whose mass is extrapolated nowhere."""
-        low: Mask = np.asarray(self.upwind) | (False if self.steep is None else self.steep)
-        return low
+        return np.asarray(self.upwind) | (False if self.steep is None else self.steep)
 
     def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
         """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
@@ -406,31 +404,21 @@ class Content:
 
 
 def starved_newton(
-    fluid: Fluid,
-    levels: list[Level],
-    state: State,
-    filled: Mask,
-    *,
-    supply: Supply,
-    tolerance: float,
-    max_iterations: int,
-    progress: Progress | None = None,
+    problem: GridProblem, state: State, filled: Mask, supply: Supply
 ) -> tuple[GridSolution, Content]:
-    """Last iterate on the first of ``levels`` with a supply of oil at the inlet edge, and its content of oil.
+    """Last iterate on one grid with a supply of oil at the inlet edge, and its content of oil.
 
     ``filled`` (nx, ny) marks the nodes that oil fills in the initial guess.
     """
-    level = levels[0]
-    tolerance = max(tolerance, ROUNDING * level.rate)
+    fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     steps: list[NewtonStep] = []
     now = assess_content(fluid, level, state, filled, supply)
     settled, memory = False, MaskMemory()
     status: Status = "stalled"
-    while not (settled and now.norm <= tolerance) and len(steps) < max_iterations:
-        if progress is not None:
-            progress(level.nodes, len(steps), now.norm)
+    while not (settled and now.norm <= tolerance) and len(steps) < problem.max_iterations:
+        problem.report(steps, now.norm)
         state, now = _without_spike(fluid, level, state, now, supply)
-        jacobian = StarvedJacobian.of(fluid, levels, state, now.residual, now.filled, supply)
+        jacobian = StarvedJacobian.of(fluid, problem.levels, state, now.residual, now.filled, supply)
         close = LINEAR_TOLERANCE if settled or level.mesh.dy is None else _UNSETTLED
         dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
         candidate = after_step(level, state, dp, dh00)

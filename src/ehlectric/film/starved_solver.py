@@ -17,7 +17,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.newton import GridSolution, Progress, State
+from ehlectric.film.newton import GridProblem, GridSolution, State
 from ehlectric.film.starved_film import Content, Supply, assess_content, starved_newton
 
 # Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
@@ -44,51 +44,35 @@ def forms_again(full_film: Mask) -> bool:
     return bool(np.any(inner & behind))
 
 
-def conserving_film(
-    fluid: Fluid,
-    levels: list[Level],
-    start: tuple[State, Mask],
-    *,
-    order: int,
-    tolerance: float,
-    max_iterations: int,
-    progress: Progress | None = None,
-) -> GridSolution:
-    """Last iterate, with its oil fraction, of a film that conserves its oil, on the first of ``levels``.
+def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int) -> GridSolution:
+    """Last iterate, with its oil fraction, of a film on one grid that conserves its oil.
 
     ``order`` is that of the wedge term where oil fills the gap.
     """
-    supply = flooded_inlet(levels[0], order)
+    supply = flooded_inlet(problem.level, order)
 
-    def solved(state: State, filled: Mask, most: int, tolerance: float) -> GridSolution:
-        found, content = starved_newton(
-            fluid,
-            levels,
-            replace(state, contact_pressure=0.0),
-            with_inlet(filled),
-            supply=supply,
-            tolerance=tolerance,
-            max_iterations=most,
-            progress=progress,
-        )
-        return replace(found, fraction=content.fraction(found.state.thickness))
+    def solved(posed: GridProblem, state: State, filled: Mask) -> GridSolution:
+        state = replace(state, contact_pressure=0.0)
+        solution, content = starved_newton(posed, state, with_inlet(filled), supply)
+        return replace(solution, fraction=content.fraction(solution.state.thickness))
 
-    return of_full_order(solved(*start, max_iterations, tolerance), solved, tolerance)
+    return of_full_order(problem, solved(problem, *start), solved)
 
 
 def of_full_order(
-    found: GridSolution, solved: Callable[[State, Mask, int, float], GridSolution], tolerance: float
+    problem: GridProblem, found: GridSolution, solved: Callable[[GridProblem, State, Mask], GridSolution]
 ) -> GridSolution:
     """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
 
     Nodes that went round in circles got such a difference. A residual that is small as a pressure may be much
-    oil where the gap is wide. ``solved`` solves the film again from a state, its filled nodes, with a largest
-    number of Newton steps and to a residual; where that misses the ``tolerance``, the solution stays.
+    oil where the gap is wide. ``solved`` solves the film again from a state and its filled nodes, to a
+    smaller residual first; where both miss their tolerance, the solution stays.
     """
     if found.status != "converged":
         return found
-    for closer in (_CLOSER * tolerance, tolerance):
-        again = solved(found.state, found.final.full_film, _AGAIN, closer)
+    for closer in (_CLOSER * problem.tolerance, problem.tolerance):
+        posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
+        again = solved(posed, found.state, found.final.full_film)
         if again.status == "converged":
             return replace(again, steps=found.steps + again.steps)
     return found
@@ -147,22 +131,17 @@ class StarvedFilm:
 
 @dataclass(frozen=True)
 class StarvedProblem:
-    """Starved film to be solved on one grid, with the flooded film and the stopping rule."""
+    """Starved film to be solved on one grid, with the flooded film."""
 
-    fluid: Fluid  # lubricant over dimensionless pressure
-    levels: list[Level]  # grids from the one to solve on to the coarsest of the preconditioner
+    on_grid: GridProblem  # lubricant, grids and stopping rule
     order: int  # order of the wedge term where the film is filled
     flooded: GridSolution
     dry_pressure: Array  # Hertz pressure P, shape (nx, ny)
-    tolerance: float  # residual at which to stop, a pressure over p_h
-    max_iterations: int  # largest number of Newton steps from each start
-    # Function that is called with (nodes, Newton step, residual) before every step.
-    progress: Progress | None = None
 
     @property
     def level(self) -> Level:
         """Grid to solve on."""
-        return self.levels[0]
+        return self.on_grid.level
 
     @property
     def flooded_mass(self) -> float:
@@ -195,18 +174,8 @@ class StarvedProblem:
         yield from self._in_steps(layer)
 
     def _newton(self, layer: Array, state: State, filled: Mask) -> StarvedFilm:
-        ambient = self.flooded.final.coefficients.density[0]
-        found = starved_newton(
-            self.fluid,
-            self.levels,
-            state,
-            filled,
-            supply=Supply(ambient * layer, self.order),
-            tolerance=self.tolerance,
-            max_iterations=self.max_iterations,
-            progress=self.progress,
-        )
-        return StarvedFilm(*found, layer)
+        supply = Supply(self.flooded.final.coefficients.density[0] * layer, self.order)
+        return StarvedFilm(*starved_newton(self.on_grid, state, filled, supply), layer)
 
     def _from_flooded(self, layer: Array) -> tuple[State, Mask]:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""
@@ -215,7 +184,7 @@ class StarvedProblem:
 
     def _from_dry(self, layer: Array) -> tuple[State, Mask]:
         """Dry contact at a distance as large as the layer."""
-        pressure = np.maximum(self.dry_pressure, self.fluid.ambient_pressure)
+        pressure = np.maximum(self.dry_pressure, self.on_grid.fluid.ambient_pressure)
         state = State.of(self.level, pressure, 0.0)
         return self._lowered(layer, state, self.level.mesh.inner)
 
@@ -225,8 +194,7 @@ class StarvedProblem:
         centre = at_centre(mesh, state.thickness)
         density = self.flooded_mass / at_centre(mesh, self.flooded.state.thickness)
         shift = min(least, self.flooded_mass) / density - centre
-        state = State(state.pressure, state.h00 + shift, state.thickness + shift)
-        state = state.lifted(_LEAST_GAP * min(least, self.flooded_mass))
+        state = state.shifted(shift).lifted(_LEAST_GAP * min(least, self.flooded_mass))
         inlet = mesh.x[:, np.newaxis] < 0.0
         return state, filled & ~(inlet & (state.thickness > _FILLED * layer))
 
@@ -255,8 +223,8 @@ class StarvedProblem:
         state = last.solution.state
         fall = at_centre_line(self.level, layer) / at_centre_line(self.level, last.layer)
         shift = (fall - 1.0) * at_centre(self.level.mesh, state.thickness)
-        lowered = State(state.pressure, state.h00 + shift, state.thickness + shift)
-        return lowered.lifted(_LEAST_GAP * fall * float(np.min(state.thickness))), last.content.filled
+        lowered = state.shifted(shift).lifted(_LEAST_GAP * fall * float(np.min(state.thickness)))
+        return lowered, last.content.filled
 
 
 def at_centre_line(level: Level, layer: Array) -> float:

@@ -41,10 +41,9 @@ from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
-    ROUNDING,
+    GridProblem,
     GridSolution,
     NewtonStep,
-    Progress,
     Residual,
     State,
     Status,
@@ -114,8 +113,7 @@ class Carried:
     def hollow(self) -> Mask:
         """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
         ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
-        hollow: Mask = ~self.filled & ahead
-        return hollow
+        return ~self.filled & ahead
 
     def on(self, level: Level) -> Carried:
         """Filled nodes and supply on the next coarser grid, for its equations only."""
@@ -143,8 +141,7 @@ def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
     set method; the edges of the domain are never among them.
     """
     excess = state.contact_pressure - (state.thickness - boundary_film) / node_compliance(level)
-    contact: Mask = (excess > 0.0) & level.mesh.inner
-    return contact
+    return (excess > 0.0) & level.mesh.inner
 
 
 def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: Mask) -> Mask:
@@ -152,8 +149,7 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
     if np.isinf(asperities.hardness):
         return np.zeros(contact.shape, dtype=bool)
     sunk = (asperities.boundary_film - state.thickness) / node_compliance(level)
-    plastic: Mask = contact & (state.pressure - asperities.hardness + sunk > 0.0)
-    return plastic
+    return contact & (state.pressure - asperities.hardness + sunk > 0.0)
 
 
 def assess_touching(
@@ -485,37 +481,31 @@ _NEAR = 1e-3
 
 
 def touching_newton(
-    fluid: Fluid,
-    levels: list[Level],
+    problem: GridProblem,
     state: State,
-    *,
     asperities: Asperities,
-    tolerance: float,
-    max_iterations: int,
+    *,
     first_damping: float = 1.0,
-    progress: Progress | None = None,
     carried: Carried | None = None,
 ) -> GridSolution:
-    """Last iterate of Newton's method on the first of ``levels``, where the surfaces may touch.
+    """Last iterate of Newton's method on one grid, where the surfaces may touch.
 
     Where the oil in cavities is carried through them, ``carried`` has the nodes that oil fills in the initial
     guess. The state of the result has the contact pressure.
     """
-    level = levels[0]
-    tolerance = max(tolerance, ROUNDING * level.rate)
+    fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory()
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
-    while len(steps) < min(max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
-        if progress is not None:
-            progress(level.nodes, len(steps), now.norm)
+    while len(steps) < min(problem.max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
+        problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0)
         before = now.norm
-        step = newton_step(fluid, levels, state, now, asperities, close, damping)
+        step = newton_step(fluid, problem.levels, state, now, asperities, close, damping)
         steps.append(step.record)
         assessed = step.now
         if not np.isfinite(assessed.norm):

@@ -32,7 +32,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Fluid
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.newton import ROUNDING, GridSolution, NewtonStep, Progress, State
+from ehlectric.film.newton import GridProblem, GridSolution, NewtonStep, State
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, of_full_order, with_inlet
 from ehlectric.film.touching_film import (
@@ -154,22 +154,17 @@ _INTERMEDIATE = 1e-6
 
 @dataclass(frozen=True)
 class Conserving:
-    """Equations and stopping rule of a film that carries its oil through cavities, on one grid."""
+    """Film that carries its oil through cavities, to be solved on one grid."""
 
-    fluid: Fluid  # lubricant over dimensionless pressure
-    levels: list[Level]  # grids from the one to solve on to the coarsest
+    problem: GridProblem  # lubricant, grids and stopping rule
     asperities: Asperities  # boundary film and hardness
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
-    tolerance: float  # residual at which to stop, a pressure over p_h
-    max_iterations: int  # largest number of Newton steps from a start
-    # Function that is called with (nodes, Newton step, residual) before every step.
-    progress: Progress | None = None
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
 
     def near(self, state: State, filled: Mask) -> GridSolution:
         """Film from a state that is likely to be close, with the nodes (nx, ny) that oil fills in it."""
-        return self._solved(self.levels, state, filled, NEAR_DAMPING, self.tolerance, self.max_iterations)
+        return self._solved(self.problem, state, filled, NEAR_DAMPING)
 
     def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
         """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
@@ -184,13 +179,17 @@ class Conserving:
 
     def _in_steps(self, solution: GridSolution) -> GridSolution:
         """Film from which the oil that its cavities make is taken away in steps."""
-        made, level = self._made(solution), self.levels[0]
+        made, level, tolerance = self._made(solution), self.problem.level, self.problem.tolerance
         left, step, last = 1.0, _FIRST, solution
         while left > 0.0 and step > _LEAST:
             part = max(0.0, left - step)
-            posed = [replace(level, source=level.source + part * made), *self.levels[1:]]
-            tolerance = self.tolerance if part == 0.0 else max(self.tolerance, _INTERMEDIATE)
-            found = self._solved(posed, last.state, last.final.full_film, 0.0, tolerance, _STEPS)
+            posed = replace(
+                self.problem,
+                levels=[replace(level, source=level.source + part * made), *self.problem.levels[1:]],
+                tolerance=tolerance if part == 0.0 else max(tolerance, _INTERMEDIATE),
+                max_iterations=_STEPS,
+            )
+            found = self._solved(posed, last.state, last.final.full_film, 0.0)
             if found.status == "converged":
                 left, step, last = part, _LONGER * step, found
             else:
@@ -199,35 +198,24 @@ class Conserving:
 
     def _made(self, solution: GridSolution) -> Array:
         """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
-        carried = self._carried(self.levels[0], solution.final.full_film)
+        level = self.problem.level
         thickness = np.maximum(solution.state.thickness, self.asperities.boundary_film)
-        rows, _ = carried_rows(self.levels[0], solution.final.flow, thickness, carried)
+        carried = self._carried(level, solution.final.full_film)
+        rows, _ = carried_rows(level, solution.final.flow, thickness, carried)
         return rows
 
-    def _solved(
-        self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int
-    ) -> GridSolution:
-        found = self._newton(levels, state, filled, damping, tolerance, most)
+    def _solved(self, problem: GridProblem, state: State, filled: Mask, damping: float) -> GridSolution:
+        """Film from a state and the nodes (nx, ny) that oil fills in it, with a damping of the first step."""
 
-        def solved(state: State, filled: Mask, most: int, tolerance: float) -> GridSolution:
-            return self._newton(levels, state, filled, 0.0, tolerance, most)
+        def solved(
+            posed: GridProblem, state: State, filled: Mask, first_damping: float = 0.0
+        ) -> GridSolution:
+            carried = self._carried(posed.level, filled)
+            return touching_newton(
+                posed, state, self.asperities, first_damping=first_damping, carried=carried
+            )
 
-        return of_full_order(found, solved, tolerance)
-
-    def _newton(
-        self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int
-    ) -> GridSolution:
-        return touching_newton(
-            self.fluid,
-            levels,
-            state,
-            asperities=self.asperities,
-            tolerance=tolerance,
-            max_iterations=most,
-            first_damping=damping,
-            progress=self.progress,
-            carried=self._carried(levels[0], filled),
-        )
+        return of_full_order(problem, solved(problem, state, filled, damping), solved)
 
     def _carried(self, level: Level, filled: Mask) -> Carried:
         """Nodes (nx, ny) that oil fills, with those of the inlet edge, and a flooded inlet."""
@@ -251,17 +239,8 @@ _LOOSE, _PART = 1e-2, 0.3
 _CLOSE = 1e-2
 
 
-def pseudo_transient_film(
-    fluid: Fluid,
-    levels: list[Level],
-    state: State,
-    *,
-    asperities: Asperities,
-    tolerance: float,
-    max_iterations: int,
-    progress: Progress | None = None,
-) -> GridSolution:
-    """Stationary film on the first of ``levels``, from a film that is followed in time.
+def pseudo_transient_film(problem: GridProblem, state: State, asperities: Asperities) -> GridSolution:
+    """Stationary film on one grid, from a film that is followed in time.
 
     It has converged if its stationary residual is small after an infinite time step.
 
@@ -269,14 +248,13 @@ def pseudo_transient_film(
     doi:10.1137/S0036142996304796. A small residual alone does not make a film stationary: oil creeps through
     a boundary film so slowly that the film may change for a long time.
     """
-    level = levels[0]
-    tolerance = max(tolerance, ROUNDING * level.rate)
+    fluid, levels, level = problem.fluid, problem.levels, problem.level
+    tolerance = problem.reachable_tolerance
     steps: list[NewtonStep] = []
     now = assess_touching(fluid, level, state, asperities)
     state, rate = projected(fluid, state, now.contact), _FIRST_STEP
-    while len(steps) < max_iterations and rate < _MOST:
-        if progress is not None:
-            progress(level.nodes, len(steps), now.norm)
+    while len(steps) < problem.max_iterations and rate < _MOST:
+        problem.report(steps, now.norm)
         posed = _time_step(levels, now, rate) if rate else levels
         goal = _Goal.of(now, tolerance, stationary=rate == 0.0)
         taken = _solved(fluid, posed, state, asperities, goal)
@@ -354,15 +332,11 @@ _IN_TIME = 8
 
 
 def touching_films(
-    fluid: Fluid,
-    levels: list[Level],
+    problem: GridProblem,
     dry_pressure: Array,
-    *,
     asperities: Asperities,
+    *,
     film_guess: float,
-    tolerance: float,
-    max_iterations: int,
-    progress: Progress | None = None,
     near: State | None = None,
     thorough: bool = True,
 ) -> Iterator[GridSolution]:
@@ -371,42 +345,22 @@ def touching_films(
     ``dry_pressure`` (nx, ny) is the Hertz pressure P, and ``film_guess`` the film thickness H of smooth
     surfaces by a formula. Unless ``thorough``, as on coarser grids, only the first initial guess is tried.
     """
-
-    def solved(start: State, damping: float = 1.0) -> GridSolution:
-        return touching_newton(
-            fluid,
-            levels,
-            start,
-            asperities=asperities,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            first_damping=damping,
-            progress=progress,
-        )
-
     if near is not None:
         close = [near]
-        if levels[0].mesh.y.size > 1:
-            close.insert(0, relieved(levels[0], near, asperities.boundary_film))
+        if problem.level.mesh.y.size > 1:
+            close.insert(0, relieved(problem.level, near, asperities.boundary_film))
         for start in close:
-            yield (found := solved(start, NEAR_DAMPING))
+            yield (found := touching_newton(problem, start, asperities, first_damping=NEAR_DAMPING))
             if found.status == "converged":
                 return
         if not thorough:
             return
-    ambient = fluid.ambient_pressure
-    dry = dry_contact(levels[0], dry_pressure, asperities.boundary_film, ambient)
+    ambient = problem.fluid.ambient_pressure
+    dry = dry_contact(problem.level, dry_pressure, asperities.boundary_film, ambient)
     starts = [replace(dry, contact_pressure=0.0), dry]
     for start in starts if film_guess > asperities.boundary_film else starts[::-1]:
-        yield (found := solved(start))
+        yield (found := touching_newton(problem, start, asperities))
         if found.status == "converged" or not thorough:
             return
-    yield pseudo_transient_film(
-        fluid,
-        levels,
-        dry,
-        asperities=asperities,
-        tolerance=tolerance,
-        max_iterations=_IN_TIME * max_iterations,
-        progress=progress,
-    )
+    in_time = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
+    yield pseudo_transient_film(in_time, dry, asperities)

@@ -43,7 +43,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.nested import levels_of
-from ehlectric.film.newton import GridSolution, State, assess, newton
+from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.starved_solver import StarvedFilm
@@ -65,22 +65,29 @@ def step_levels(
     -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
     the inlet, the difference is over one step only.
     """
-    finest, mesh = levels[0], levels[0].mesh
-    step, last = steps
+    mesh, (step, last) = levels[0].mesh, steps
     ratio = step / last
     here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
     first = carried(masses[0], step / mesh.dx)
     second = carried(masses[1], (step + last) / mesh.dx)
     outside = mesh.x - mesh.x[0] < (step + last) - SAME_NODE * mesh.dx
     source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
-    source[~mesh.inner] = 0.0
-    rates = np.where(outside, 1.0 / step, here)
-    new = replace(
-        in_time(finest, here),
-        wedge=_mass_term(mesh.shape, rates[:, np.newaxis]),
+    rates = np.where(outside, 1.0 / step, here)[:, np.newaxis]
+    return _of_time_step(levels, here, rates, source, added_gap)
+
+
+def _of_time_step(
+    levels: list[Level], rate: float, rates: Array, source: Array, added_gap: Array
+) -> list[Level]:
+    """Grids of a time step, with the rates of the mass, the right side and the gap of the finest one."""
+    finest, *coarser = (in_time(level, rate) for level in levels)
+    finest = replace(
+        finest,
+        wedge=_mass_term(finest.mesh.shape, rates),
         dry_gap=finest.dry_gap + added_gap,
+        source=np.where(finest.mesh.inner, source, 0.0),
     )
-    return [replace(new, source=source), *(in_time(level, here) for level in levels[1:])]
+    return [finest, *coarser]
 
 
 def in_time(level: Level, rate: float) -> Level:
@@ -111,8 +118,7 @@ def carried(values: Array, distance: float) -> Array:
     padded = np.concatenate([before, values, beyond])
     start, n = ghosts - whole, values.shape[0]
     if abs(part) <= SAME_NODE:
-        moved: Array = padded[start : start + n].copy()
-        return moved
+        return padded[start : start + n].copy()
     weights = zip((-2, -1, 0, 1), lagrange_weights(part), strict=True)
     return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
 
@@ -253,8 +259,7 @@ def supplied_step_levels(
 
     On lines that are filled at the inlet edge the scheme is that of ``step_levels``.
     """
-    finest, mesh = levels[0], levels[0].mesh
-    (now, before), (step, last) = instants, steps
+    mesh, (now, before), (step, last) = levels[0].mesh, instants, steps
     ratio, dx = step / last, mesh.dx
     second = ratio / (1.0 + ratio)
     feet, filled = now.at_feet(step / dx), now.filled_feet(step / dx)
@@ -266,15 +271,7 @@ def supplied_step_levels(
     rates = np.where(filled, 1.0 + second, 1.0) / step
     behind = np.where(now.first, -step / dx * now.rise, 0.0)
     source = (carried + second * np.where(filled, feet, behind)) / step
-    source[~mesh.inner] = 0.0
-    here = (1.0 + second) / step
-    new = replace(
-        in_time(finest, here),
-        wedge=_mass_term(mesh.shape, rates),
-        dry_gap=finest.dry_gap + added_gap,
-        source=source,
-    )
-    return [new, *(in_time(level, here) for level in levels[1:])]
+    return _of_time_step(levels, (1.0 + second) / step, rates, source, added_gap)
 
 
 def oil_after(step: GridSolution, layer: Array) -> Oil:
@@ -429,23 +426,17 @@ class UnsteadyFilm:
     def _stepped(self, history: History, step: float) -> tuple[Instant | None, Effort]:
         """Instant one step later, or None if Newton's method does not converge, with the work."""
         time = history.now.time + step
+        tolerance = max(self.problem.tolerance, STEP_TOLERANCE)
         levels = self._levels_at(history, step)
+        posed = GridProblem(self.problem.fluid, levels, tolerance, _MANY_ITERATIONS)
         effort = Effort()
         starts = self._starts(levels, history, step)
         limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
         for (start, spike), iterations in zip(starts, limits, strict=True):
             if history.now.state.touching.any():
                 break
-            solution = newton(
-                self.problem.fluid,
-                levels,
-                start,
-                tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
-                max_iterations=iterations,
-                min_iterations=1,
-                eliminate_spike=spike,
-                transient=True,
-            )
+            limited = replace(posed, max_iterations=iterations)
+            solution = newton(limited, start, min_iterations=1, eliminate_spike=spike, transient=True)
             effort += Effort.of(solution)
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
@@ -454,24 +445,14 @@ class UnsteadyFilm:
                     break
                 return self._instant(time, solution), effort
         if self.problem.boundary_film > 0.0 and self.layer is None:
-            solution = self._touching(levels, history)
+            # The surfaces touch or part in this step: it starts from the last film.
+            last = history.now.state
+            start = State.of(levels[0], last.pressure, last.h00, last.contact_pressure)
+            solution = touching_newton(posed, start, self.problem.asperities, first_damping=0.0)
             effort += Effort.of(solution)
             if solution.status == "converged":
                 return self._instant(time, solution), effort
         return None, effort
-
-    def _touching(self, levels: list[Level], history: History) -> GridSolution:
-        """Film after a time step in which the surfaces touch or part, from the last film."""
-        last = history.now.state
-        return touching_newton(
-            self.problem.fluid,
-            levels,
-            State.of(levels[0], last.pressure, last.h00, last.contact_pressure),
-            asperities=self.problem.asperities,
-            tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
-            max_iterations=_MANY_ITERATIONS,
-            first_damping=0.0,
-        )
 
     def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.

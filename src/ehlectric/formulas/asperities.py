@@ -75,14 +75,12 @@ def greenwood_integral(order: float, separation: ArrayLike, highest: float = np.
     if not highest >= LOWEST_SEPARATION:
         raise ValueError(f"the highest summit is at least at {LOWEST_SEPARATION:g} standard deviations")
     if order == 0.0:
-        share: Array = np.where(at < highest, special.ndtr(-at), 0.0)
-        return share
+        return np.where(at < highest, special.ndtr(-at), 0.0)
     if np.isfinite(highest):
         return _worn(order, at, highest)
     flat = at.ravel()
     pieces = [_integrals(order, flat[k : k + _AT_ONCE]) for k in range(0, flat.size, _AT_ONCE)]
-    values: Array = np.concatenate(pieces or [flat]).reshape(at.shape)
-    return values
+    return np.concatenate(pieces or [flat]).reshape(at.shape)
 
 
 def _integrals(order: float, at: Array) -> Array:
@@ -118,8 +116,7 @@ def _positive_root(at: Array, order: float) -> Array:
     """Positive root t of t^2 + l t = order, without cancellation for large l."""
     half = 0.5 * at
     far = np.sqrt(half**2 + order)
-    root: Array = np.where(half > 0.0, order / (far + np.abs(half)), far - half)
-    return root
+    return np.where(half > 0.0, order / (far + np.abs(half)), far - half)
 
 
 def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
@@ -146,8 +143,7 @@ def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
         at = at - step
         if np.all(np.abs(step) <= 1e-14 * np.maximum(1.0, np.abs(at))):
             break
-    separation: Array = deviation * at
-    return separation
+    return deviation * at
 
 
 # The variance of the summit heights is (1 - 0.8968/alpha) m0, with the printed constant.
@@ -414,15 +410,14 @@ def contact_probability(film_parameter: ArrayLike) -> Array:
 
     Clarke et al. fitted electrical contact resistances of discs; it is quoted after Arana. Contact begins
     below lambda = 2 and rises steeply below 1. The fit is of one test rig: area of the contact, speed and
-    spacing of the asperities are not in it, whereas they are in ``intermittency.contact_time_share``.
+    spacing of the asperities are not in it, whereas they are in ``contact_time_share``.
 
     Examples
     --------
     >>> contact_probability([0.0, 1.0, 2.0]).round(4).tolist()
     [1.0, 0.1573, 0.0047]
     """
-    probability: Array = np.asarray(special.erfc(_checked(film_parameter)))
-    return probability
+    return np.asarray(special.erfc(_checked(film_parameter)))
 
 
 def patir_cheng(film_parameter: ArrayLike) -> Array:
@@ -435,8 +430,7 @@ def patir_cheng(film_parameter: ArrayLike) -> Array:
     >>> round(float(patir_cheng(1.0)), 3)
     0.165
     """
-    share: Array = np.exp(-1.8 * _checked(film_parameter) ** 1.2)
-    return share
+    return np.exp(-1.8 * _checked(film_parameter) ** 1.2)
 
 
 def zhou_hoeprich(film_parameter: ArrayLike) -> Array:
@@ -452,8 +446,7 @@ def zhou_hoeprich(film_parameter: ArrayLike) -> Array:
     >>> round(float(zhou_hoeprich(1.0)), 3)
     0.098
     """
-    share: Array = np.exp(-2.32 * _checked(film_parameter) ** 0.97)
-    return share
+    return np.exp(-2.32 * _checked(film_parameter) ** 0.97)
 
 
 def johnson_fit(film_parameter: ArrayLike) -> Array:
@@ -471,8 +464,7 @@ def johnson_fit(film_parameter: ArrayLike) -> Array:
     [0.117, 0.0]
     """
     at = _checked(film_parameter)
-    share: Array = np.where(at < johnson_end(), 1.0 - _johnson_fraction(at), 0.0)
-    return share
+    return np.where(at < johnson_end(), 1.0 - _johnson_fraction(at), 0.0)
 
 
 @cache
@@ -542,8 +534,7 @@ def expected_spots(spots_per_area: ArrayLike, area: ArrayLike) -> Array:
     >>> float(expected_spots(1e9, 1e-9))
     1.0
     """
-    number: Array = np.multiply(spots_per_area, area)
-    return number
+    return np.multiply(spots_per_area, area)
 
 
 def contact_time_share(expected: ArrayLike) -> Array:
@@ -646,8 +637,7 @@ def holm_resistance(radius: ArrayLike, resistivity: float) -> Array:
     >>> holm_resistance([0.1e-6, 1e-6], 2.2e-7).round(3).tolist()
     [1.1, 0.11]
     """
-    resistance: Array = resistivity / (2.0 * np.asarray(radius, dtype=float))
-    return resistance
+    return resistivity / (2.0 * np.asarray(radius, dtype=float))
 
 
 def sharvin_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float) -> Array:
@@ -663,8 +653,7 @@ def sharvin_resistance(radius: ArrayLike, resistivity: float, mean_free_path: fl
     186.7
     """
     path_area = 3.0 * np.pi * np.asarray(radius, dtype=float) ** 2
-    resistance: Array = 4.0 * resistivity * mean_free_path / path_area
-    return resistance
+    return 4.0 * resistivity * mean_free_path / path_area
 
 
 def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float = 0.0) -> Array:
@@ -687,10 +676,9 @@ def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float
     """
     ratio = mean_free_path / np.asarray(radius, dtype=float)
     factor = (1.0 + 0.83 * ratio) / (1.0 + 1.33 * ratio)
-    resistance: Array = sharvin_resistance(radius, resistivity, mean_free_path) + factor * holm_resistance(
+    return sharvin_resistance(radius, resistivity, mean_free_path) + factor * holm_resistance(
         radius, resistivity
     )
-    return resistance
 
 
 def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float) -> float:
@@ -755,8 +743,7 @@ def _inverse_distances(rows: Array, at: Array, first: int) -> Array:
     distance = np.hypot(rows[:, :1] - at[:, 0], rows[:, 1:] - at[:, 1])
     own = np.arange(rows.shape[0])
     distance[own, own + first] = np.inf
-    inverse: Array = 1.0 / distance
-    return inverse
+    return 1.0 / distance
 
 
 def film_resistance(area: ArrayLike, specific_resistance: float) -> Array:
@@ -769,5 +756,4 @@ def film_resistance(area: ArrayLike, specific_resistance: float) -> Array:
     >>> round(float(film_resistance(1e-12, 1e-9)))
     1000
     """
-    resistance: Array = specific_resistance / np.asarray(area, dtype=float)
-    return resistance
+    return specific_resistance / np.asarray(area, dtype=float)

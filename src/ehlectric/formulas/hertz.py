@@ -235,8 +235,7 @@ def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
     -1.0
     """
     position = np.asarray(x, dtype=float)
-    opening: Array = half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
-    return opening
+    return half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
 
 
 # Absolute ln(Ry/Rx) below which the ratio of the semi-axes is (Ry/Rx)^(2/3) to the last digit: the next term

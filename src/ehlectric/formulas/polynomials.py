@@ -33,8 +33,7 @@ def lobatto_nodes(degree: int) -> Array:
 def lobatto_weights(nodes: Array) -> Array:
     """Weights of the quadrature on ``lobatto_nodes``, shape (n,)."""
     degree = nodes.size - 1
-    weights: Array = 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
-    return weights
+    return 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
 
 
 def interpolation(nodes: Array, at: Array) -> Array:

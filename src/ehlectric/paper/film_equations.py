@@ -83,8 +83,7 @@ class FilmEquations:
     @cached_property
     def kernel_matrix(self) -> Array:
         """Dense matrix of the deflection, shape (n, n), used on a coarsest grid."""
-        matrix: Array = toeplitz(self.kernel)
-        return matrix
+        return toeplitz(self.kernel)
 
     def deflection(self, pressure: Array) -> Array:
         """Elastic deflection by a pressure P, shape (n,); positive where the gap widens."""

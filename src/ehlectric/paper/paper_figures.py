@@ -31,13 +31,13 @@ def _canvas(size: tuple[float, float]) -> Axes:
     return ax
 
 
-def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float], style: str = "-|>") -> None:
+def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float]) -> None:
     """Draw an arrow between two points."""
     ax.annotate(
         "",
         xy=stop,
         xytext=start,
-        arrowprops={"arrowstyle": style, "color": _INK, "lw": 1.0, "mutation_scale": 12},
+        arrowprops={"arrowstyle": "-|>", "color": _INK, "lw": 1.0, "mutation_scale": 12},
     )
 
 
@@ -49,8 +49,7 @@ def _text(ax: Axes, x: float, y: float, text: str, **options: object) -> None:
 def _gap(x: Array) -> Array:
     """Half of a schematic film thickness: flat from x = -1 to 1 with an exit constriction, wider outside."""
     outside = np.maximum(np.abs(x) - 1.0, 0.0)
-    gap: Array = 0.16 + 0.35 * outside**1.5 - 0.05 * np.exp(-(((x - 0.95) / 0.12) ** 2))
-    return gap
+    return 0.16 + 0.35 * outside**1.5 - 0.05 * np.exp(-(((x - 0.95) / 0.12) ** 2))
 
 
 def film_model() -> Figure:
@@ -216,25 +215,22 @@ def potentials(study: Study) -> Figure:
     return _compared(panels, [study.smooth[contact] for contact in contacts])
 
 
-def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
-    """Draw the dimensionless field strength of the four contacts of a Hertz pressure, on the same scales."""
-    panels = new_panels(2, 2, (_SCREEN_WIDTH, 6.8))
-    results = {contact: solved[contact] for contact in _of(gigapascal)}
-    largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
-    for ax, (contact, result) in zip(panels, results.items(), strict=True):
-        plot.field_strength(result, ax, largest=largest)
-        _title(ax, _panel_name(contact, contact.label, result))
-    return _compared(panels, results.values())
+def _strengths(part: str, gigapascal: int) -> Callable[[Study], Figure]:
+    """Function that draws Figure 5, 6, 9 or 10: dimensionless field strength in the films of a part.
 
+    The four contacts of a Hertz pressure have the same scales.
+    """
 
-def smooth_strengths(gigapascal: int) -> Callable[[Study], Figure]:
-    """Function that draws Figure 5 or 6: dimensionless field strength in the smooth films."""
-    return lambda study: _strengths(study.smooth, gigapascal)
+    def draw(study: Study) -> Figure:
+        panels = new_panels(2, 2, (_SCREEN_WIDTH, 6.8))
+        results = {contact: getattr(study, part)[contact] for contact in _of(gigapascal)}
+        largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
+        for ax, (contact, result) in zip(panels, results.items(), strict=True):
+            plot.field_strength(result, ax, largest=largest)
+            _title(ax, _panel_name(contact, contact.label, result))
+        return _compared(panels, results.values())
 
-
-def rough_strengths(gigapascal: int) -> Callable[[Study], Figure]:
-    """Function that draws Figure 9 or 10: dimensionless field strength in the rough films."""
-    return lambda study: _strengths(study.rough, gigapascal)
+    return draw
 
 
 def _middle(
@@ -347,15 +343,15 @@ FIGURES: dict[int, PaperFigure] = {
     2: PaperFigure("The elastohydrodynamic model.", (), lambda _: film_model()),
     3: PaperFigure("The electrostatic model.", (), lambda _: field_model()),
     4: PaperFigure("Potential of the smooth films (a) M12L15 and (b) M34L9.", ("smooth",), potentials),
-    5: PaperFigure("Field strength of the smooth films at 1 GPa.", ("smooth",), smooth_strengths(1)),
-    6: PaperFigure("Field strength of the smooth films at 2 GPa.", ("smooth",), smooth_strengths(2)),
+    5: PaperFigure("Field strength of the smooth films at 1 GPa.", ("smooth",), _strengths("smooth", 1)),
+    6: PaperFigure("Field strength of the smooth films at 2 GPa.", ("smooth",), _strengths("smooth", 2)),
     7: PaperFigure("Mid-film field strength at (a) 1 GPa and (b) 2 GPa.", ("smooth",), smooth_middle),
     8: PaperFigure(
         "(a) The measured profile and (b) the pressure of M34L9 with and without it.",
         ("smooth", "rough"),
         profile_and_pressure,
     ),
-    9: PaperFigure("Field strength of the rough films at 1 GPa.", ("rough",), rough_strengths(1)),
-    10: PaperFigure("Field strength of the rough films at 2 GPa.", ("rough",), rough_strengths(2)),
+    9: PaperFigure("Field strength of the rough films at 1 GPa.", ("rough",), _strengths("rough", 1)),
+    10: PaperFigure("Field strength of the rough films at 2 GPa.", ("rough",), _strengths("rough", 2)),
     11: PaperFigure("Dimensionless mid-film field strength of the rough films.", ("rough",), rough_middle),
 }

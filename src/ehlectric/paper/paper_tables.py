@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -87,6 +87,11 @@ def agrees(computed: float, printed: float) -> bool:
     return abs(computed - printed) <= TOLERANCE * printed + HALF_PRINT
 
 
+# Films of a contact in Table 3, by their names in its heads, and who printed or computed them.
+_FILMS = {"h_min": "minimum film", "h_av": "mean film in the Hertz zone"}
+_SOURCES = ("Venner & Napel", "paper", "first order", "second order")
+
+
 def printed_table(study: Study) -> PaperTable:
     """Table 3 of the paper: films of the 2 GPa contacts, as printed and as computed with both wedges."""
     rows: list[tuple[str | float, ...]] = []
@@ -94,14 +99,16 @@ def printed_table(study: Study) -> PaperTable:
     for printed in table_3():
         contact = contacts[printed["u_s"]]
         second, first = study.smooth[contact], study.first_order[contact]
+        films = [printed[f"{author}_{key}"] for author in ("venner", "paper") for key in _FILMS]
+        computed = [
+            thickness
+            for result in (first, second)
+            for thickness in (result.film.minimum_thickness, result.film.mean_thickness)
+        ]
         pairs = [
-            (film, printed[f"{author}_{key}"] / MICRO)
-            for result in (second, first)
-            for author in ("venner", "paper")
-            for film, key in (
-                (result.film.minimum_thickness, "h_min"),
-                (result.film.mean_thickness, "h_av"),
-            )
+            pair
+            for of_wedge in (computed[:2], computed[2:])
+            for pair in zip(2 * of_wedge, [film / MICRO for film in films], strict=True)
         ]
         rows.append(
             (
@@ -111,25 +118,15 @@ def printed_table(study: Study) -> PaperTable:
                 second.conditions.contact.moes_m,
                 printed["moes_l"],
                 of_paper(second).moes_l,
-                printed["venner_h_min"],
-                printed["venner_h_av"],
-                printed["paper_h_min"],
-                printed["paper_h_av"],
-                first.film.minimum_thickness * MICRO,
-                first.film.mean_thickness * MICRO,
-                second.film.minimum_thickness * MICRO,
-                second.film.mean_thickness * MICRO,
+                *films,
+                *(thickness * MICRO for thickness in computed),
                 100.0 * (second.film.discretisation_error or np.nan),
             )
         )
-    films = [
-        f"{source}, {quantity} [µm]"
-        for source in ("Venner & Napel", "paper", "first order", "second order")
-        for quantity in ("h_min", "h_av")
-    ]
+    heads = [f"{source}, {quantity} [µm]" for source in _SOURCES for quantity in _FILMS]
     columns = [("u_s [m/s]", "g"), (WITHIN, ""), ("M printed", "g"), ("M", ".1f")]
     columns += [("L printed", "g"), ("L", ".2f")]
-    columns += [(head, ".2f") for head in films[:4]] + [(head, ".4f") for head in films[4:]]
+    columns += [(head, ".2f") for head in heads[:4]] + [(head, ".4f") for head in heads[4:]]
     columns += [("grid error [%]", ".2f")]
     return _table("Table 3: films at 2 GPa", columns, rows)
 
@@ -262,20 +259,7 @@ def permittivity_table(study: Study) -> PaperTable:
 
 def methods_table(study: Study) -> PaperTable:
     """Table of the convergence of the paper's own methods, and of their differences from ehlectric's."""
-    rows = [
-        (
-            contact.name,
-            m.cycles,
-            m.factor,
-            m.film_difference,
-            m.unknowns,
-            m.sweeps,
-            m.damping,
-            m.capacitance_difference,
-            m.strength_difference,
-        )
-        for contact, m in study.methods.items()
-    ]
+    rows = [(contact.name, *astuple(methods)) for contact, methods in study.methods.items()]
     columns = [
         ("contact", ""),
         ("V-cycles to 1e-6", "d"),
@@ -297,11 +281,6 @@ TABLES: dict[str, tuple[Callable[[Study], PaperTable], tuple[str, ...]]] = {
     "conclusion_3": (permittivity_table, ("smooth", "constant")),
     "methods": (methods_table, ("methods",)),
 }
-
-
-# Films of a contact, by their names in the heads of the table of the study.
-_FILMS = {"h_min": "minimum film", "h_av": "mean film in the Hertz zone"}
-_SOURCES = ("Venner & Napel", "paper", "first order", "second order")
 
 
 def films_tables(films: PaperTable) -> Iterator[Table]:

@@ -160,13 +160,9 @@ def _variant(case: Callable[[PaperContact], Case], contact: PaperContact) -> Res
 
 def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
     """Results of a rough contact on half the number of intervals, with the profile as it is and moved."""
-    return tuple(_moved(contact.rough_case(profile, nodes=PLACED_NODES, shift=shift)) for shift in PLACEMENTS)
-
-
-def _moved(case: Case) -> Placed:
-    """Result of a rough case; the smooth contact is not solved."""
-    result = _line(case, beside_smooth=False)
-    return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
+    cases = (contact.rough_case(profile, nodes=PLACED_NODES, shift=shift) for shift in PLACEMENTS)
+    results = [_line(case, beside_smooth=False) for case in cases]
+    return tuple(Placed(r.film.minimum_thickness, r.max_dimensionless, r.converged) for r in results)
 
 
 def _methods(contact: PaperContact) -> Methods:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film.nested import levels_of
-from ehlectric.film.newton import State
+from ehlectric.film.newton import GridProblem, State
 from ehlectric.film.touching_film import touching_newton
 from tests.helpers.mixed_films import (
     gaussian,
@@ -158,9 +158,8 @@ def test_solver_of_touching_surfaces_finds_a_thick_film(case):
     levels = levels_of(problem)
     exact = mixed_film(problem, boundary_film=0.0)
     raised = State.of(levels[0], without.pressure, without.last.state.h00 + 0.2 * float(without.gap.min()))
-    found = touching_newton(
-        problem.fluid, levels, raised, asperities=problem.asperities, tolerance=1e-11, max_iterations=60
-    )
+    on_grid = GridProblem(problem.fluid, levels, tolerance=1e-11, max_iterations=60)
+    found = touching_newton(on_grid, raised, problem.asperities)
     assert found.status == "converged"
     assert len(found.steps) > 1
     assert not found.touches

@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric import Case, load, save, solve
 from ehlectric.film.nested import levels_of
-from ehlectric.film.newton import State
+from ehlectric.film.newton import GridProblem, State
 from ehlectric.film.touching_film import touching_newton
 from ehlectric.film.touching_solver import dry_contact, relieved
 from tests.helpers.mixed_films import gaussian, posed, rough_point
@@ -68,9 +68,8 @@ def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundar
     )
     pierced = State.of(levels[0], np.broadcast_to(pressure, levels[0].mesh.shape).copy(), -1.0)
     hs = problem.boundary_film
-    solution = touching_newton(
-        problem.fluid, levels, pierced, asperities=problem.asperities, tolerance=1e-6, max_iterations=steps
-    )
+    on_grid = GridProblem(problem.fluid, levels, tolerance=1e-6, max_iterations=steps)
+    solution = touching_newton(on_grid, pierced, problem.asperities)
     assert solution.status == "stalled"
     sunk = State.of(levels[0], solution.state.pressure, solution.state.h00).thickness
     assert sunk.min() < 0.0

@@ -53,7 +53,7 @@ SKEW = 1.0 / 6.0
 class Groups:
     """Moes' groups of a contact."""
 
-    # moes_m and moes_l: M and L, dimensionless. L is made with the coefficient of ``atlas.coefficient``
+    # moes_m and moes_l: M and L, dimensionless. L is made with ``film_coefficient`` of the oil
     moes_m: float
     moes_l: float
     # Ratio k of the semi-axes, across over along entrainment; None for a line contact.
