@@ -4,7 +4,7 @@ leakage.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from operator import mul, truediv
 
@@ -25,17 +25,13 @@ from ehlectric.cases.bearing_inputs import ROLLERS, Motor
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
     beside_limits,
-    melted_volume,
+    known,
     pit_diameter,
     stored_energy,
+    volume_of_pit,
 )
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
-
-
-def known(law: Callable[..., float], *values: float | None) -> float | None:
-    """Value of a law; None where one of its arguments is not known."""
-    return None if None in values else law(*values)
 
 
 def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
@@ -205,8 +201,7 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     total, pit = _discharged(solution), case.discharge.pit
     discharged = known(stored_energy, total, across)
     at_break = known(stored_energy, total, None if breakdown is None else breakdown.first_break)
-    melting = (None,) if pit is None else (pit.efficiency, pit.melting_energy)
-    volume, at_first = (known(melted_volume, energy, *melting) for energy in (discharged, at_break))
+    volume, at_first = (volume_of_pit(pit, energy) for energy in (discharged, at_break))
     areas = conducting_areas(solution)
     whole, largest = float(np.sum(areas)), float(np.max(areas))
     current = case.discharge.peak_current
@@ -219,8 +214,8 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
         pit_diameter=known(pit_diameter, volume),
         breakdown_pit_diameter=known(pit_diameter, at_first),
         hertz_area=whole,
-        current_density=None if current is None or not whole else current / whole,
-        element_current_density=None if current is None or not largest else current / largest,
+        current_density=known(truediv, current, whole or None),
+        element_current_density=known(truediv, current, largest or None),
         current_density_limits=None if current is None else CURRENT_DENSITY_LIMITS,
     )
 

@@ -403,7 +403,7 @@ def film_note(solution: BearingSolution) -> ResultWarning:
 
 def supply_words(solution: BearingSolution) -> str:
     """Parts of the film factor with a supply, as "0.939 of the flooded thickness by grease"."""
-    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
     more = f" and a given factor of {heat:.3g}" if isinstance(heat, float) else ""
@@ -420,7 +420,7 @@ def supply_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             f"the film factor of {total:.3g} acts by a lower entrainment speed, with one exponent for all "
             "contacts: films may come out thinner than this share, by up to 5 % at 0.5 and 16 % at 0.1",
         )
-    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     if supply == "flooded" or found is None:
         return
     if solution.case.bearing.by_supply_rule:

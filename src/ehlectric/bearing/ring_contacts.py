@@ -180,7 +180,7 @@ class RingContacts(Generic[G_co]):
     @property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""
-        return self.conditions.radii(self.angle, inner=self.inner)
+        return self.conditions.geometry.radii(self.angle, inner=self.inner)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.circuit import Circuit, series
-from ehlectric.bearing.conditions import BearingConditions
+from ehlectric.bearing.conditions import BearingConditions, gap_breakdown
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
@@ -119,7 +119,7 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
         outside_air=vacuum,
         plate=none,
         strength_per_volt=1.0 / apart,
-        breakdown_voltage=np.array([conditions.gap_breakdown(float(thickness)) for thickness in apart]),
+        breakdown_voltage=gap_breakdown(conditions.discharge, apart),
         hertz=none,
     )
 

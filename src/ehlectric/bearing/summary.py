@@ -13,7 +13,6 @@ from ehlectric.bearing.bearing_discharges import (
     bearing_voltage_ratio,
     breakdown_of,
     film_voltage,
-    known,
     margin,
     shaft_leakage,
     shaft_voltage,
@@ -42,12 +41,13 @@ from ehlectric.bearing.solution import (
     regime,
 )
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.discharge.discharge_laws import conductivity_of
+from ehlectric.discharge.discharge_laws import conductivity_of, known
 from ehlectric.errors import texts_and_codes
 from ehlectric.runtime.files import plain
 
 SCHEMA = "ehlectric.bearing/1"
 
+_PARTS_OF_FILM_FACTOR = ("heat_factor", "inlet_shear_factor", "supply_factor")
 _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
@@ -128,9 +128,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "lubrication": lubrication(solution),
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
-        "heat_factor": solution.conditions.heat_factor,
-        "inlet_shear_factor": solution.conditions.inlet_shear_factor,
-        "supply_factor": solution.conditions.supply_factor,
+        **{name: solution.conditions.part_of_film_factor(name) for name in _PARTS_OF_FILM_FACTOR},
         "film_half_time": half_time(solution),
         **friction_summary(solution),
         **(broken := breaks(solution)),

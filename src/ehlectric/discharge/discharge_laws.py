@@ -6,13 +6,15 @@ All quantities are in SI units. The field is proportional to the voltage, so one
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from operator import add, truediv
 
 import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
-from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.discharge_inputs import Discharge, Pit
 from ehlectric.field.zones import areas
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
@@ -148,6 +150,16 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
     return efficiency * energy / melting_energy
 
 
+def known(law: Callable[..., float], *values: float | None) -> float | None:
+    """Value of a law; None where one of its arguments is not known."""
+    return None if None in values else law(*values)
+
+
+def volume_of_pit(pit: Pit | None, energy: float | None) -> float | None:
+    """Volume that a discharge of an energy [J] melts [m^3]; None without the table ``pit`` or an energy."""
+    return None if pit is None else known(melted_volume, energy, pit.efficiency, pit.melting_energy)
+
+
 def pit_diameter(volume: float) -> float:
     """Diameter d of a hemispherical pit [m] from its volume V = pi d^3/12 [m^3].
 
@@ -239,29 +251,20 @@ def discharge_costs(
     [V]; ``breaking_voltage``, breakdown voltage [V]; None if it is unknown. Returns values in SI units; None
     if the case lacks an input that a value needs.
     """
-    total, external = size.total(capacitance), discharge.external_capacitance
-    together = None if total is None or external is None else total + external
-    energy = _energy(together, voltage)
-    volume = (
-        None
-        if discharge.pit is None or energy is None
-        else melted_volume(energy, discharge.pit.efficiency, discharge.pit.melting_energy)
-    )
-    current = discharge.peak_current
+    total, current = size.total(capacitance), discharge.peak_current
+    together = known(add, total, discharge.external_capacitance)
+    energy = known(stored_energy, together, voltage)
+    volume = volume_of_pit(discharge.pit, energy)
     area = None if current is None else size.total(size.hertz)
     return DischargeCosts(
-        contact_energy=_energy(total, voltage),
+        contact_energy=known(stored_energy, total, voltage),
         discharge_energy=energy,
-        breakdown_energy=_energy(together, breaking_voltage),
+        breakdown_energy=known(stored_energy, together, breaking_voltage),
         pit_volume=volume,
-        pit_diameter=None if volume is None else pit_diameter(volume),
-        current_density=None if current is None or area is None else current / area,
+        pit_diameter=known(pit_diameter, volume),
+        current_density=known(truediv, current, area),
         current_density_limits=None if area is None else CURRENT_DENSITY_LIMITS,
     )
-
-
-def _energy(capacitance: float | None, voltage: float | None) -> float | None:
-    return None if capacitance is None or voltage is None else stored_energy(capacitance, voltage)
 
 
 @dataclass(frozen=True)

@@ -199,7 +199,7 @@ def test_a_given_film_factor_has_no_friction():
     """Films of another thickness are not those whose friction was solved."""
     changed = with_film_factor(prepare_bearing(case(ROLLERS), 1), 0.8).conditions
     assert changed.inner.friction is None
-    assert changed.inlet_shear_factor is None
+    assert changed.part_of_film_factor("inlet_shear_factor") is None
 
 
 def test_stored_friction(rollers, tmp_path):
@@ -217,7 +217,8 @@ def test_stored_friction(rollers, tmp_path):
         del dataset.attrs[name]
     without = solution_of(dataset)
     assert without.conditions.inner.friction is None
-    assert without.conditions.heat_factor == rollers.conditions.heat_factor
+    assert without.conditions.inner.heat_factor == rollers.conditions.inner.heat_factor
+    assert without.conditions.outer.heat_factor == rollers.conditions.outer.heat_factor
     assert summary_of(without)["bearing"]["rolling_power_loss"] is None
     assert not [name for name in dataset_of(without).attrs if name.startswith("solved_")]
 
