@@ -132,11 +132,10 @@ def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tupl
     Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
     The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
     """
-    kind = kind_of(ring)
-    contact: Contact = kind.contact(_flooded(ring), load)
+    contact: Contact = kind_of(ring).contact(_flooded(ring), load)
     check_contact(contact)
     try:
-        factor, found = _solved(_hot(case, contact, kind.grid(contact)))
+        factor, found = _solved(_hot(case, contact))
     except InputError as error:
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
@@ -154,16 +153,12 @@ def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
     return replace(ring, conditions=replace(ring.conditions, inner=inner, outer=outer))
 
 
-def _hot(case: BearingCase, contact: Contact, grid: Grid) -> _HotContact:
+def _hot(case: BearingCase, contact: Contact) -> _HotContact:
     """Contact of a bearing with its bodies, its oil and its grid."""
-    ring, bearing = contact.ring, case.bearing
+    ring, bearing, grid = contact.ring, case.bearing, contact.grid
     temperature = bearing.ring_temperature(inner=ring.inner)
-    conditions: Conditions | PointConditions = contact.conditions
-    if isinstance(conditions, PointConditions):
-        assert grid.side is not None
-        conditions = replace(conditions, side=grid.side)
     return _HotContact(
-        conditions,
+        contact.conditions_on(grid),
         temperature,
         (
             _body(bearing.ring_material, temperature, "bearing.ring_material"),

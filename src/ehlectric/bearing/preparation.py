@@ -293,7 +293,7 @@ def least_load(ring: RingContacts[Any]) -> float:
 
     def holds(exponent: float) -> bool:
         # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-        return bool(kind.fits(kind.contact(ring, 10.0**exponent)))
+        return bool(kind.contact(ring, 10.0**exponent).fits)
 
     smallest, largest = _EXPONENTS
     if not holds(largest):

@@ -278,6 +278,5 @@ def check_bearing(case: BearingCase) -> None:
     """
     prepared = prepare_bearing(heat_by_formula(case), 1)
     for ring in prepared.rings:
-        kind = kind_of(ring)
-        contact = kind.contact(ring, largest_load(prepared, ring))
-        check_contact(contact, kind.grid(contact))
+        contact = kind_of(ring).contact(ring, largest_load(prepared, ring))
+        check_contact(contact, contact.grid)
