@@ -6,7 +6,7 @@ All quantities are in SI units. The field is proportional to the voltage, so one
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import add, truediv
 
@@ -18,6 +18,7 @@ from ehlectric.cases.discharge_inputs import Discharge, Pit
 from ehlectric.field.zones import areas
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.quantity import data_file
 
 # Lateral size of the pits that discharges leave in bearings: maximum and mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
@@ -28,37 +29,9 @@ TUNNELLING = 2e-9
 # Published limits of the apparent current density, peak current over Hertz area, above which bearings are
 # damaged [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
-_PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubricants10050087"
 
 # Sources and assumptions of those values of a summary that do not follow from case and solution alone.
-SOURCES = {
-    "zone_size": "assumption: zone in which field / dielectric strength is at least 95 % of its maximum",
-    "zone_area": "assumption: as zone_size",
-    "zone_over_half_width": "assumption: as zone_size",
-    "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
-    "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
-    "capacitance": "of the computed domain only; of a point contact it grows with the log of the domain size",
-    "capacitance_plate": (
-        "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at "
-        "ambient pressure"
-    ),
-    "capacitance_ratio": "assumption: as capacitance_plate",
-    "outlet": "assumption: filling of the gap behind the exit; the limiting cases are given, too",
-    "capacitance_outlet_full": "assumption: only oil behind the exit, even if there is not enough oil",
-    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the oil mass is conserved",
-    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the oil mass is conserved",
-    "discharge_energy": "assumption: one spark discharges all of the charge",
-    "breakdown_energy": "assumption: one spark discharges all of the charge",
-    "pit_volume": "assumption: energy at the voltage of the case; efficiency and melting energy as given",
-    "pit_diameter": "assumption: hemispherical pit",
-    "current_density_limits": (
-        "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
-        "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
-    ),
-    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure; "
-    "in a film with heat, the mean conductivity of the Hertz zone at the mid-film temperature",
-    "corner_frequency": "assumption: as relaxation_time",
-}
+SOURCES: Mapping[str, str] = data_file("ehlectric.quantities", "discharge_sources.toml")
 
 # Utilisation is the ratio of field strength to dielectric strength. The zone that breaks down first is where
 # the utilisation is at least this part of its maximum.
