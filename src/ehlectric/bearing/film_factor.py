@@ -222,15 +222,11 @@ def _friction(
     """Friction and temperature of a film with heat whose oil enters with a temperature [K]."""
     heated = film.heated
     assert heated is not None and heated.mid_temperature is not None
-    assert heated.max_temperature_rise is not None
-    assert heated.rolling_coefficient is not None and heated.power_loss is not None
+    same = ("rolling_coefficient", "power_loss", "max_temperature_rise", "temperature_rise_error")
     return ContactFriction(
         load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
-        rolling_coefficient=heated.rolling_coefficient,
-        power_loss=heated.power_loss,
         inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - temperature,
-        max_temperature_rise=heated.max_temperature_rise,
-        temperature_rise_error=heated.temperature_rise_error,
+        **{name: getattr(heated, name) for name in same},
     )
 
 

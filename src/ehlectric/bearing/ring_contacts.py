@@ -596,12 +596,8 @@ class ContactCurve(Values):
 
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        return ContactValues(*self._law(load))
-
-    @cached_property
-    def _law(self) -> _Interpolation:
-        """Interpolation of all quantities."""
-        return _Interpolation.of(self.loads, np.stack(self.stack().columns(), axis=-1))
+        rows = np.stack(self.stack().columns(), axis=-1)
+        return ContactValues(*_interpolated(self.loads, rows, load))
 
     @cached_property
     def counted(self) -> ContactCurve:
@@ -623,31 +619,20 @@ class ContactCurve(Values):
         for k in range(1, loads.size - 1):
             known = np.isfinite(values[k]) & [True, loads[k] >= _LIGHT * loads[-1]]
             others = np.delete(values[:, known], k, axis=0)
-            left = _Interpolation.of(np.delete(loads, k), others)(loads[k : k + 1])
+            left = _interpolated(np.delete(loads, k), others, loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
         return float(worst)
 
 
-@dataclass(frozen=True)
-class _Interpolation:
-    """Monotone interpolation of n columns of values over the load in the logarithms of both."""
+def _interpolated(loads: Array, values: Array, load: Array) -> Array:
+    """Values at k loads [N], shape (n, k), interpolated from those at m loads [N], shape (m, n).
 
-    loads: Array  # [N], shape (m,)
-    first: Array  # values at the smallest load; infinite for a column with any infinite value, shape (n,)
-    # Logarithm of the columns that are finite over that of the load; None for a single load.
-    between: PchipInterpolator | None
-
-    @classmethod
-    def of(cls, loads: Array, values: Array) -> _Interpolation:
-        """Interpolation of values of shape (m, n)."""
-        finite = np.all(np.isfinite(values), axis=0)
-        between = PchipInterpolator(np.log(loads), np.log(values[:, finite])) if loads.size > 1 else None
-        return cls(loads, np.where(finite, values[0], np.inf), between)
-
-    def __call__(self, load: Array) -> Array:
-        """Values at k loads [N], shape (n, k); beyond the ends, those at the ends."""
-        found = np.repeat(self.first[:, np.newaxis], np.size(load), axis=1)
-        if self.between is not None:
-            inside = np.clip(load, self.loads[0], self.loads[-1])
-            found[np.isfinite(self.first)] = np.exp(self.between(np.log(inside))).T
-        return found
+    The interpolation is monotone in the logarithms of both. Beyond the ends the values are those at the ends.
+    A column with any infinite value is infinite.
+    """
+    finite = np.all(np.isfinite(values), axis=0)
+    found = np.repeat(np.where(finite, values[0], np.inf)[:, np.newaxis], np.size(load), axis=1)
+    if loads.size > 1:
+        between = PchipInterpolator(np.log(loads), np.log(values[:, finite]))
+        found[finite] = np.exp(between(np.log(np.clip(load, loads[0], loads[-1])))).T
+    return found

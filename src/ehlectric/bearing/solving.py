@@ -65,8 +65,8 @@ def solution_of_prepared(
     return BearingSolution(
         case=case,
         conditions=prepared.conditions,
-        inner=prepared.inner,
-        outer=prepared.outer,
+        inner=prepared.rings[0],
+        outer=prepared.rings[1],
         inner_curve=curves[0],
         outer_curve=curves[1],
         positions=tuple(_position(prepared, curves, at) for at in prepared.equilibria),

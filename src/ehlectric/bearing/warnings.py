@@ -86,8 +86,7 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         if contacts == "formula":
             how, more = "by formula", '; use contacts = "solved" for design'
         text = f"contacts {how}: film thicknesses may be wrong by {error_text(solution)}"
-        code = "formula-contacts" if contacts == "formula" else "atlas-contacts"
-        yield ResultWarning(code, f"{text}, and fields are V/h_min{more}")
+        yield ResultWarning(f"{contacts}-contacts", f"{text}, and fields are V/h_min{more}")
     yield film_note(solution)
     yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)

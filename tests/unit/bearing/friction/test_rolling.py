@@ -72,7 +72,7 @@ def integrated(contact, grid):
 def flooded(tables):
     """Contacts of the inner ring with isothermal films, and the load of the most loaded one [N]."""
     prepared = prepare_bearing(bearing_case(tables, contacts="formula"), 1)
-    return prepared.inner, largest_load(prepared, prepared.inner)
+    return prepared.rings[0], largest_load(prepared, prepared.rings[0])
 
 
 def forces(ring, loads, grids):
@@ -234,7 +234,7 @@ def test_table_says_what_the_power_is_of(rollers):
 
 def film_exponent(solution, isothermal):
     """Exponent with which the factor acts on the solved film of the most loaded inner contact."""
-    ring, most = prepare_bearing(isothermal, 1).inner, solution.inner_curve.solutions[-1]
+    ring, most = prepare_bearing(isothermal, 1).rings[0], solution.inner_curve.solutions[-1]
     plain = solve(kind_of(ring).contact(ring, most.load), Solver())
     ratio = most.values.central_thickness / plain.values.central_thickness
     return math.log(ratio) / math.log(solution.conditions.inner.film_factor)
