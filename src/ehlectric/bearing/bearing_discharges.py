@@ -18,10 +18,11 @@ from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
     capacitance_is_bound,
+    dry_areas,
     insulating,
     lubrication,
 )
-from ehlectric.cases.bearing_inputs import ROLLERS, Motor
+from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
     beside_limits,
@@ -81,11 +82,6 @@ def film_voltage(solution: BearingSolution) -> float | None:
     return known(mul, film_share(solution), shaft_voltage(solution))
 
 
-def margin(voltage: float, shaft: float | None) -> float | None:
-    """Shaft voltage at breakdown [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
-    return known(truediv, voltage, shaft)
-
-
 @dataclass(frozen=True)
 class Breakdown:
     """Voltages at which films break down, over the positions of the cage.
@@ -135,7 +131,7 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
 def first_margin(solution: BearingSolution) -> float | None:
     """Margin of a solved bearing: shaft voltage of its first breakdown over its shaft voltage, or None."""
     breakdown = breakdown_of(solution)
-    return None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
+    return None if breakdown is None else known(truediv, breakdown.shaft_first_break, shaft_voltage(solution))
 
 
 def strength_per_volt(solution: BearingSolution) -> float | None:
@@ -235,9 +231,7 @@ def _discharged(solution: BearingSolution) -> float | None:
 
 def conducting_areas(solution: BearingSolution) -> Array:
     """Area of the smaller dry contact of each element, shape (n,) [m^2]; 0 where a ring does not load it."""
-    factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
-    axes = [(ring.values.semi_axis_x, ring.values.semi_axis_y) for ring in solution.positions[0].rings]
-    inner, outer = (factor * along * across for along, across in axes)
+    inner, outer = (dry_areas(solution, ring) for ring in solution.positions[0].rings)
     return np.minimum(inner, outer)
 
 

@@ -98,9 +98,9 @@ def _solved_heat(solution: BearingSolution) -> dict[str, Any]:
     if solution.case.bearing.film_factor != "solved":
         return {}
     rings = solution.conditions.rings
-    frictions = [own.friction for own in rings if own.friction is not None]
-    pairs: dict[str, Any] = {_HEAT: [own.heat_factor for own in rings]}
-    if len(frictions) == len(rings):
+    frictions = [ring.friction for ring in rings]
+    pairs: dict[str, Any] = {_HEAT: [ring.heat_factor for ring in rings]}
+    if None not in frictions:
         pairs |= {name: values for name, (_, values, _) in _FRICTIONS.written(frictions).items()}
     return pairs
 
