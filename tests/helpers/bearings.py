@@ -5,8 +5,8 @@ import dataclasses
 
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.bearing.quick_contacts import quick_solutions
-from ehlectric.bearing.ring_contacts import ContactSolution, ContactValues, RingContacts
+from ehlectric.bearing.quick_contacts import QUICK_METHODS, quick_solutions
+from ehlectric.bearing.ring_contacts import ContactSolution, ContactValues, RingContacts, solve
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
@@ -118,7 +118,7 @@ def contact_case(ring, load, solver):
         {
             "contact": contact | {"entrainment_speed": ring.speed, "temperature": conditions.oil.temperature},
             "lubricant": {**oil, "ambient_pressure": 0.0},
-            "grid": kind_of(ring).grid(contact_of(ring, load)).model_dump(exclude_none=True),
+            "grid": contact_of(ring, load).grid.model_dump(exclude_none=True),
             "discharge": conditions.discharge.model_dump(exclude_none=True) | discharge,
             "solver": solver,
         }
@@ -132,7 +132,7 @@ def elastic(solid):
 
 def solve_contact(ring, load, solver):
     """Solution of a contact with a ring at a load [N], with the values of a table ``[solver]``."""
-    return kind_of(ring).solve(contact_of(ring, load), Solver.from_dict(solver))
+    return solve(contact_of(ring, load), Solver.from_dict(solver))
 
 
 def formula_contact(ring, load):
@@ -160,7 +160,7 @@ def with_values(one, **values):
 
 def quick_contact(ring, load, way):
     """Contact with a ring at a load [N] without solving it: "atlas" or "formula"."""
-    (found,) = quick_solutions([kind_of(ring).quick[way](contact_of(ring, load))])
+    (found,) = quick_solutions([QUICK_METHODS[way](contact_of(ring, load))])
     return found
 
 

@@ -4,7 +4,7 @@ leakage.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from operator import mul, truediv
 
@@ -18,24 +18,21 @@ from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
     capacitance_is_bound,
+    dry_areas,
     insulating,
     lubrication,
 )
-from ehlectric.cases.bearing_inputs import ROLLERS, Motor
+from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
     beside_limits,
-    melted_volume,
+    known,
     pit_diameter,
     stored_energy,
+    volume_of_pit,
 )
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
-
-
-def known(law: Callable[..., float], *values: float | None) -> float | None:
-    """Value of a law; None where one of its arguments is not known."""
-    return None if None in values else law(*values)
 
 
 def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
@@ -83,11 +80,6 @@ def shaft_voltage(solution: BearingSolution) -> float | None:
 def film_voltage(solution: BearingSolution) -> float | None:
     """Part of the shaft voltage across the films, from ring to ring [V]; None as ``shaft_voltage``."""
     return known(mul, film_share(solution), shaft_voltage(solution))
-
-
-def margin(voltage: float, shaft: float | None) -> float | None:
-    """Shaft voltage at breakdown [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
-    return known(truediv, voltage, shaft)
 
 
 @dataclass(frozen=True)
@@ -139,7 +131,7 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
 def first_margin(solution: BearingSolution) -> float | None:
     """Margin of a solved bearing: shaft voltage of its first breakdown over its shaft voltage, or None."""
     breakdown = breakdown_of(solution)
-    return None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
+    return None if breakdown is None else known(truediv, breakdown.shaft_first_break, shaft_voltage(solution))
 
 
 def strength_per_volt(solution: BearingSolution) -> float | None:
@@ -205,8 +197,7 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     total, pit = _discharged(solution), case.discharge.pit
     discharged = known(stored_energy, total, across)
     at_break = known(stored_energy, total, None if breakdown is None else breakdown.first_break)
-    melting = (None,) if pit is None else (pit.efficiency, pit.melting_energy)
-    volume, at_first = (known(melted_volume, energy, *melting) for energy in (discharged, at_break))
+    volume, at_first = (volume_of_pit(pit, energy) for energy in (discharged, at_break))
     areas = conducting_areas(solution)
     whole, largest = float(np.sum(areas)), float(np.max(areas))
     current = case.discharge.peak_current
@@ -219,8 +210,8 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
         pit_diameter=known(pit_diameter, volume),
         breakdown_pit_diameter=known(pit_diameter, at_first),
         hertz_area=whole,
-        current_density=None if current is None or not whole else current / whole,
-        element_current_density=None if current is None or not largest else current / largest,
+        current_density=known(truediv, current, whole or None),
+        element_current_density=known(truediv, current, largest or None),
         current_density_limits=None if current is None else CURRENT_DENSITY_LIMITS,
     )
 
@@ -240,9 +231,7 @@ def _discharged(solution: BearingSolution) -> float | None:
 
 def conducting_areas(solution: BearingSolution) -> Array:
     """Area of the smaller dry contact of each element, shape (n,) [m^2]; 0 where a ring does not load it."""
-    factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
-    axes = [(ring.values.semi_axis_x, ring.values.semi_axis_y) for ring in solution.positions[0].rings]
-    inner, outer = (factor * along * across for along, across in axes)
+    inner, outer = (dry_areas(solution, ring) for ring in solution.positions[0].rings)
     return np.minimum(inner, outer)
 
 

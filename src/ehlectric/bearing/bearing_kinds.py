@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
@@ -11,29 +11,14 @@ from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.roller_loads import roller_equilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
-from ehlectric.bearing.quick_contacts import (
-    QuickContact,
-    ball_by_atlas,
-    ball_by_formula,
-    roller_by_atlas,
-    roller_by_formula,
-)
 from ehlectric.bearing.ring_contacts import (
     BallContact,
-    ContactSolution,
     RingContacts,
     RollerContact,
-    ball_fits,
-    ball_grid,
     rigid_ball,
     rigid_roller,
-    roller_fits,
-    roller_grid,
-    solve_ball,
-    solve_roller,
 )
 from ehlectric.cases.bearing_inputs import ANGULAR, ROLLERS, Bearing
-from ehlectric.cases.grid_inputs import Grid, Solver
 
 G = TypeVar("G", BallBearing, RollerBearing)
 C = TypeVar("C", BallContact, RollerContact)
@@ -47,12 +32,6 @@ class Kind(Generic[G, C]):
     # Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all elements.
     equilibrium: Callable[[G, Operation, float, float], Equilibrium]
     contact: Callable[[RingContacts[G], float], C]  # contacts with a ring and load [N] -> contact
-    grid: Callable[[C], Grid]  # contact -> grid of its film and field
-    # Contact and table ``[solver]`` -> contact with its film and field solved.
-    solve: Callable[[C, Solver], ContactSolution]
-    # Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula"
-    quick: Mapping[str, Callable[[C], QuickContact]]
-    fits: Callable[[C], bool]  # contact -> whether the domain holds the length over which the film builds up
     # Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
     rigid_capacitance: Callable[[RingContacts[G], float], float]
     loads: int  # number of loads that are solved for each ring, without those of light elements
@@ -90,10 +69,6 @@ _BALLS = Kind[BallBearing, BallContact](
     geometry=_ball_geometry,
     equilibrium=ball_equilibrium,
     contact=BallContact,
-    grid=ball_grid,
-    solve=solve_ball,
-    quick={"atlas": ball_by_atlas, "formula": ball_by_formula},
-    fits=ball_fits,
     rigid_capacitance=rigid_ball,
     loads=5,
     dry_exponents=(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
@@ -102,10 +77,6 @@ _ROLLERS = Kind[RollerBearing, RollerContact](
     geometry=_roller_geometry,
     equilibrium=roller_equilibrium,
     contact=RollerContact,
-    grid=roller_grid,
-    solve=solve_roller,
-    quick={"atlas": roller_by_atlas, "formula": roller_by_formula},
-    fits=roller_fits,
     rigid_capacitance=rigid_roller,
     loads=10,
     dry_exponents=(0.5, 0.5, 0.0),

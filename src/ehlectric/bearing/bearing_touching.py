@@ -12,9 +12,15 @@ from scipy.optimize import brentq
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, RingState, lambda_ratio, lubrication
+from ehlectric.bearing.solution import (
+    CONDUCTING,
+    BearingSolution,
+    RingState,
+    dry_areas,
+    lambda_ratio,
+    lubrication,
+)
 from ehlectric.bearing.solving import quick_solution
-from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.errors import InputError
 from ehlectric.formulas.asperities import (
     LOWEST_SEPARATION,
@@ -192,8 +198,7 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
     low = np.min([np.where(beyond.get(name, False), np.inf, each) for name, each in shares.items()], axis=0)
     spots, real, time_share = None, None, probability
     if bearing.summits is not None:
-        factor = 4.0 if bearing.kind == ROLLERS else np.pi
-        area = factor * ring.values.semi_axis_x[loaded] * ring.values.semi_axis_y[loaded]
+        area = dry_areas(solution, ring)[loaded]
         touching = _touching(solution, film)
         number = expected_spots(touching.spots_per_area, area)
         time_share = contact_time_share(number)

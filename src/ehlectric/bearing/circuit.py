@@ -10,7 +10,6 @@ from typing import TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.runtime.stored import stored
 
 # Number, or array of numbers.
@@ -97,15 +96,6 @@ class Circuit:
         return np.minimum(self.inner_breaks, self.outer_breaks)
 
     @cached_property
-    def through_breaks(self) -> Array:
-        """Bearing voltages at which both contacts of each element have broken down, shape (n,) [V].
-
-        After the first of them has broken down, the other one carries the whole bearing voltage.
-        """
-        remaining = np.where(self.inner_first, self.outer_breakdown, self.inner_breakdown)
-        return np.maximum(self.first_breaks, remaining)
-
-    @cached_property
     def first_break(self) -> float:
         """Smallest bearing voltage at which a contact breaks down [V].
 
@@ -127,9 +117,10 @@ class Circuit:
     def through_breakdown(self) -> float:
         """Smallest bearing voltage at which an element breaks down from ring to ring [V].
 
-        With Weibull's law, each contact breaks down at the voltage of its own 63.2 %.
+        After the first contact of an element has broken down, the other one carries the whole bearing
+        voltage. With Weibull's law, each contact breaks down at the voltage of its own 63.2 %.
         """
-        return float(np.min(self.through_breaks))
+        return shaft_through_breakdown(self, Path())
 
 
 def leakage_conductance(
@@ -187,7 +178,7 @@ def leaking_admittance(
 
 @dataclass(frozen=True)
 class Path:
-    """Capacitances between shaft and housing beside those of the films.
+    """Capacitances between shaft and housing next to those of the films.
 
     Examples
     --------
@@ -227,9 +218,9 @@ class Path:
         """Capacitance from shaft to housing with films of a capacitance [F]."""
         return self.parallel + films * self.film_share(films)
 
-    def behind_coating(self, beside: float) -> float:
+    def behind_coating(self, other: float) -> float:
         """Capacitance C_s C_c/(C_s + C_c) [F] of another capacitance C_s [F] that is behind the coating."""
-        return beside / (1.0 + beside / self.coating)
+        return other / (1.0 + other / self.coating)
 
     def admittance(self, films: Array, frequency: Array) -> Array:
         """Admittance from shaft to housing with films of an admittance [S], shape (n,). ``films`` [S],
@@ -243,19 +234,6 @@ class Path:
             through = films * own / (films + own)
         y: Array = through + 1j * omega * self.parallel
         return y
-
-
-def path_of(bearing: Bearing) -> Path:
-    """Circuit between shaft and housing of a bearing, next to its films."""
-    coating = bearing.coating
-    if coating is None:
-        return Path(parallel=bearing.parallel_capacitance or 0.0)
-    return Path(
-        coating=bearing.coating_capacitance(),
-        parallel=bearing.parallel_capacitance or 0.0,
-        resistance=math.inf if coating.resistance is None else coating.resistance,
-        coating_breakdown=coating.voltage,
-    )
 
 
 def shaft_first_break(circuit: Circuit, path: Path) -> float:

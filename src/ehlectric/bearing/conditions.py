@@ -7,7 +7,8 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from ehlectric.bearing.loads.geometry import ContactRadii, Geometry
+from ehlectric.arrays import Array
+from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.mounted_clearance import MountedClearance
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import Bearing
@@ -20,6 +21,9 @@ from ehlectric.runtime.stored import stored
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)
+
+# Number, or array of numbers.
+N = TypeVar("N", float, Array)
 
 
 @dataclass(frozen=True)
@@ -116,20 +120,13 @@ class BearingConditions(Generic[G_co]):
         """Film factor of the ring whose films it reduces more, dimensionless, at most 1."""
         return min(self.inner.film_factor, self.outer.film_factor)
 
-    @property
-    def heat_factor(self) -> float | None:
-        """Part of the heat in the film factor of the ring where it is smaller; None where not known."""
-        return _smaller(self.inner.heat_factor, self.outer.heat_factor)
+    def part_of_film_factor(self, name: str) -> float | None:
+        """``heat_factor``, ``supply_factor`` or ``inlet_shear_factor`` of the ring where it is smaller.
 
-    @property
-    def supply_factor(self) -> float | None:
-        """Part of the supply in the film factor of the ring where it is smaller; None where not known."""
-        return _smaller(self.inner.supply_factor, self.outer.supply_factor)
-
-    @property
-    def inlet_shear_factor(self) -> float | None:
-        """Factor of the heat by formula, of the ring where it is smaller; None where no heat is computed."""
-        return _smaller(self.inner.inlet_shear_factor, self.outer.inlet_shear_factor)
+        None where it is not known of both rings.
+        """
+        factors = [getattr(ring, name) for ring in self.rings]
+        return None if None in factors else min(factors)
 
     @property
     def ceramic(self) -> bool:
@@ -141,24 +138,11 @@ class BearingConditions(Generic[G_co]):
         """Share of the ring in the compliance 2/E' of a contact, dimensionless."""
         return self.ring.compliance / (self.ring.compliance + self.element.compliance)
 
-    def radii(self, angle: float, *, inner: bool) -> ContactRadii:
-        """Radii of element and ring [m] at a contact angle [rad]."""
-        return self.geometry.radii(angle, inner=inner)
 
-    def gap_breakdown(self, thickness: float) -> float:
-        """Breakdown voltage [V] of a gap of a thickness [m] without a film; infinite without a strength."""
-        return gap_breakdown(self.discharge, thickness)
-
-
-def _smaller(inner: float | None, outer: float | None) -> float | None:
-    """Smaller factor of both rings; None where one is not known."""
-    return None if inner is None or outer is None else min(inner, outer)
-
-
-def gap_breakdown(discharge: Discharge, thickness: float) -> float:
-    """Breakdown voltage [V] of a uniform gap of a thickness [m]; infinite without a strength.
+def gap_breakdown(discharge: Discharge, thickness: N) -> N:
+    """Breakdown voltage [V] of uniform gaps of a thickness [m]; infinite without a strength.
 
     The strength is the one at ambient pressure.
     """
-    strength = float(dielectric_strength(discharge, np.zeros(1))[0])
-    return strength * thickness if discharge.has_strength else np.inf
+    strength = float(dielectric_strength(discharge, np.zeros(1))[0]) if discharge.has_strength else np.inf
+    return strength * thickness

@@ -132,11 +132,10 @@ def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tupl
     Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
     The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
     """
-    kind = kind_of(ring)
-    contact: Contact = kind.contact(_flooded(ring), load)
+    contact: Contact = kind_of(ring).contact(_flooded(ring), load)
     check_contact(contact)
     try:
-        factor, found = _solved(_hot(case, contact, kind.grid(contact)))
+        factor, found = _solved(_hot(case, contact))
     except InputError as error:
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
@@ -154,16 +153,12 @@ def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
     return replace(ring, conditions=replace(ring.conditions, inner=inner, outer=outer))
 
 
-def _hot(case: BearingCase, contact: Contact, grid: Grid) -> _HotContact:
+def _hot(case: BearingCase, contact: Contact) -> _HotContact:
     """Contact of a bearing with its bodies, its oil and its grid."""
-    ring, bearing = contact.ring, case.bearing
+    ring, bearing, grid = contact.ring, case.bearing, contact.grid
     temperature = bearing.ring_temperature(inner=ring.inner)
-    conditions: Conditions | PointConditions = contact.conditions
-    if isinstance(conditions, PointConditions):
-        assert grid.side is not None
-        conditions = replace(conditions, side=grid.side)
     return _HotContact(
-        conditions,
+        contact.conditions_on(grid),
         temperature,
         (
             _body(bearing.ring_material, temperature, "bearing.ring_material"),
@@ -227,15 +222,11 @@ def _friction(
     """Friction and temperature of a film with heat whose oil enters with a temperature [K]."""
     heated = film.heated
     assert heated is not None and heated.mid_temperature is not None
-    assert heated.max_temperature_rise is not None
-    assert heated.rolling_coefficient is not None and heated.power_loss is not None
+    same = ("rolling_coefficient", "power_loss", "max_temperature_rise", "temperature_rise_error")
     return ContactFriction(
         load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
-        rolling_coefficient=heated.rolling_coefficient,
-        power_loss=heated.power_loss,
         inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - temperature,
-        max_temperature_rise=heated.max_temperature_rise,
-        temperature_rise_error=heated.temperature_rise_error,
+        **{name: getattr(heated, name) for name in same},
     )
 
 
@@ -403,7 +394,7 @@ def film_note(solution: BearingSolution) -> ResultWarning:
 
 def supply_words(solution: BearingSolution) -> str:
     """Parts of the film factor with a supply, as "0.939 of the flooded thickness by grease"."""
-    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
     more = f" and a given factor of {heat:.3g}" if isinstance(heat, float) else ""
@@ -420,7 +411,7 @@ def supply_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             f"the film factor of {total:.3g} acts by a lower entrainment speed, with one exponent for all "
             "contacts: films may come out thinner than this share, by up to 5 % at 0.5 and 16 % at 0.1",
         )
-    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     if supply == "flooded" or found is None:
         return
     if solution.case.bearing.by_supply_rule:

@@ -119,11 +119,8 @@ class Mounting:
 
     def interferences(self, temperatures: Temperatures) -> tuple[float, float]:
         """Interferences of inner ring and shaft, and of outer ring and housing [m], at temperatures."""
-        zero, bore, outside = (
-            self.reference_temperature,
-            self.inner_ring.inner_diameter,
-            self.outer_ring.outer_diameter,
-        )
+        zero = self.reference_temperature
+        bore, outside = self.inner_ring.inner_diameter, self.outer_ring.outer_diameter
         on_shaft = self.shaft.warmed(bore, temperatures.shaft - zero)
         on_shaft -= self.inner_ring.warmed(bore, temperatures.inner_ring - zero)
         in_housing = self.outer_ring.warmed(outside, temperatures.outer_ring - zero)

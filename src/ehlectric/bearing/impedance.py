@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_touching import RingDuty, duty_of
-from ehlectric.bearing.circuit import Path, leaking_admittance, path_of, series
+from ehlectric.bearing.circuit import Path, leaking_admittance, series
 from ehlectric.bearing.solution import (
     BearingSolution,
     RingState,
@@ -22,8 +23,15 @@ from ehlectric.discharge.film_capacitance import LEAST_RATIO, roughness_factor
 
 
 def shaft_path(solution: BearingSolution) -> Path:
-    """Circuit between shaft and housing of a solved bearing, beside its films."""
-    return path_of(solution.case.bearing)
+    """Circuit between shaft and housing of a solved bearing, next to its films."""
+    bearing = solution.case.bearing
+    coating = bearing.coating
+    return Path(
+        coating=bearing.coating_capacitance(),
+        parallel=bearing.parallel_capacitance or 0.0,
+        resistance=math.inf if coating is None or coating.resistance is None else coating.resistance,
+        coating_breakdown=None if coating is None else coating.voltage,
+    )
 
 
 def film_share(solution: BearingSolution) -> float | None:

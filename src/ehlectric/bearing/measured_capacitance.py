@@ -626,5 +626,4 @@ def _film_warnings(case: BearingCase, error: float | None) -> tuple[ResultWarnin
     text = f"{OF_CONTACTS[case.contacts]}: films may be {percent(error)} off, and so may film factors"
     if case.contacts == "formula":
         text += '; contacts = "solved" takes minutes and has no such error'
-    code = "formula-contacts" if case.contacts == "formula" else "atlas-contacts"
-    return (ResultWarning(code, text),)
+    return (ResultWarning(f"{case.contacts}-contacts", text),)

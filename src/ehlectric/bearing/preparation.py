@@ -141,13 +141,7 @@ class PreparedBearing:
     conditions: BearingConditions[Any]  # geometry, materials, oil and strength
     # Equilibrium at each position of the cage; at the first, an element is on the load line.
     equilibria: tuple[Equilibrium, ...]
-    inner: RingContacts[Any]
-    outer: RingContacts[Any]
-
-    @property
-    def rings(self) -> tuple[RingContacts[Any], RingContacts[Any]]:
-        """Contacts with the inner and with the outer ring."""
-        return self.inner, self.outer
+    rings: tuple[RingContacts[Any], RingContacts[Any]]  # contacts with the inner and with the outer ring
 
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
@@ -235,7 +229,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     for at in equilibria:
         check_shoulders(conditions.bearing, at)
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
-    prepared = PreparedBearing(conditions, equilibria, inner, outer)
+    prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
         found = (solved_heat(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
         rings = zip(conditions.rings, found, strict=True)
@@ -261,7 +255,7 @@ def _with_rings(prepared: PreparedBearing, *rings: RingConditions) -> PreparedBe
     """Bearing with other conditions of its contacts with the inner and the outer ring."""
     conditions = replace(prepared.conditions, inner=rings[0], outer=rings[1])
     inner, outer = (replace(ring, conditions=conditions) for ring in prepared.rings)
-    changed = replace(prepared, conditions=conditions, inner=inner, outer=outer)
+    changed = replace(prepared, conditions=conditions, rings=(inner, outer))
     _check_films(changed)
     return changed
 
@@ -293,7 +287,7 @@ def least_load(ring: RingContacts[Any]) -> float:
 
     def holds(exponent: float) -> bool:
         # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-        return bool(kind.fits(kind.contact(ring, 10.0**exponent)))
+        return bool(kind.contact(ring, 10.0**exponent).fits)
 
     smallest, largest = _EXPONENTS
     if not holds(largest):

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from functools import lru_cache, partial
-from typing import TypeAlias, TypeVar
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -17,16 +16,14 @@ from ehlectric.bearing.ring_contacts import (
     BallContact,
     Contact,
     ContactSolution,
-    ContactValues,
     RollerContact,
     around_balls,
-    around_roller,
-    ball_grid,
     check_contact,
-    roller_grid,
+    solution_of,
     without_regime,
 )
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid
@@ -52,7 +49,7 @@ from ehlectric.lubricant.oil import Oil
 # Factors by which films from formulas, and margins with them, may be off either way. Balls have the formula
 # of Chittenden, Dowson, Dunn and Taylor: solved films of bearings are within 30 % of it. Rollers have that
 # of Pan and Hamrock: formulas for line contacts differ from solved films by up to 40 %.
-FORMULA_OF_BALLS, FORMULA_OF_ROLLERS = 1.3, 1.4
+_FORMULA_OF_BALLS, _FORMULA_OF_ROLLERS = 1.3, 1.4
 
 
 def formula_factor(kind: str) -> float:
@@ -63,7 +60,7 @@ def formula_factor(kind: str) -> float:
     >>> formula_factor("deep-groove ball"), formula_factor("cylindrical roller")
     (1.3, 1.4)
     """
-    return FORMULA_OF_ROLLERS if kind == "cylindrical roller" else FORMULA_OF_BALLS
+    return _FORMULA_OF_ROLLERS if kind == ROLLERS else _FORMULA_OF_BALLS
 
 
 def is_quick(case: object) -> bool:
@@ -144,26 +141,29 @@ _ELLIPSE = 0.5 * (_RATIO + 1.0), 0.5 * (_RATIO + 1.0) * _WEIGHT
 _STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 
 
-def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array], Array]:
-    """Nodes along and across entrainment [m] of a ball, and the gap of its dry contact, widened by its
-    central film [m].
+def _ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, ...], Array, Array]:
+    """Nodes along and across entrainment [m] of a ball, the gap of its dry contact, widened by its central
+    film [m], and the Hertz pressure over its maximum.
     """
     conditions, dry = contact.conditions, contact.dry
-    b, side = dry.semi_axis_x, dry.semi_axis_y * conditions.side
+    b, a = contact.axes
+    side = a * conditions.side
     x, y = b * np.linspace(*POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
     rigid = x[:, np.newaxis] ** 2 / (2.0 * conditions.radius_x) + y**2 / (2.0 * conditions.radius_y)
     ratio = axis_ratio(conditions.radius_x, conditions.radius_y)
     opened = dry.max_pressure * b / conditions.reduced_modulus * _unit_opening(ratio, conditions.side)
-    return (x, y), central + np.maximum(0.0, rigid + opened - dry.approach)
+    gap = central + np.maximum(0.0, rigid + opened - dry.approach)
+    return (x, y), gap, point_pressure(x[:, np.newaxis] / b, y / b, a / b)
 
 
-def roller_gap(contact: RollerContact, central: float) -> tuple[Array, Array]:
-    """Nodes along entrainment [m] of a roller, and the gap of its dry contact, widened by its central film
-    [m].
+def _roller_gap(contact: RollerContact, central: float) -> tuple[tuple[Array, ...], Array, Array]:
+    """Nodes along entrainment [m] of a roller, the gap of its dry contact, widened by its central film [m],
+    and the Hertz pressure over its maximum.
     """
     conditions = contact.conditions
-    x, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
-    return b * x, central + b**2 / conditions.reduced_radius * line_gap(x)
+    unit, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
+    x, gap = b * unit, central + b**2 / conditions.reduced_radius * line_gap(unit)
+    return (x,), gap, line_pressure(x / b)
 
 
 @lru_cache(maxsize=32)
@@ -223,7 +223,7 @@ def quick_contact(
     ``hertz``, integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m];
     ``error``, relative error of the films; None where it is unknown.
     """
-    grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
+    grid = contact.grid
     domain = _domain(contact, grid if wide else None)
     if wide:
         inside += contact.ring.oil.relative_permittivity * _further(contact, domain, films[1])
@@ -232,40 +232,28 @@ def quick_contact(
 
 def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
     """Solutions of quick contacts with one ring; the largest field is the voltage over the minimum film."""
-    around = _around(contacts)
-    return [_solution(contact, *found) for contact, found in zip(contacts, around, strict=True)]
+    return [_solution(contact, around) for contact, around in zip(contacts, _around(contacts), strict=True)]
 
 
-def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSolution:
+def _solution(quick: QuickContact, around: tuple[float, float]) -> ContactSolution:
     """Solution of a quick contact with the capacitance around its domain in vacuum [F]."""
     contact, (least, central) = quick.contact, quick.films
-    groups, ring, oil = contact.conditions.contact, contact.ring, contact.ring.oil
-    values = ContactValues(
-        max_pressure=contact.conditions.max_pressure,
-        semi_axis_x=contact.axes[0],
-        semi_axis_y=contact.axes[1],
-        minimum_thickness=least,
-        central_thickness=central,
-        inside=epsilon_0 * quick.inside,
-        outside_oil=outside * ring.conditions.oil.relative_permittivity,
-        outside_air=outside,
-        plate=epsilon_0 * oil.relative_permittivity * contact.area / central,
-        strength_per_volt=1.0 / least,
-        breakdown_voltage=gap_breakdown(ring.discharge, least),
-        hertz=epsilon_0 * quick.hertz,
-    )
+    oil = contact.ring.oil
     setup = Setup(oil=oil, grid=quick.grid)
     if isinstance(contact, BallContact):
         warnings = point_case_warnings(setup, contact.conditions)
     else:
         warnings = line_case_warnings(setup, contact.conditions)
-    return ContactSolution(
-        load=contact.load,
-        values=values,
+    return solution_of(
+        contact,
+        quick.films,
+        around,
+        inside=epsilon_0 * quick.inside,
+        plate=epsilon_0 * oil.relative_permittivity * contact.area / central,
+        strength_per_volt=1.0 / least,
+        breakdown_voltage=gap_breakdown(contact.ring.discharge, least),
+        hertz=epsilon_0 * quick.hertz,
         error=quick.error,
-        moes_m=groups.moes_m,
-        moes_l=groups.moes_l,
-        mismatch=mismatch,
         converged=True,
         warnings=(*quick.warnings, *without_regime(warnings)),
     )
@@ -273,12 +261,9 @@ def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSo
 
 def _domain(contact: Contact, grid: Grid | None) -> tuple[float, float, float]:
     """Ends along entrainment and side of the domain in semi-axes: of a grid, or the default ones."""
-    if isinstance(contact, RollerContact):
-        return (*LINE, 1.0) if grid is None else (*grid.ends, 1.0)
-    if grid is None:
-        return (*POINT, contact.conditions.side)
-    assert grid.side is not None
-    return *grid.ends, grid.side
+    if grid is not None:
+        return *grid.ends, grid.side or 1.0
+    return (*POINT, contact.conditions.side) if isinstance(contact, BallContact) else (*LINE, 1.0)
 
 
 def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
@@ -292,7 +277,7 @@ def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
         assert isinstance(contact, RollerContact)
         b, x = contact.conditions.half_width, np.array(quick.domain[:2])
         gap = quick.films[1] + b**2 / contact.conditions.reduced_radius * line_gap(x)
-        yield around_roller(contact.ring, b, b * x, gap), 0.0
+        yield contact.around((b * x,), gap)
 
 
 def _around_balls(balls: Sequence[tuple[QuickContact, BallContact]]) -> Iterator[tuple[float, float]]:
@@ -382,51 +367,31 @@ def _unit_beyond(
     ]
 
 
-def ball_by_formula(
-    contact: BallContact, films: tuple[float, float] | None = None, *, wide: bool = False
+def by_formula(
+    contact: Contact, films: tuple[float, float] | None = None, *, wide: bool = False
 ) -> QuickContact:
-    """Film, capacitances and voltages of a ball's contact by film formulas. ``films``, minimum and central
-    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
-    formulas may be 30 % off, and more for light loads. Raises InputError as ``check_contact`` does.
+    """Film, capacitances and voltages of a contact by film formulas. ``films``, minimum and central film
+    thickness [m] in place of those of the formula. Returns numbers without an error estimate: the formulas
+    may be 30 % off for balls and 40 % for rollers, and more for light loads. Raises InputError as
+    ``check_contact`` does.
 
-    Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is
-    the gap of the dry contact plus the central film thickness. The capacitance is computed with the
-    permittivity under the Hertz pressure; the maximum field strength is the voltage divided by the
-    minimum film thickness.
+    Film thickness of balls by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, and of
+    rollers by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact plus the
+    central film thickness. The capacitance is computed with the permittivity under the Hertz pressure; the
+    maximum field strength is the voltage divided by the minimum film thickness.
     """
     check_contact(contact)
-    b, a = contact.axes
-    films = films or _films(chittenden(contact.conditions.contact))
-    (x, y), gap = ball_gap(contact, films[1])
-    pressure = contact.dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
-    inside = np.vdot(areas((x, y)), permittivity(contact.ring.oil, pressure) / gap)
-    return _with_films(contact, films, float(inside), wide=wide)
-
-
-def roller_by_formula(
-    contact: RollerContact, films: tuple[float, float] | None = None, *, wide: bool = False
-) -> QuickContact:
-    """Film, capacitances and voltages of a roller's contact by film formulas. ``films``, minimum and central
-    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
-    formulas may be 40 % off, and more for light loads. Raises InputError as ``check_contact`` does.
-
-    Film thickness by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact
-    plus the central film thickness. The capacitance is computed with the permittivity under the Hertz
-    pressure; the largest field strength is the voltage over the minimum film thickness.
-    """
-    check_contact(contact)
-    conditions = contact.conditions
-    films = films or _films(pan_hamrock(conditions.contact))
-    x, gap = roller_gap(contact, films[1])
-    pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
-    inside = np.vdot(areas((x,)), permittivity(contact.ring.oil, pressure) / gap)
-    return _with_films(contact, films, contact.length * float(inside), wide=wide)
-
-
-def _with_films(contact: Contact, films: tuple[float, float], inside: float, *, wide: bool) -> QuickContact:
-    """Contact with films [m], whose Hertz area is a plate with the permittivity under the Hertz pressure."""
-    mean = hertz_mean(contact, partial(permittivity, contact.ring.oil))
-    hertz = mean * contact.area / films[1]
+    if isinstance(contact, BallContact):
+        films = films or _films(chittenden(contact.conditions.contact))
+        nodes, gap, ratio = _ball_gap(contact, films[1])
+    else:
+        films = films or _films(pan_hamrock(contact.conditions.contact))
+        nodes, gap, ratio = _roller_gap(contact, films[1])
+    law = partial(permittivity, contact.ring.oil)
+    pressure = contact.conditions.max_pressure * ratio
+    inside = contact.length * float(np.vdot(areas(nodes), law(pressure) / gap))
+    # The Hertz area is a plate with the permittivity under the Hertz pressure.
+    hertz = hertz_mean(contact, law) * contact.area / films[1]
     return quick_contact(contact, films, inside=inside, hertz=hertz, wide=wide)
 
 
@@ -447,18 +412,13 @@ _STEP, _STEPS, _HALVINGS = 1.3, 15, 6
 _ATLAS_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
 _ATLAS_NODES = _ATLAS_NODES + 0.5
 
-# Kind of a contact, and functions that compute one: from the atlas, and by formula with further options.
-C = TypeVar("C", BallContact, RollerContact)
-Method: TypeAlias = Callable[[C], QuickContact]
-FormulaMethod: TypeAlias = Callable[..., QuickContact]
-
 # Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
 _Part = tuple[Array, Array]
 
 
-def ball_by_atlas(contact: BallContact) -> QuickContact:
-    """Film, capacitances and voltages of a ball's contact from the atlas of films. Returns numbers with the
-    error that the atlas states for the films. Raises InputError as ``check_contact`` does.
+def by_atlas(contact: Contact) -> QuickContact:
+    """Film, capacitances and voltages of a contact from the atlas of films. Returns numbers with the error
+    that the atlas states for the films. Raises InputError as ``check_contact`` does.
 
     Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
     pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
@@ -469,28 +429,35 @@ def ball_by_atlas(contact: BallContact) -> QuickContact:
     check_contact(contact)
     film = _film(contact)
     if film is None:
-        return _left(contact, (ball_by_atlas, ball_by_formula), FORMULA_OF_BALLS - 1.0)
-    conditions = contact.conditions
-    radius = conditions.radius_x
-    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h has the unit Rx.
-    middle = film.central_thickness * radius / conditions.semi_axis_x**2
-    parts = _around_ball(conditions.radius_y / radius)
-    return _atlas_solution(contact, film, [radius * _integral(part, middle) for part in parts])
+        return _left(contact)
+    oil, numbers, radii, b = contact.ring.oil, film.film, contact.ring.radii, contact.axes[0]
+    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h of a ball has the unit Rx.
+    if isinstance(contact, BallContact):
+        unit, parts = radii.radius_x, _around_ball(radii.radius_y / radii.radius_x)
+    else:
+        unit, parts = contact.length * radii.radius_x / b, _around_roller()
+    middle = film.central_thickness * radii.radius_x / b**2
+    inlet, outlet = (unit * _integral(part, middle) for part in parts)
+    outside = oil.relative_permittivity * (numbers.inlet * inlet + numbers.outlet * outlet)
+    # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
+    mass = film.central_thickness * numbers.mass / numbers.central
+    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
+    # the middle, its pressure is not that of the zone.
+    share = min(1.0, numbers.central_pressure)
+    mean = hertz_mean(contact, lambda pressure: _permittivity_of_mass(oil, share * pressure))
+    hertz = numbers.zone * mean * contact.area / mass
+    return quick_contact(
+        contact,
+        (film.minimum_thickness, film.central_thickness),
+        inside=hertz + outside,
+        hertz=hertz,
+        error=max(film.errors["central"], film.errors["minimum"]),
+        wide=True,
+    )
 
 
-def roller_by_atlas(contact: RollerContact) -> QuickContact:
-    """Film, capacitances and voltages of a roller's contact from the atlas of films, as those of
-    ``ball_by_atlas``.
-    """
-    check_contact(contact)
-    film = _film(contact)
-    if film is None:
-        return _left(contact, (roller_by_atlas, roller_by_formula), FORMULA_OF_ROLLERS - 1.0)
-    conditions = contact.conditions
-    radius, b = conditions.reduced_radius, conditions.half_width
-    middle = film.central_thickness * radius / b**2
-    unit = contact.length * radius / b
-    return _atlas_solution(contact, film, [unit * _integral(part, middle) for part in _around_roller()])
+# Functions that compute a contact without solving it, by ``contacts`` of a bearing file.
+QUICK_METHODS: Mapping[str, Callable[[Contact], QuickContact]] = {"atlas": by_atlas, "formula": by_formula}
 
 
 def _film(contact: Contact) -> ContactFilm | None:
@@ -503,26 +470,26 @@ def _film(contact: Contact) -> ContactFilm | None:
         return None
 
 
-def _left(contact: C, methods: tuple[Method[C], FormulaMethod], error: float) -> QuickContact:
+def _left(contact: Contact) -> QuickContact:
     """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has."""
-    by_atlas, by_formula = methods[0], partial(methods[1], wide=True)
+    error = formula_factor(contact.ring.conditions.bearing.kind) - 1.0
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
     edge = _edge(contact)
     if edge is None:
-        solution: QuickContact = by_formula(contact)
+        solution = by_formula(contact, wide=True)
     else:
         # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
         # there the films change as those of a formula that holds for light contacts, too.
-        own, trend = by_atlas(edge), contact.film / edge.film
-        least, central = own.films
-        joined = by_formula(edge, own.films)
-        solution = by_formula(contact, (trend * least, trend * central))
-        inside, hertz = own.inside / joined.inside, own.hertz / joined.hertz
+        last, trend = by_atlas(edge), contact.film / edge.film
+        least, central = last.films
+        joined = by_formula(edge, last.films, wide=True)
+        solution = by_formula(contact, (trend * least, trend * central), wide=True)
+        inside, hertz = last.inside / joined.inside, last.hertz / joined.hertz
         solution = replace(solution, inside=inside * solution.inside, hertz=hertz * solution.hertz)
     return replace(solution, error=error, warnings=(ResultWarning("atlas-left", text),))
 
 
-def _edge(contact: C) -> C | None:
+def _edge(contact: Contact) -> Contact | None:
     """Same contact under the load nearest to its own that the atlas has; None where it has none near."""
     for number in range(1, _STEPS + 1):
         for step in (_STEP, 1.0 / _STEP):
@@ -539,27 +506,6 @@ def _edge(contact: C) -> C | None:
                     inside = between
             return inside
     return None
-
-
-def _atlas_solution(contact: Contact, film: ContactFilm, around: list[float]) -> QuickContact:
-    """Numbers of a contact; ``around`` are the integrals of dA/h of the dry gap before and behind [m]."""
-    oil, numbers = contact.ring.oil, film.film
-    # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
-    mass = film.central_thickness * numbers.mass / numbers.central
-    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
-    # the middle, its pressure is not that of the zone.
-    share = min(1.0, numbers.central_pressure)
-    mean = hertz_mean(contact, lambda pressure: _permittivity_of_mass(oil, share * pressure))
-    hertz = numbers.zone * mean * contact.area / mass
-    outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
-    return quick_contact(
-        contact,
-        (film.minimum_thickness, film.central_thickness),
-        inside=hertz + outside,
-        hertz=hertz,
-        error=max(film.errors["central"], film.errors["minimum"]),
-        wide=True,
-    )
 
 
 def _permittivity_of_mass(oil: Oil, pressure: Array) -> Array:

@@ -22,8 +22,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
+from ehlectric.quantities.results import ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -230,9 +229,7 @@ class BearingResult(Shown):
 
 def contact_units() -> dict[str, str]:
     """SI unit of each column of numbers of the table of contacts; empty for a dimensionless one."""
-    names = [name.partition(".")[2] for name in BEARING_KEYS if name.startswith("contacts.")]
-    found = {name: key_of(BEARING_KEYS, f"contacts.{name}") for name in names if name not in _LABELS}
-    return {name: key.unit for name, key in found.items() if key is not None}
+    return {name: quantity.unit for name, quantity in ELEMENT_KEYS.items() if name not in _LABELS}
 
 
 def solve_bearing(
@@ -278,6 +275,5 @@ def check_bearing(case: BearingCase) -> None:
     """
     prepared = prepare_bearing(heat_by_formula(case), 1)
     for ring in prepared.rings:
-        kind = kind_of(ring)
-        contact = kind.contact(ring, largest_load(prepared, ring))
-        check_contact(contact, kind.grid(contact))
+        contact = kind_of(ring).contact(ring, largest_load(prepared, ring))
+        check_contact(contact, contact.grid)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Generic, TypeAlias, TypeVar
+from typing import ClassVar, Generic, TypeAlias, TypeVar
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -34,7 +34,6 @@ from ehlectric.contact.conditions import (
     default_side,
 )
 from ehlectric.contact.contact_memory import check_grid
-from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.formulas.film_line import moes
@@ -60,78 +59,11 @@ _LINE_INLET, _LINE_OUTLET = 10.0, 2.0
 _LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
 
 
-def roller_grid(contact: RollerContact) -> Grid:
-    """Grid of a roller's contact in half-widths, long enough for the thick film of a light load."""
-    length, most = _line_length(contact), _line_most(contact)
-    inlet = max(4.0, min(_line_inlet(length), most))
-    outlet = max(2.0, min(_LINE_OUTLET * length, most))
-    return Grid.from_dict(
-        {
-            "inlet": -inlet,
-            "outlet": outlet,
-            # A grid takes sixteen nodes or more in the Hertz zone.
-            "nodes": max(801, 8 * math.ceil(inlet + outlet) + 1),
-            # Grids reach a hundred half-widths for the field at the most, and 1.25 by default.
-            "field_range": [-max(1.25, min(length, inlet, 100.0)), max(1.25, min(length, outlet, 100.0))],
-            "refine": REFINE,
-        }
-    )
-
-
-def _line_length(contact: RollerContact) -> float:
-    """Length sqrt(2 R h) over which a roller's pressure builds up, in half-widths."""
-    conditions = contact.conditions
-    return math.sqrt(2.0 * conditions.reduced_radius * contact.film) / conditions.half_width
-
-
-def _line_inlet(length: float) -> float:
-    """Inlet of a roller in half-widths, for a length over which the pressure builds up in half-widths."""
-    return min(_LINE_INLET * length, max(_LINE_FAR, _LINE_SHORTER * length))
-
-
-def _line_most(contact: RollerContact) -> float:
-    """Longest inlet in half-widths: as far as a parabola describes the roller, or what a grid holds."""
-    return min(0.5 * contact.ring.radii.element_x / contact.conditions.half_width, _LINE_MOST)
-
-
-def roller_fits(contact: RollerContact) -> bool:
-    """Whether the domain holds the length over which a roller's film builds up."""
-    return _line_inlet(_line_length(contact)) <= _line_most(contact)
-
-
-def ball_grid(contact: BallContact) -> Grid:
-    """Grid of a ball's contact in semi-axes, on a domain wide enough for the thick film of a light load.
-
-    Heavy loads have the default domain of point contacts.
-    """
-    along, across = _point_lengths(contact)
-    inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
-    side = max(contact.conditions.side, min(1.0 + _ACROSS * across, _MOST[1]))
-    nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
-    return _point_grid(inlet, outlet, side, nodes)
-
-
 @lru_cache(maxsize=128)
 def _point_grid(inlet: float, outlet: float, side: float, nodes: int) -> Grid:
     """Grid with lengths in semi-axes; it is made once, as most contacts have the same one."""
     table = {"inlet": -inlet, "outlet": outlet, "side": side, "nodes": nodes, "refine": REFINE}
     return Grid.from_dict(point_grid(table))
-
-
-def _point_lengths(contact: BallContact) -> tuple[float, float]:
-    """Lengths sqrt(2 R h) over which a ball's pressure builds up, along and across, in semi-axes."""
-    radii, dry = contact.ring.radii, contact.dry
-    along, across = (
-        math.sqrt(2.0 * radius * contact.film) / axis
-        for radius, axis in ((radii.radius_x, dry.semi_axis_x), (radii.radius_y, dry.semi_axis_y))
-    )
-    return along, across
-
-
-def ball_fits(contact: BallContact) -> bool:
-    """Whether the domain holds the lengths over which a ball's film builds up, along and across."""
-    along, across = _point_lengths(contact)
-    return _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]
 
 
 # Largest film thickness over (f - 1/2) D, the difference of the radii of groove and ball, at which the film
@@ -180,12 +112,14 @@ class RingContacts(Generic[G_co]):
     @property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""
-        return self.conditions.radii(self.angle, inner=self.inner)
+        return self.conditions.geometry.radii(self.angle, inner=self.inner)
 
 
 @dataclass(frozen=True)
 class BallContact:
     """Contact of a ball with a ring under a load."""
+
+    length: ClassVar[float] = 1.0  # by which results of a line contact, which are per length, are multiplied
 
     ring: RingContacts[BallBearing]
     load: float  # [N]
@@ -248,6 +182,54 @@ class BallContact:
         """Largest film thickness [m] for which there is room between ball and groove."""
         return _ROOM * self.ring.conditions.geometry.offsets[0 if self.ring.inner else 1]
 
+    @property
+    def _lengths(self) -> tuple[float, float]:
+        """Lengths sqrt(2 R h) over which the pressure builds up, along and across, in semi-axes."""
+        radii, axes = self.ring.radii, self.axes
+        along, across = (
+            math.sqrt(2.0 * radius * self.film) / axis
+            for radius, axis in zip((radii.radius_x, radii.radius_y), axes, strict=True)
+        )
+        return along, across
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of film and field in semi-axes, on a domain wide enough for the thick film of a light load.
+
+        Heavy loads have the default domain of point contacts.
+        """
+        along, across = self._lengths
+        inlet = max(4.5, min(_ALONG * along, _MOST[0]))
+        outlet = max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
+        side = max(self.conditions.side, min(1.0 + _ACROSS * across, _MOST[1]))
+        nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
+        return _point_grid(inlet, outlet, side, nodes)
+
+    @property
+    def fits(self) -> bool:
+        """Whether the domain holds the lengths over which the film builds up, along and across."""
+        along, across = self._lengths
+        return _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]
+
+    def conditions_on(self, grid: Grid) -> PointConditions:
+        """Operating conditions of a film on the domain of a grid."""
+        assert grid.side is not None
+        return replace(self.conditions, side=grid.side)
+
+    def around(self, nodes: tuple[Array, ...], thickness: Array) -> tuple[float, float]:
+        """Capacitance between ball and groove outside the domain of the film, in vacuum.
+
+        ``nodes``, nodes of the film along and across entrainment [m], shapes (nx,) and (ny,); ``thickness``
+        [m], shape (nx, ny). Returns the capacitance [F], and the largest relative difference, at the edge of
+        the domain, between the film thickness and the gap outside.
+        """
+        x, y = np.meshgrid(*nodes, indexing="ij")
+        rim = np.ones_like(thickness, dtype=bool)
+        rim[1:-1, 1:-1] = False
+        domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
+        outside, mismatch = around_balls(self.ring, self.dry, domain, (x[rim], y[rim]), thickness[rim])
+        return float(outside), float(mismatch)
+
 
 @dataclass(frozen=True)
 class RollerContact:
@@ -307,6 +289,63 @@ class RollerContact:
         """Largest film thickness [m] for which the roller is a parabola where its film builds up."""
         radius = 0.5 * self.ring.conditions.geometry.roller_diameter
         return (_ROOM * radius) ** 2 / (2.0 * self.conditions.reduced_radius)
+
+    @property
+    def _build_up(self) -> float:
+        """Length sqrt(2 R h) over which the pressure builds up, in half-widths."""
+        conditions = self.conditions
+        return math.sqrt(2.0 * conditions.reduced_radius * self.film) / conditions.half_width
+
+    @property
+    def _inlets(self) -> tuple[float, float]:
+        """Inlet that the film needs, and the longest one, in half-widths.
+
+        The longest one is as far as a parabola describes the roller, or what a grid holds.
+        """
+        length = self._build_up
+        longest = min(0.5 * self.ring.radii.element_x / self.conditions.half_width, _LINE_MOST)
+        return min(_LINE_INLET * length, max(_LINE_FAR, _LINE_SHORTER * length)), longest
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of film and field in half-widths, long enough for the thick film of a light load."""
+        length, (needed, most) = self._build_up, self._inlets
+        inlet, outlet = max(4.0, min(needed, most)), max(2.0, min(_LINE_OUTLET * length, most))
+        return Grid.from_dict(
+            {
+                "inlet": -inlet,
+                "outlet": outlet,
+                # A grid takes sixteen nodes or more in the Hertz zone.
+                "nodes": max(801, 8 * math.ceil(inlet + outlet) + 1),
+                # Grids reach a hundred half-widths for the field at the most, and 1.25 by default.
+                "field_range": [
+                    -max(1.25, min(length, inlet, 100.0)),
+                    max(1.25, min(length, outlet, 100.0)),
+                ],
+                "refine": REFINE,
+            }
+        )
+
+    @property
+    def fits(self) -> bool:
+        """Whether the domain holds the length over which the film builds up."""
+        needed, longest = self._inlets
+        return needed <= longest
+
+    def conditions_on(self, _: Grid) -> Conditions:
+        """Operating conditions of a film on the domain of a grid."""
+        return self.conditions
+
+    def around(self, nodes: tuple[Array, ...], thickness: Array) -> tuple[float, float]:
+        """Capacitance in vacuum [F] between roller and raceway outside the domain of the film.
+
+        ``nodes``, nodes of the film along entrainment [m], shape (nx,); ``thickness`` [m], shape (nx,). The
+        second number is that of a ball's contact: 0, as the gap outside continues the film.
+        """
+        (x,) = nodes
+        ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
+        tails = roller_tails(_roller_raceway(self.ring), self.conditions.half_width, *ends)
+        return self.length * sum(tails), 0.0
 
 
 Contact: TypeAlias = BallContact | RollerContact
@@ -372,21 +411,6 @@ def _roller_raceway(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     return RollerRaceway(radii.element_x, abs(radii.ring_x), outer=not ring.inner)
 
 
-def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Array) -> tuple[float, float]:
-    """Capacitance between ball and groove outside the domain of the film, in vacuum.
-
-    ``nodes``, nodes of the film along and across entrainment [m], shapes (nx,); ``thickness`` [m],
-    shape (nx, ny). Returns ``capacitance``, capacitance in vacuum [F]; ``mismatch``, largest relative
-    difference, at the edge of the domain, between the film thickness and the gap outside.
-    """
-    x, y = np.meshgrid(*nodes, indexing="ij")
-    rim = np.ones_like(thickness, dtype=bool)
-    rim[1:-1, 1:-1] = False
-    domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
-    found = around_balls(contact.ring, contact.dry, domain, (x[rim], y[rim]), thickness[rim])
-    return float(found[0]), float(found[1])
-
-
 def around_balls(
     ring: RingContacts[BallBearing],
     dry: DryContact,
@@ -395,27 +419,18 @@ def around_balls(
     thickness: Array,
     opened: Array | None = None,
 ) -> tuple[Array, Array]:
-    """Capacitances as of ``around_ball``, for balls under several loads at once.
+    """Capacitances as of ``BallContact.around``, for balls under several loads at once.
 
     ``dry``, dry contacts, values of shape (...); ``domain``, inlet, outlet and side of the domains [m],
     shape (...); ``rim``, points on the edges of the domains, along and across entrainment [m],
     shape (..., n); ``thickness``, film thickness at the points [m], shape (..., n); ``opened``, deflection at
-    the points, where it is known [m], shape (..., n). Returns values as of ``around_ball``, shape (...).
+    the points, where it is known [m], shape (..., n). Returns values as of ``BallContact.around``,
+    shape (...).
     """
     raceway, (x, y) = raceway_of(ring), rim
     modulus = ring.conditions.modulus
     matched = match_film(raceway, dry, modulus, x=x, y=y, thickness=thickness, opened=opened)
     return outside_capacitance(raceway, matched, domain), np.asarray(matched.mismatch)
-
-
-def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array, thickness: Array) -> float:
-    """Capacitance in vacuum [F] between a roller and its raceway outside the domain of the film.
-
-    ``x`` and ``thickness`` are the nodes of the film and its thickness [m], shape (nx,).
-    """
-    ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
-    tails = roller_tails(_roller_raceway(ring), half_width, *ends)
-    return ring.conditions.geometry.roller_length * sum(tails)
 
 
 def rigid_ball(ring: RingContacts[BallBearing], gap: float) -> float:
@@ -484,67 +499,66 @@ class ContactSolution(Values):
     warnings: tuple[ResultWarning, ...]  # warnings about the film and the field
 
 
-def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
-    """Solve the film and the field of a ball's contact; errors are those of ``check_contact``."""
-    grid, ring = ball_grid(contact), contact.ring
+def solve(contact: Contact, solver: Solver) -> ContactSolution:
+    """Solve the film and the field of a contact; errors are those of ``check_contact``."""
+    grid, ring = contact.grid, contact.ring
     check_contact(contact, grid)
-    assert grid.side is not None
-    conditions = replace(contact.conditions, side=grid.side)
-    result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=ring.discharge)
-    assert isinstance(result, PointResult)
-    film = result.film
-    outside, mismatch = around_ball(contact, (film.x, film.y), film.thickness)
-    return _solution(contact, result, outside=outside, mismatch=mismatch)
-
-
-def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
-    """Solve the film and the field of a roller's contact; errors are those of ``check_contact``."""
-    grid, ring, length = roller_grid(contact), contact.ring, contact.length
-    check_contact(contact, grid)
-    conditions = contact.conditions
-    discharge = ring.discharge.model_copy(update={"length": length})
+    conditions = contact.conditions_on(grid)
+    discharge = ring.discharge.model_copy(update={"length": contact.length})
     result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=discharge)
-    assert isinstance(result, Result)
-    film = result.film
-    outside = around_roller(contact.ring, conditions.half_width, film.x, film.thickness)
-    return _solution(contact, result, outside=outside, mismatch=0.0, length=length)
-
-
-def _solution(
-    contact: Contact,
-    result: Result | PointResult,
-    *,
-    outside: float,
-    mismatch: float,
-    length: float = 1.0,
-) -> ContactSolution:
-    """Numbers of a solved contact; ``length`` is that of a line contact [m], 1 for a point contact."""
-    discharge, formulas = result.discharge, result.conditions.contact
-    assert discharge is not None
-    breakdown = discharge.breakdown_voltage
-    values = ContactValues(
-        max_pressure=result.conditions.max_pressure,
-        semi_axis_x=contact.axes[0],
-        semi_axis_y=contact.axes[1],
-        minimum_thickness=result.film.minimum_thickness,
-        central_thickness=result.film.central_thickness,
-        inside=length * discharge.capacitance,
-        outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
-        outside_air=outside,
-        plate=length * discharge.capacitance_plate,
+    film, found = result.film, result.discharge
+    assert found is not None
+    breakdown = found.breakdown_voltage
+    return solution_of(
+        contact,
+        (film.minimum_thickness, film.central_thickness),
+        contact.around(film.axes, film.thickness),
+        inside=contact.length * found.capacitance,
+        plate=contact.length * found.capacitance_plate,
         strength_per_volt=result.field.max_strength / result.field.voltage,
         breakdown_voltage=np.inf if breakdown is None else breakdown,
-        hertz=length * discharge.capacitance_hertz,
-    )
-    return ContactSolution(
-        load=contact.load,
-        values=values,
-        error=result.film.discretisation_error,
-        moes_m=formulas.moes_m,
-        moes_l=formulas.moes_l,
-        mismatch=mismatch,
+        hertz=contact.length * found.capacitance_hertz,
+        error=film.discretisation_error,
         converged=result.converged,
         warnings=without_regime(result.warnings),
+    )
+
+
+def solution_of(
+    contact: Contact,
+    films: tuple[float, float],
+    around: tuple[float, float],
+    *,
+    error: float | None,
+    converged: bool,
+    warnings: tuple[ResultWarning, ...],
+    **values: float,
+) -> ContactSolution:
+    """Solution of a contact.
+
+    ``films``, minimum and central film thickness [m]; ``around``, the numbers of ``BallContact.around``;
+    ``values``, the other values of ``ContactValues`` that do not follow from the dry contact.
+    """
+    outside, mismatch = around
+    groups = contact.conditions.contact
+    return ContactSolution(
+        load=contact.load,
+        values=ContactValues(
+            max_pressure=contact.conditions.max_pressure,
+            semi_axis_x=contact.axes[0],
+            semi_axis_y=contact.axes[1],
+            minimum_thickness=films[0],
+            central_thickness=films[1],
+            outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
+            outside_air=outside,
+            **values,
+        ),
+        error=error,
+        moes_m=groups.moes_m,
+        moes_l=groups.moes_l,
+        mismatch=mismatch,
+        converged=converged,
+        warnings=warnings,
     )
 
 
@@ -582,12 +596,8 @@ class ContactCurve(Values):
 
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        return ContactValues(*self._law(load))
-
-    @cached_property
-    def _law(self) -> _Interpolation:
-        """Interpolation of all quantities."""
-        return _Interpolation.of(self.loads, np.stack(self.stack().columns(), axis=-1))
+        rows = np.stack(self.stack().columns(), axis=-1)
+        return ContactValues(*_interpolated(self.loads, rows, load))
 
     @cached_property
     def counted(self) -> ContactCurve:
@@ -609,31 +619,20 @@ class ContactCurve(Values):
         for k in range(1, loads.size - 1):
             known = np.isfinite(values[k]) & [True, loads[k] >= _LIGHT * loads[-1]]
             others = np.delete(values[:, known], k, axis=0)
-            left = _Interpolation.of(np.delete(loads, k), others)(loads[k : k + 1])
+            left = _interpolated(np.delete(loads, k), others, loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
         return float(worst)
 
 
-@dataclass(frozen=True)
-class _Interpolation:
-    """Monotone interpolation of n columns of values over the load in the logarithms of both."""
+def _interpolated(loads: Array, values: Array, load: Array) -> Array:
+    """Values at k loads [N], shape (n, k), interpolated from those at m loads [N], shape (m, n).
 
-    loads: Array  # [N], shape (m,)
-    first: Array  # values at the smallest load; infinite for a column with any infinite value, shape (n,)
-    # Logarithm of the columns that are finite over that of the load; None for a single load.
-    between: PchipInterpolator | None
-
-    @classmethod
-    def of(cls, loads: Array, values: Array) -> _Interpolation:
-        """Interpolation of values of shape (m, n)."""
-        finite = np.all(np.isfinite(values), axis=0)
-        between = PchipInterpolator(np.log(loads), np.log(values[:, finite])) if loads.size > 1 else None
-        return cls(loads, np.where(finite, values[0], np.inf), between)
-
-    def __call__(self, load: Array) -> Array:
-        """Values at k loads [N], shape (n, k); beyond the ends, those at the ends."""
-        found = np.repeat(self.first[:, np.newaxis], np.size(load), axis=1)
-        if self.between is not None:
-            inside = np.clip(load, self.loads[0], self.loads[-1])
-            found[np.isfinite(self.first)] = np.exp(self.between(np.log(inside))).T
-        return found
+    The interpolation is monotone in the logarithms of both. Beyond the ends the values are those at the ends.
+    A column with any infinite value is infinite.
+    """
+    finite = np.all(np.isfinite(values), axis=0)
+    found = np.repeat(np.where(finite, values[0], np.inf)[:, np.newaxis], np.size(load), axis=1)
+    if loads.size > 1:
+        between = PchipInterpolator(np.log(loads), np.log(values[:, finite]))
+        found[finite] = np.exp(between(np.log(np.clip(load, loads[0], loads[-1])))).T
+    return found

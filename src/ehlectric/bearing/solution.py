@@ -11,11 +11,12 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.circuit import Circuit, series
-from ehlectric.bearing.conditions import BearingConditions
+from ehlectric.bearing.conditions import BearingConditions, gap_breakdown
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
@@ -119,7 +120,7 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
         outside_air=vacuum,
         plate=none,
         strength_per_volt=1.0 / apart,
-        breakdown_voltage=np.array([conditions.gap_breakdown(float(thickness)) for thickness in apart]),
+        breakdown_voltage=gap_breakdown(conditions.discharge, apart),
         hertz=none,
     )
 
@@ -193,6 +194,12 @@ class BearingSolution(Values):
     def _own_circuits(self) -> tuple[Circuit, ...]:
         """Circuits with ``fill`` of the case, which most numbers of a bearing need."""
         return self.circuits(self.case.bearing.fill)
+
+
+def dry_areas(solution: BearingSolution, ring: RingState) -> Array:
+    """Area of each dry contact with a ring, shape (n,) [m^2]; 0 without load."""
+    factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
+    return factor * ring.values.semi_axis_x * ring.values.semi_axis_y
 
 
 def lambda_ratio(solution: BearingSolution) -> float:

@@ -11,8 +11,8 @@ from typing import Any
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
-from ehlectric.bearing.quick_contacts import is_quick, quick_solutions
-from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
+from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_solutions
+from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts, solve
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
@@ -65,8 +65,8 @@ def solution_of_prepared(
     return BearingSolution(
         case=case,
         conditions=prepared.conditions,
-        inner=prepared.inner,
-        outer=prepared.outer,
+        inner=prepared.rings[0],
+        outer=prepared.rings[1],
         inner_curve=curves[0],
         outer_curve=curves[1],
         positions=tuple(_position(prepared, curves, at) for at in prepared.equilibria),
@@ -76,12 +76,10 @@ def solution_of_prepared(
 
 def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]) -> list[Callable[[], Any]]:
     """Functions that solve the contacts with one ring, or compute them quickly, by increasing load."""
-    kind = kind_of(ring)
     quick = is_quick(case)
-    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring, quick=quick)]
-    if quick:
-        return [partial(kind.quick[case.contacts], contact) for contact in contacts]
-    return [partial(kind.solve, contact, case.solver) for contact in contacts]
+    method = QUICK_METHODS[case.contacts] if quick else partial(solve, solver=case.solver)
+    loads = loads_to_solve(prepared, ring, quick=quick)
+    return [partial(method, kind_of(ring).contact(ring, load)) for load in loads]
 
 
 def _position(

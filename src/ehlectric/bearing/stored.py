@@ -98,9 +98,9 @@ def _solved_heat(solution: BearingSolution) -> dict[str, Any]:
     if solution.case.bearing.film_factor != "solved":
         return {}
     rings = solution.conditions.rings
-    frictions = [own.friction for own in rings if own.friction is not None]
-    pairs: dict[str, Any] = {_HEAT: [own.heat_factor for own in rings]}
-    if len(frictions) == len(rings):
+    frictions = [ring.friction for ring in rings]
+    pairs: dict[str, Any] = {_HEAT: [ring.heat_factor for ring in rings]}
+    if None not in frictions:
         pairs |= {name: values for name, (_, values, _) in _FRICTIONS.written(frictions).items()}
     return pairs
 
@@ -137,7 +137,7 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
     angles, speeds = _pair(attributes, "contact_angle"), _pair(attributes, "entrainment_speed")
     inner, outer = (RingContacts(conditions, k == 0, angles[k], speeds[k]) for k in range(2))
     inner_curve, outer_curve = (_curve_of(values, k, warnings[k]) for k in range(2))
-    shape = float(attributes["weibull_shape"]) if attributes["weibull_shape"] else None
+    shape = _shape_of(text_of(attributes, "weibull_shape"))
     positions = tuple(
         Position(_equilibrium_of(values, kind, k), _state_of(values, k, 0), _state_of(values, k, 1), shape)
         for k in range(dataset.sizes["cage_position"])
@@ -225,7 +225,6 @@ def _check(dataset: xr.Dataset) -> tuple[type[Equilibrium], list[list[tuple[Resu
     for quantity in ("load", *_QUANTITIES):
         if not VALUES[_LOADED](dataset[quantity].values[solved]):
             raise UnfitError(f"{quantity} of a loaded contact is not {_LOADED}")
-    _check_shape(text_of(attributes, "weibull_shape"))
     warnings = warnings_in_tables(attributes, depth=2)
     if [len(curve) for curve in warnings] != [dataset.sizes[f"{ring}_load"] for ring in RINGS]:
         raise UnfitError("warnings is not as it was written")
@@ -242,11 +241,14 @@ def _equilibrium_rules(dataset: xr.Dataset, kind: type[Equilibrium]) -> dict[str
     return rules
 
 
-def _check_shape(text: str) -> None:
-    """Check the shape parameter of a Weibull distribution; the text is empty where there is none."""
+def _shape_of(text: str) -> float | None:
+    """Shape parameter of a Weibull distribution; the text is empty where there is none."""
+    if not text:
+        return None
     try:
-        shape = float(text) if text else 1.0
+        shape = float(text)
     except ValueError:
         shape = 0.0
     if not 0.0 < shape < np.inf:
         raise UnfitError("weibull_shape is not positive")
+    return shape

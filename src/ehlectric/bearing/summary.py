@@ -13,8 +13,6 @@ from ehlectric.bearing.bearing_discharges import (
     bearing_voltage_ratio,
     breakdown_of,
     film_voltage,
-    known,
-    margin,
     shaft_leakage,
     shaft_voltage,
     strength_per_volt,
@@ -42,12 +40,13 @@ from ehlectric.bearing.solution import (
     regime,
 )
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.discharge.discharge_laws import conductivity_of
+from ehlectric.discharge.discharge_laws import conductivity_of, known
 from ehlectric.errors import texts_and_codes
 from ehlectric.runtime.files import plain
 
 SCHEMA = "ehlectric.bearing/1"
 
+_PARTS_OF_FILM_FACTOR = ("heat_factor", "inlet_shear_factor", "supply_factor")
 _VOLTAGES = tuple(field.name for field in dataclasses.fields(Breakdown))
 
 
@@ -128,9 +127,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "lubrication": lubrication(solution),
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
-        "heat_factor": solution.conditions.heat_factor,
-        "inlet_shear_factor": solution.conditions.inlet_shear_factor,
-        "supply_factor": solution.conditions.supply_factor,
+        **{name: solution.conditions.part_of_film_factor(name) for name in _PARTS_OF_FILM_FACTOR},
         "film_half_time": half_time(solution),
         **friction_summary(solution),
         **(broken := breaks(solution)),
@@ -143,7 +140,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "relaxation_time": oil_relaxation_time(solution),
         "shaft_time_constant": None if leaks is None else leaks.time_constant,
         "film_time_constant": None if leaks is None else leaks.film_time_constant,
-        "switching_period": _period(solution),
+        "switching_period": known(truediv, 1.0, getattr(solution.case.motor, "switching_frequency", None)),
         "shaft_voltage_after_period": known(mul, shaft, getattr(leaks, "after_period", None)),
         "film_voltage_after_period": known(mul, across, getattr(leaks, "film_after_period", None)),
         "shaft_voltage_after_rise": known(mul, shaft, getattr(leaks, "after_rise", None)),
@@ -160,19 +157,13 @@ def _outside(solution: BearingSolution, rough: float | None) -> dict[str, Any]:
     return {
         "coating_capacitance": path.coating if path.coated else None,
         "coating_breakdown": path.coating_breakdown,
-        "coating_margin": margin(path.coating_breakdown, shaft) if path.coating_breakdown else None,
+        "coating_margin": known(truediv, path.coating_breakdown, shaft),
         "film_share": share,
         "coating_share": None if share is None or not path.coated else 1.0 - share,
         "parallel_capacitance": path.parallel,
         "shaft_capacitance": shaft_capacitance(solution),
         "meter_capacitance": meter_reading(solution, rough),
     }
-
-
-def _period(solution: BearingSolution) -> float | None:
-    """Period of the inverter [s]; None without a switching frequency."""
-    motor = solution.case.motor
-    return None if motor is None or motor.switching_frequency is None else 1.0 / motor.switching_frequency
 
 
 def breaks(solution: BearingSolution) -> dict[str, Any]:
@@ -184,8 +175,8 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
     if breakdown is None:
         return dict.fromkeys((*_VOLTAGES, "margin", "through_margin"))
     return dataclasses.asdict(breakdown) | {
-        "margin": margin(breakdown.shaft_first_break, shaft),
-        "through_margin": margin(breakdown.shaft_through_breakdown, shaft),
+        "margin": known(truediv, breakdown.shaft_first_break, shaft),
+        "through_margin": known(truediv, breakdown.shaft_through_breakdown, shaft),
     }
 
 

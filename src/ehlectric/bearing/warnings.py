@@ -12,7 +12,6 @@ from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     current_warnings,
     film_voltage,
-    known,
     leakage_warnings,
     shaft_voltage,
     strength_per_volt,
@@ -39,6 +38,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.oil_inputs import OilTemperature
+from ehlectric.discharge.discharge_laws import known
 from ehlectric.discharge.film_breakdown import field_warnings, strength_warnings
 from ehlectric.discharge.film_verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
@@ -86,8 +86,7 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         if contacts == "formula":
             how, more = "by formula", '; use contacts = "solved" for design'
         text = f"contacts {how}: film thicknesses may be wrong by {error_text(solution)}"
-        code = "formula-contacts" if contacts == "formula" else "atlas-contacts"
-        yield ResultWarning(code, f"{text}, and fields are V/h_min{more}")
+        yield ResultWarning(f"{contacts}-contacts", f"{text}, and fields are V/h_min{more}")
     yield film_note(solution)
     yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)

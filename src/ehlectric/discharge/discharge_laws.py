@@ -6,16 +6,19 @@ All quantities are in SI units. The field is proportional to the voltage, so one
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from operator import add, truediv
 
 import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
-from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.discharge_inputs import Discharge, Pit
 from ehlectric.field.zones import areas
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.quantity import data_file
 
 # Lateral size of the pits that discharges leave in bearings: maximum and mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
@@ -26,37 +29,9 @@ TUNNELLING = 2e-9
 # Published limits of the apparent current density, peak current over Hertz area, above which bearings are
 # damaged [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
-_PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubricants10050087"
 
 # Sources and assumptions of those values of a summary that do not follow from case and solution alone.
-SOURCES = {
-    "zone_size": "assumption: zone in which field / dielectric strength is at least 95 % of its maximum",
-    "zone_area": "assumption: as zone_size",
-    "zone_over_half_width": "assumption: as zone_size",
-    "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
-    "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
-    "capacitance": "of the computed domain only; of a point contact it grows with the log of the domain size",
-    "capacitance_plate": (
-        "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at "
-        "ambient pressure"
-    ),
-    "capacitance_ratio": "assumption: as capacitance_plate",
-    "outlet": "assumption: filling of the gap behind the exit; the limiting cases are given, too",
-    "capacitance_outlet_full": "assumption: only oil behind the exit, even if there is not enough oil",
-    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the oil mass is conserved",
-    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the oil mass is conserved",
-    "discharge_energy": "assumption: one spark discharges all of the charge",
-    "breakdown_energy": "assumption: one spark discharges all of the charge",
-    "pit_volume": "assumption: energy at the voltage of the case; efficiency and melting energy as given",
-    "pit_diameter": "assumption: hemispherical pit",
-    "current_density_limits": (
-        "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
-        "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
-    ),
-    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure; "
-    "in a film with heat, the mean conductivity of the Hertz zone at the mid-film temperature",
-    "corner_frequency": "assumption: as relaxation_time",
-}
+SOURCES: Mapping[str, str] = data_file("ehlectric.quantities", "discharge_sources.toml")
 
 # Utilisation is the ratio of field strength to dielectric strength. The zone that breaks down first is where
 # the utilisation is at least this part of its maximum.
@@ -146,6 +121,16 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
     20.0
     """
     return efficiency * energy / melting_energy
+
+
+def known(law: Callable[..., float], *values: float | None) -> float | None:
+    """Value of a law; None where one of its arguments is not known."""
+    return None if None in values else law(*values)
+
+
+def volume_of_pit(pit: Pit | None, energy: float | None) -> float | None:
+    """Volume that a discharge of an energy [J] melts [m^3]; None without the table ``pit`` or an energy."""
+    return None if pit is None else known(melted_volume, energy, pit.efficiency, pit.melting_energy)
 
 
 def pit_diameter(volume: float) -> float:
@@ -239,29 +224,20 @@ def discharge_costs(
     [V]; ``breaking_voltage``, breakdown voltage [V]; None if it is unknown. Returns values in SI units; None
     if the case lacks an input that a value needs.
     """
-    total, external = size.total(capacitance), discharge.external_capacitance
-    together = None if total is None or external is None else total + external
-    energy = _energy(together, voltage)
-    volume = (
-        None
-        if discharge.pit is None or energy is None
-        else melted_volume(energy, discharge.pit.efficiency, discharge.pit.melting_energy)
-    )
-    current = discharge.peak_current
+    total, current = size.total(capacitance), discharge.peak_current
+    together = known(add, total, discharge.external_capacitance)
+    energy = known(stored_energy, together, voltage)
+    volume = volume_of_pit(discharge.pit, energy)
     area = None if current is None else size.total(size.hertz)
     return DischargeCosts(
-        contact_energy=_energy(total, voltage),
+        contact_energy=known(stored_energy, total, voltage),
         discharge_energy=energy,
-        breakdown_energy=_energy(together, breaking_voltage),
+        breakdown_energy=known(stored_energy, together, breaking_voltage),
         pit_volume=volume,
-        pit_diameter=None if volume is None else pit_diameter(volume),
-        current_density=None if current is None or area is None else current / area,
+        pit_diameter=known(pit_diameter, volume),
+        current_density=known(truediv, current, area),
         current_density_limits=None if area is None else CURRENT_DENSITY_LIMITS,
     )
-
-
-def _energy(capacitance: float | None, voltage: float | None) -> float | None:
-    return None if capacitance is None or voltage is None else stored_energy(capacitance, voltage)
 
 
 @dataclass(frozen=True)

@@ -68,27 +68,13 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
 
 
 # Functions of the oil's relative permittivity and the oil fraction that give the relative permittivity of the
-# gap, by the name of the filling: oil alone; fingers of oil from wall to wall with gas beside them, in
-# parallel; layers of oil on the walls with gas between them, in series.
+# gap, shape (...), by the name of the filling: oil alone; fingers of oil from wall to wall with gas between
+# them, in parallel; layers of oil on the walls with gas between them, in series.
 OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
     "full": lambda permittivity, _fraction: permittivity,
     "fingers": lambda permittivity, fraction: fraction * permittivity + (1.0 - fraction),
     "layers": lambda permittivity, fraction: 1.0 / (fraction / permittivity + (1.0 - fraction)),
 }
-
-
-def filled_permittivity(permittivity: Array, fraction: Array, outlet: str) -> Array:
-    """Relative permittivity of a gap that is filled with oil and gas. ``permittivity``, relative permittivity
-    of the oil, dimensionless, shape (...); ``fraction``, fraction f of the gap that is filled with oil, from
-    0 to 1, dimensionless, shape (...). Returns relative permittivity of the gap, dimensionless, shape (...).
-
-    Examples
-    --------
-    >>> eps, half = np.array([3.0]), np.array([0.5])
-    >>> [float(filled_permittivity(eps, half, outlet)[0]) for outlet in OUTLETS]
-    [3.0, 2.0, 1.5]
-    """
-    return OUTLETS[outlet](permittivity, fraction)
 
 
 @dataclass(frozen=True)
@@ -213,7 +199,7 @@ def zone_capacitances(
     Inside the field range the capacitance follows from the solved field, outside from a thin gap,
     eps0 eps/h per area. The thin gap is summed over the whole domain. The difference between the solved field
     and the thin gap is then added inside the field range. Where gas fills a part of the gap, both are scaled
-    by ``filled_permittivity``. This agrees to 1e-5 with a field that is solved with the gas in the gap,
+    by ``OUTLETS``. This agrees to 1e-5 with a field that is solved with the gas in the gap,
     because the walls diverge slowly behind the exit.
 
     ``zones``, width [m] or area [m^2] of each node's part of a zone, by the name of the zone: one mapping for
@@ -226,8 +212,8 @@ def zone_capacitances(
         fraction = oil_fraction(film.thickness, film.density, film.cavitated)
     gap = np.maximum(film.thickness, ATOM)
     by_outlet = {}
-    for outlet in OUTLETS:
-        permittivity = filled_permittivity(oil, fraction, outlet)
+    for outlet, filled in OUTLETS.items():
+        permittivity = filled(oil, fraction)
         thin = layers.density(epsilon_0 * permittivity / gap, permittivity)
         # The thin gap at the columns is interpolated from the film's nodes, not computed from the gap of the
         # field. It then cancels the sum over the nodes inside the field range, also if the columns are finer.

@@ -10,6 +10,7 @@ from typing import Literal
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.quantity import data_file
 
 # "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
 # expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
@@ -52,23 +53,8 @@ UNLIKELY = 0.05
 # engineering judgement.
 STRENGTH_UNKNOWN = 0.2
 
-# Warnings of results whose margin may be lower than computed: no verdict is green with one of them.
-DOUBTS = (
-    "surfaces-touch",
-    "asperities-touch",
-    "thinner-than-atom",
-    "tunnelling",
-    "error-unknown",
-    "field-range-too-narrow",
-    "strength-table-exceeded",
-    "shoulder-reached",
-    "temperature-low",
-    "viscosity-of-base",
-    "estimated-alpha",
-    "load-low",
-    "field-above-insulators",
-    "strength-above-liquids",
-)
+# Codes of warnings of results whose margin may be lower than computed: no verdict is green with one of them.
+DOUBTS: tuple[str, ...] = tuple(data_file("ehlectric.quantities", "warning_codes.toml")["doubts"])
 
 
 def level_of(low: float, high: float) -> Level:

@@ -125,7 +125,7 @@ def points(bodies: Bodies, gap: float, s: Array, t: Array) -> Points:
     scale = within / (1.0 + far.along * radial)
     away = (scale * far.along * x, across, -scale * (1.0 + far.along * below))
     cosine = -sum(a * n for a, n in zip(away, normal, strict=True))
-    sine = np.sqrt(sum(part**2 for part in _cross(away, normal)))
+    sine = np.sqrt(sum(part**2 for part in np.cross(away, normal, axis=0)))
     # Curvature of the far body along its circles of revolution, at the foot of the distance.
     drop = far.across * (y / (1.0 + far.across * distance)) ** 2 / (1.0 + np.maximum(within, 0.0))
     turning = far.along * within / (1.0 - far.along * drop)
@@ -140,10 +140,6 @@ def _distance(curvature: float, height: Array, sideways: Array) -> Array:
     twice = curvature * (height**2 + sideways**2)
     distance: Array = (2.0 * height + twice) / (1.0 + np.sqrt(1.0 + curvature * (2.0 * height + twice)))
     return distance
-
-
-def _cross(a: tuple[Array, ...], b: tuple[Array, ...]) -> tuple[Array, ...]:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 # Quadrature nodes along each edge of the domain and outwards; tests check an accuracy of 1e-4.

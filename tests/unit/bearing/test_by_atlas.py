@@ -6,8 +6,8 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric.bearing.bearing_discharges import breakdown_of
-from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.quick_contacts import (
+    QUICK_METHODS,
     _around_ball,
     _around_roller,
     _edge,
@@ -206,4 +206,4 @@ def test_contacts_of_several_loads_are_those_of_each_alone(tables, inner):
 
 
 def ball_or_roller_by_atlas(ring, load):
-    return kind_of(ring).quick["atlas"](contact_of(ring, load))
+    return QUICK_METHODS["atlas"](contact_of(ring, load))

@@ -54,7 +54,7 @@ def test_each_groove_is_that_of_its_ring():
     assert own == BallBearing(9, D, PITCH, 0.52, 0.53, contact_angle=math.radians(40.0))
     for inner, groove, sign in ((True, 0.52, 1.0), (False, 0.53, -1.0)):
         for angle in (0.0, 0.7):
-            radii = conditions.radii(angle, inner=inner)
+            radii = conditions.geometry.radii(angle, inner=inner)
             c = math.cos(angle)
             rolling = 1.0 / (2.0 / D + sign * 2.0 * c / (PITCH - sign * D * c))
             assert radii.radius_x == pytest.approx(rolling, rel=1e-12, abs=0.0)

@@ -7,7 +7,6 @@ import pytest
 
 from ehlectric import BearingCase, solve
 from ehlectric.bearing.preparation import least_load
-from ehlectric.bearing.ring_contacts import ball_grid, roller_grid
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.formulas.film_line import LineContact, moes
@@ -52,9 +51,9 @@ def ball(load, *, inner):
 @pytest.mark.parametrize("inner", [True, False])
 def test_heavy_contacts_have_the_domain_of_others(inner):
     """4 and 2 half-widths of a roller; 4.5 and 1.5 semi-axes of a ball, across 1.6 + 1.4/k of them."""
-    found = roller_grid(contact_of(of(ROLLERS, inner=inner), 20e3))
+    found = contact_of(of(ROLLERS, inner=inner), 20e3).grid
     assert found == Grid(inlet=-4.0, outlet=2.0, nodes=801, field_range=(-1.25, 1.25), refine=0.02)
-    found = ball_grid(contact_of(of(UNLIKE, inner=inner), 5000.0))
+    found = contact_of(of(UNLIKE, inner=inner), 5000.0).grid
     b, a, _, _ = ball(5000.0, inner=inner)
     assert (found.inlet, found.outlet, found.nodes, found.field_side) == (-4.5, 1.5, 129, 1.25)
     assert found.side == pytest.approx(1.6 + 1.4 * b / a, rel=1e-9, abs=0.0)
@@ -64,7 +63,7 @@ def test_heavy_contacts_have_the_domain_of_others(inner):
 def test_a_light_rollers_domain(inner):
     """Ten lengths before it and two behind, with sixteen nodes over its contact."""
     load = 60.0
-    found = roller_grid(contact_of(of(ROLLERS, inner=inner), load))
+    found = contact_of(of(ROLLERS, inner=inner), load).grid
     b, length = roller(load, inner=inner)
     assert length > b
     assert -found.inlet * b == pytest.approx(10.0 * length, rel=1e-4, abs=0.0)
@@ -75,7 +74,7 @@ def test_a_light_rollers_domain(inner):
     for hardly in (5.0, 1.6):
         b, length = roller(hardly, inner=inner)
         expected = min(10.0 * length, max(100.0 * b, 8.0 * length), 300.0 * b)
-        inlet = -roller_grid(contact_of(of(ROLLERS, inner=inner), hardly)).inlet * b
+        inlet = -contact_of(of(ROLLERS, inner=inner), hardly).grid.inlet * b
         assert inlet == pytest.approx(expected, rel=1e-4, abs=0.0)
         # Where the roller falls away from its parabola, at half of its radius, the domain would end too.
         assert inlet < 0.25 * ROLLER
@@ -85,7 +84,7 @@ def test_a_light_rollers_domain(inner):
 def test_a_light_balls_domain(inner):
     """Ten lengths before it and one behind; beside it four of those across, from the ellipse's end."""
     load = 10.0
-    found = ball_grid(contact_of(of(UNLIKE, inner=inner), load))
+    found = contact_of(of(UNLIKE, inner=inner), load).grid
     b, a, along, across = ball(load, inner=inner)
     assert -found.inlet * b == pytest.approx(10.0 * along, rel=1e-4, abs=0.0)
     assert found.outlet * b == pytest.approx(max(1.5 * b, along), rel=1e-4, abs=0.0)
@@ -94,7 +93,7 @@ def test_a_light_balls_domain(inner):
     assert found.nodes - 1 >= 8.0 * (found.outlet - found.inlet)
     assert found.nodes - 1 >= 16.0 * found.side
     # What a grid holds: 48 semi-axes before and 24 beside.
-    hardly = ball_grid(contact_of(of(UNLIKE, inner=inner), 1e-3))
+    hardly = contact_of(of(UNLIKE, inner=inner), 1e-3).grid
     ends = [hardly.inlet, hardly.outlet, hardly.side]
     assert ends == pytest.approx([-48.0, 4.8, 24.0], rel=1e-12, abs=0.0)
 

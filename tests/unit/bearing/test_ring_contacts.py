@@ -18,8 +18,6 @@ from ehlectric.bearing.gaps import (
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     RollerContact,
-    around_ball,
-    around_roller,
     raceway_of,
 )
 from ehlectric.formulas.hertz import dry_contact, point_deflection
@@ -86,7 +84,7 @@ def test_around_a_balls_film(inner, groove, sign, angle):
     film = groove_gap(raceway, offset, *at) + point_deflection(*at, dry, MODULUS)
     # Within its edge a film may be anything.
     film[1:-1, 1:-1] = 3e-7
-    found, mismatch = around_ball(BallContact(ring, 600.0), (x, y), film)
+    found, mismatch = BallContact(ring, 600.0).around((x, y), film)
     expected = outside_capacitance(raceway, LoadedContact(dry, MODULUS, offset, 0.0), (x[0], x[-1], y[-1]))
     assert mismatch < 1e-9
     assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
@@ -100,7 +98,9 @@ def test_around_a_rollers_film(inner, race_radius):
     tails = roller_tails(
         RollerRaceway(5.5e-3, race_radius, not inner), b, (-4e-4, 2e-4), (5e-7 + 1e-5, 5e-7 + 2.5e-6)
     )
-    found = around_roller(of(ROLLERS, inner=inner), b, x, film)
+    ring = of(ROLLERS, inner=inner)
+    load = np.pi * MODULUS * 10e-3 * b**2 / (8.0 * ring.radii.radius_x)
+    found, _ = RollerContact(ring, load).around((x,), film)
     assert found == pytest.approx(10e-3 * sum(tails), rel=1e-12, abs=0.0)
 
 

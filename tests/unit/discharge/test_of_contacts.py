@@ -13,7 +13,7 @@ from scipy.integrate import quad
 from ehlectric import Case, load, save, solve
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
-from ehlectric.discharge.film_capacitance import capacitance_beyond, filled_permittivity, oil_fraction
+from ehlectric.discharge.film_capacitance import OUTLETS, capacitance_beyond, oil_fraction
 from ehlectric.field.line_field import solve_field
 from ehlectric.field.zones import part_widths
 from ehlectric.paper.paper_contacts import PAPER
@@ -217,7 +217,7 @@ def test_outlet_is_that_of_a_field_solved_anew(outlet):
     fraction = oil_fraction(film.thickness, film.density, film.cavitated)
     oil = case.oil.permittivity(film.pressure, film.density)
     problem = field_problem(case, result.conditions, film, result.roughness)
-    anew = solve_field(dataclasses.replace(problem, permittivity=filled_permittivity(oil, fraction, outlet)))
+    anew = solve_field(dataclasses.replace(problem, permittivity=OUTLETS[outlet](oil, fraction)))
     behind = part_widths(film.x, b, np.inf) @ anew.capacitance_density
     found = result.discharge
     assert found.capacitance_outlet == near(behind, 3e-5)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.discharge.film_capacitance import OUTLETS, filled_permittivity, oil_fraction, zone_capacitances
+from ehlectric.discharge.film_capacitance import OUTLETS, oil_fraction, zone_capacitances
 from ehlectric.field.zones import line_zone_areas
 from tests.reference.field import near
 from tests.reference.gaps import line_gap, line_gap_field
@@ -19,7 +19,7 @@ permittivities = st.floats(1.0, 1e3)
 
 
 def filled(outlet, permittivity, fraction):
-    return float(filled_permittivity(np.array([permittivity]), np.array([fraction]), outlet)[0])
+    return float(OUTLETS[outlet](np.array([permittivity]), np.array([fraction]))[0])
 
 
 @given(permittivity=permittivities, fraction=fractions)

@@ -40,7 +40,7 @@ from ehlectric.bearing.loads.geometry import (
     gyroscopic_moment,
     rolling_speeds,
 )
-from ehlectric.bearing.loads.ring import AIM, GOOD, OnBothRings, Operation, balance
+from ehlectric.bearing.loads.ring import AIM, GOOD, BearingEquilibrium, Operation, balance
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.hertz import dry_contact
 
@@ -314,41 +314,21 @@ _REACH = 0.1
 
 
 @dataclass(frozen=True)
-class BallEquilibrium(OnBothRings):
+class BallEquilibrium(BearingEquilibrium):
     """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,)."""
 
-    position: Array  # angle of the ball from the direction of the radial load [rad]
-    # inner_load and outer_load: load Q of both contacts [N].
-    inner_load: Array
-    outer_load: Array
     # inner_angle and outer_angle: angle of both contacts [rad]; where a ball does not touch, angle of the
     # smallest gap.
     inner_angle: Array
     outer_angle: Array
-    # inner_approach and outer_approach: elastic approach of ball and ring in the contact [m]; 0 where they do
-    # not touch.
-    inner_approach: Array
-    outer_approach: Array
-    # inner_gap and outer_gap: smallest distance between ball and groove [m]; 0 where they touch.
-    inner_gap: Array
-    outer_gap: Array
-    speeds: Speeds  # speeds of each ball in pure rolling at the mean of its two contact angles
     gyroscopic_moment: Array  # gyroscopic moment of each ball [N m]; its effect is neglected
     cage_speed: float  # mean orbital speed of the balls, weighted with their load on the inner ring [rad/s]
-    centrifugal_force: float  # centrifugal force on each ball at ``cage_speed`` [N]
     # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
     axial_displacement: float
-    # radial_displacement and lateral_displacement: displacement of the inner ring along the radial load, and
-    # towards the angle of 90 deg [m].
-    radial_displacement: float
-    lateral_displacement: float
     # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
     # psi and sin psi [N m].
     moment: float
     lateral_moment: float
-    # Largest unbalanced force on ring or ball over the sum of load and centrifugal force, dimensionless.
-    residual: float
-    iterations: int  # number of Newton steps for the ring
 
 
 @dataclass(frozen=True)

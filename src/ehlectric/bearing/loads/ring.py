@@ -16,6 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.loads.geometry import Speeds
 from ehlectric.errors import InputError
 
 # Force of the elements against a displacement of the ring, and its derivative by the displacement.
@@ -46,8 +47,34 @@ class RingLoads:
     entrainment_speed: Array  # entrainment speed in pure rolling [m/s], shape (n,)
 
 
-class OnBothRings:
-    """Equilibrium of elements with quantities for both rings, such as ``inner_load`` and ``outer_load``."""
+@dataclass(frozen=True)
+class BearingEquilibrium:
+    """Bearing in equilibrium. Arrays have one value per element, shape (n,), unless stated."""
+
+    position: Array  # angle of the element from the direction of the radial load [rad]
+    # inner_load and outer_load: load of both contacts [N].
+    inner_load: Array
+    outer_load: Array
+    # inner_approach and outer_approach: elastic approach of ring and element, of a roller at its middle [m];
+    # 0 where they do not touch.
+    inner_approach: Array
+    outer_approach: Array
+    # inner_gap and outer_gap: smallest distance between the raceway and the element, of a roller at its
+    # middle [m]; 0 where they touch.
+    inner_gap: Array
+    outer_gap: Array
+    # Speeds of cage, elements and contacts in pure rolling; of each ball at the mean of its two contact
+    # angles.
+    speeds: Speeds
+    # Centrifugal force on each element at the speed of the cage [N].
+    centrifugal_force: float
+    # radial_displacement and lateral_displacement: displacement of the inner ring along the radial load, and
+    # towards the angle of 90 deg [m].
+    radial_displacement: float
+    lateral_displacement: float
+    # Largest unbalanced force on ring or element over the sum of load and centrifugal force, dimensionless.
+    residual: float
+    iterations: int  # number of Newton steps for the ring
 
     def ring(self, *, inner: bool) -> RingLoads:
         """Contacts of all elements with the inner or the outer ring; contact angles of rollers are 0."""

@@ -19,8 +19,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_force, rolling_speeds
-from ehlectric.bearing.loads.ring import GOOD, OnBothRings, Operation, Reaction, balance
+from ehlectric.bearing.loads.geometry import RollerBearing, centrifugal_force, rolling_speeds
+from ehlectric.bearing.loads.ring import GOOD, BearingEquilibrium, Operation, Reaction, balance
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 
@@ -38,35 +38,14 @@ _MOST_STEPS = 100
 
 
 @dataclass(frozen=True)
-class RollerEquilibrium(OnBothRings):
+class RollerEquilibrium(BearingEquilibrium):
     """Roller bearing in equilibrium. Arrays have one value per roller, shape (n,), unless stated."""
 
-    position: Array  # angle of the roller from the direction of the radial load [rad]
-    # inner_load and outer_load: load of both contacts [N].
-    inner_load: Array
-    outer_load: Array
     # Position of the middle of each slice, from the middle of the roller [m], shape (m,).
     slice_position: Array
     # inner_line_load and outer_line_load: load of each slice per length [N/m], shape (n, m).
     inner_line_load: Array
     outer_line_load: Array
-    # inner_approach and outer_approach: elastic approach of ring and roller at the middle of the roller [m];
-    # 0 where they do not touch.
-    inner_approach: Array
-    outer_approach: Array
-    # inner_gap and outer_gap: distance between the raceway and the middle of the roller [m]; 0 where they
-    # touch.
-    inner_gap: Array
-    outer_gap: Array
-    speeds: Speeds  # speeds of cage, rollers and contacts in pure rolling
-    centrifugal_force: float  # [N]
-    # radial_displacement and lateral_displacement: displacement of the inner ring along the radial load, and
-    # towards the angle of 90 deg [m].
-    radial_displacement: float
-    lateral_displacement: float
-    # Largest unbalanced force on ring or roller over the sum of load and centrifugal force, dimensionless.
-    residual: float
-    iterations: int  # number of Newton steps for the ring
 
     # Cylindrical rollers carry no axial load, do not tilt the ring, and have no gyroscopic moment.
     axial_displacement: ClassVar[None] = None

@@ -12,6 +12,7 @@ from ehlectric.bearing.conditions import ContactFriction
 from ehlectric.bearing.film_factor import rolling_force, rolling_power_loss
 from ehlectric.bearing.preparation import largest_load, prepare_bearing, with_film_factor
 from ehlectric.bearing.result import solve_bearing
+from ehlectric.bearing.ring_contacts import solve
 from ehlectric.bearing.run import NETCDF, save
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
@@ -71,7 +72,7 @@ def integrated(contact, grid):
 def flooded(tables):
     """Contacts of the inner ring with isothermal films, and the load of the most loaded one [N]."""
     prepared = prepare_bearing(bearing_case(tables, contacts="formula"), 1)
-    return prepared.inner, largest_load(prepared, prepared.inner)
+    return prepared.rings[0], largest_load(prepared, prepared.rings[0])
 
 
 def forces(ring, loads, grids):
@@ -92,7 +93,7 @@ def test_rolling_force_of_solved_rollers_does_not_depend_on_heavy_loads():
     grids = [
         Grid.from_dict({"inlet": 2.0 * own.inlet, "outlet": own.outlet, "nodes": nodes})
         for own, nodes in (
-            (kind_of(ring).grid(kind_of(ring).contact(ring, value)), nodes)
+            (kind_of(ring).contact(ring, value).grid, nodes)
             for value, nodes in zip(loads, (801, 801, 1601, 2401), strict=True)
         )
     ]
@@ -124,7 +125,7 @@ def test_the_solved_contact_has_the_force_of_its_own_film(tables, rollers):
     ring, most = flooded(tables)
     kind, solution = kind_of(ring), rollers if tables is ROLLERS else solve_bearing(case(BALLS)).solution
     friction, length = solution.conditions.inner.friction, solution.case.bearing.roller_length or 1.0
-    own = kind.grid(kind.contact(ring, most))
+    own = kind.contact(ring, most).grid
     across = {} if own.side is None else {"side": own.side, "nodes_y": 65}
     table = {"inlet": own.inlet, "outlet": own.outlet, "nodes": 129 if across else 401, **across}
     grid = Grid.from_dict(point_grid(table) if across else table)
@@ -199,7 +200,7 @@ def test_a_given_film_factor_has_no_friction():
     """Films of another thickness are not those whose friction was solved."""
     changed = with_film_factor(prepare_bearing(case(ROLLERS), 1), 0.8).conditions
     assert changed.inner.friction is None
-    assert changed.inlet_shear_factor is None
+    assert changed.part_of_film_factor("inlet_shear_factor") is None
 
 
 def test_stored_friction(rollers, tmp_path):
@@ -217,7 +218,8 @@ def test_stored_friction(rollers, tmp_path):
         del dataset.attrs[name]
     without = solution_of(dataset)
     assert without.conditions.inner.friction is None
-    assert without.conditions.heat_factor == rollers.conditions.heat_factor
+    assert without.conditions.inner.heat_factor == rollers.conditions.inner.heat_factor
+    assert without.conditions.outer.heat_factor == rollers.conditions.outer.heat_factor
     assert summary_of(without)["bearing"]["rolling_power_loss"] is None
     assert not [name for name in dataset_of(without).attrs if name.startswith("solved_")]
 
@@ -232,8 +234,8 @@ def test_table_says_what_the_power_is_of(rollers):
 
 def film_exponent(solution, isothermal):
     """Exponent with which the factor acts on the solved film of the most loaded inner contact."""
-    ring, most = prepare_bearing(isothermal, 1).inner, solution.inner_curve.solutions[-1]
-    plain = kind_of(ring).solve(kind_of(ring).contact(ring, most.load), Solver())
+    ring, most = prepare_bearing(isothermal, 1).rings[0], solution.inner_curve.solutions[-1]
+    plain = solve(kind_of(ring).contact(ring, most.load), Solver())
     ratio = most.values.central_thickness / plain.values.central_thickness
     return math.log(ratio) / math.log(solution.conditions.inner.film_factor)
 
