@@ -10,10 +10,16 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import resources
+from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
+
+from ehlectric.errors import printable
 
 # Sign of a value that is a bound only; empty for any other value.
 Bound: TypeAlias = Literal["", "≤", "≥"]
+
+# Words for the signs of bounds.
+BOUNDS: Mapping[str, str] = MappingProxyType({"≤": "upper bound", "≥": "lower bound"})
 
 
 @dataclass(frozen=True)
@@ -34,6 +40,18 @@ class Quantity:
     bound: Bound = field(default="", kw_only=True)
     # Short label at the head of a column; if it is empty, the label.
     head: str = field(default="", kw_only=True)
+    # Note that follows every value and its unit, such as ", of each surface".
+    note: str = field(default="", kw_only=True)
+
+    def bounded(self, text: str) -> str:
+        """Text of a value after the sign of its bound.
+
+        Examples
+        --------
+        >>> Quantity("maximum field", "V/m", bound="≥").bounded("2 V/µm")
+        '≥ 2 V/µm'
+        """
+        return " ".join(filter(None, [self.bound, text]))
 
 
 # Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its
@@ -47,9 +65,17 @@ def data_file(package: str, name: str) -> dict[str, Any]:
     Examples
     --------
     >>> sorted(data_file("ehlectric.quantities", "sheets.toml"))
-    ['cards', 'columns', 'main', 'sections', 'sheets']
+    ['cards', 'columns', 'main', 'only', 'sections', 'sheets', 'sweeps']
     """
     return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
+
+
+def unbroken(text: str) -> str:
+    """Printable text in which the sign of a bound stays on the line of its number."""
+    text = printable(text)
+    for sign in BOUNDS:
+        text = text.replace(f"{sign} ", f"{sign}\xa0")
+    return text
 
 
 def under(table: str, keys: Keys) -> dict[str, Quantity]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -81,6 +81,7 @@ class Section:
 
     heading: str
     keys: tuple[str, ...]
+    only: str = ""  # condition under which it is shown; empty for one that always is
 
 
 # What a kind of result shows: one list for the terminal, the notebook, the report and the page.
@@ -99,17 +100,20 @@ class Words:
     alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
     # Rows of a key that stands for several quantities, as "film_formulas.*.minimum_thickness"
     rows: Mapping[str, Callable[[Summary], Iterable[Row]]] = field(default_factory=dict)
-    # Keys that are not shown for a summary, although it has a value.
-    hidden: Callable[[Summary], Container[str]] = lambda _: ()
+    # Conditions under which sections and quantities are shown, by name.
+    holds: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
+    # Keys that are shown only where a condition holds, by the name of the condition.
+    only: Mapping[str, Iterable[str]] = field(default_factory=dict)
 
     def __or__(self, other: Words) -> Words:
-        """Words of both, those of the other where both have some; what is hidden is that of the first."""
+        """Words of both, those of the other where both have some; the conditions are those of the first."""
         return Words(
             {**self.notes, **other.notes},
             {**self.values, **other.values},
             {**self.alarms, **other.alarms},
             {**self.rows, **other.rows},
-            self.hidden,
+            self.holds,
+            self.only,
         )
 
 
@@ -130,8 +134,10 @@ def sheet_rows(
     >>> [row.name for row in sheet_rows(sheet, book, {"film": {"error": None, "minimum": 1e-7}})]
     ['film', 'minimum film']
     """
-    hidden = words.hidden(summary)
+    hidden = {key for name, keys in words.only.items() if not words.holds[name](summary) for key in keys}
     for section in sheet:
+        if section.only and not words.holds[section.only](summary):
+            continue
         keys = (key for key in section.keys if key not in hidden)
         found = [row for key in keys for row in _row(key, book, summary, words, bounds)]
         if found:
@@ -150,7 +156,7 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
     about = key_of(book, key)
     if about is None:
         raise KeyError(key)
-    note = words.notes[key](summary) if key in words.notes else ""
+    note = words.notes[key](summary) if key in words.notes else about.note
     alarm = words.alarms[key](summary) if key in words.alarms else False
     yield row_of(key, about, value, note, bound=bounds.get(key, ""), alarm=alarm)
 

@@ -26,7 +26,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
-from ehlectric.report.report_texts import Limit, Reference
+from ehlectric.report.report_texts import SENTENCES, Limit, Reference
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
@@ -220,23 +220,11 @@ def _materials(case: Case | BearingCase) -> Iterator[str]:
 # Heads of the tables of inputs, and shares of their columns.
 _HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.19, 0.21, 0.35)
 _DOI = "https://doi.org/"
-_UNITS = (
-    "Values stand in units that suit them; the input file at the end of the report has them in SI units. "
-    "“default” is the value that the program takes on its own, whether the input file has it or not; “given” "
-    "is any other value of the input file. A value of the library has the number of its source and the kind "
-    "of it: measured, read off a diagram, fitted, published, by rule, estimated or assumed."
-)
-_VARIED = (
-    "These are the inputs of the base case. The values of the varied inputs, and of their alternatives such "
-    "as a load for a Hertz pressure, differ from point to point."
-)
-# Keys of the dielectric strength, which no measurement of films gives, and sentences below the inputs.
+# Keys of the dielectric strength, which no measurement of films gives.
 _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weibull", "strength_table"))
-_NO_STRENGTH = "No measurement of a film stands behind it, whatever its value."
 
 # Names of the bearings of a drive by the first word of their keys.
 _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name in NAMES_OF_ENDS.items()}}
-_GIVEN = "Given values count as known: only the author of the input file can say how they were found."
 
 
 def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
@@ -249,7 +237,9 @@ def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
         for one in inputs_of(case, apart=apart)
     ]
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
-    blocks: list[Block] = [Text(_UNITS), *([Text(_VARIED)] if varied else [])]
+    blocks: list[Block] = [Text(SENTENCES["input_values"])]
+    if varied:
+        blocks.append(Text(SENTENCES["varied_inputs"]))
     for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
         rows = tuple(_input_cells(case, one, numbers) for one in group)
         blocks.append(Table(f"Inputs: {_PLACES.get(name, name)}", _HEADS, rows, shares=_SHARES))
@@ -289,11 +279,11 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)
         elif end_and_key(one.key)[1].startswith(_STRENGTHS):
-            groups.setdefault(("assumed", _NO_STRENGTH), []).append(text)
+            groups.setdefault(("assumed", SENTENCES["no_strength_measured"]), []).append(text)
     rows = tuple(("; ".join(texts), kind, why) for (kind, why), texts in groups.items())
     if rows:
         yield Table("Inputs that are assumptions", ("inputs", "kind", "why"), rows, shares=(0.42, 0.12, 0.46))
-    yield Text(_GIVEN)
+    yield Text(SENTENCES["given_inputs"])
 
 
 def limit_section(limits: Iterable[Limit]) -> Section:
@@ -354,7 +344,7 @@ def file_section(toml: str, command: str) -> Section:
     text = f"Write these lines to a file and solve it again with: ehlectric {command} FILE"
     blocks: list[Block] = [Text(text)]
     if "\nfile = " in toml:
-        blocks.append(Text("The file names measured surfaces or voltages, which must lie at the same paths."))
+        blocks.append(Text(SENTENCES["files_named"]))
     return Section("Input file", (*blocks, Text(toml, "code")))
 
 

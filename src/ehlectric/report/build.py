@@ -24,9 +24,9 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import UNSOLVED, Block, Part, Report, Section, Text, details_of, lead_of
+from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of, lead_of
 from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
-from ehlectric.report.report_texts import limits_of, references_of
+from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
@@ -74,7 +74,7 @@ def _answer(part: Part) -> Iterator[Block]:
     if part.verdict is not None:
         yield light_of(part.verdict.level, part.verdict.text)
     else:
-        yield Text(part.no_verdict)
+        yield Text(SENTENCES["no_verdict"])
 
 
 def _contact(result: Any) -> Part:
@@ -83,7 +83,7 @@ def _contact(result: Any) -> Part:
     return Part(
         kind=f"{case.contact.geometry} contact",
         command="run",
-        failure="" if result.converged else UNSOLVED,
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
         numbers=tuple(row_tables(result_rows(result), "Overview")),
         details=details_of(summary, result.to_xarray().attrs.get("date", "")),
@@ -93,13 +93,10 @@ def _contact(result: Any) -> Part:
 
 def _motion(result: MotionResult) -> Part:
     summary = result.summary()
-    ended = (
-        "NOT COMPLETE: the run ends early. Numbers and figures hold for the instants that are solved only."
-    )
     return Part(
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
-        failure="" if result.converged else ended,
+        failure="" if result.converged else SENTENCES["ended_early"],
         verdict=None,
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
         details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
@@ -123,7 +120,7 @@ def _bearing(result: BearingResult) -> Part:
     return Part(
         kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
-        failure="" if result.converged else UNSOLVED,
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
         numbers=tuple(row_tables(total_rows(summary), "Overview")),
         further=(contacts,),

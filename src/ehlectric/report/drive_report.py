@@ -23,24 +23,18 @@ from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.results import EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
-from ehlectric.quantities.sheets import REMEDIES
+from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import UNSOLVED, Block, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import BOUNDS, pictures_of, row_tables, unbroken
-from ehlectric.report.report_texts import TEXTS, limits_of, references_of
+from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
+from ehlectric.report.report_facts import pictures_of, row_tables
+from ehlectric.report.report_texts import SENTENCES, TEXTS, limits_of, references_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
-
-_TEXT = (
-    "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
-    "the result. The report cannot know whether they were measured. Take each of them for an assumption "
-    "unless the author of the input file says how it was found, and see with remedies what half and double "
-    "of it change."
-)
 
 # Words for the origin of an input that is not a value of the library.
 _GIVEN = "input file"
@@ -61,7 +55,10 @@ def assumption_section(
     shown = tuple(
         (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
     )
-    return Section("What decides the result", (Text(_TEXT), Table(_CAPTION, _HEADS, shown, shares=_SHARES)))
+    return Section(
+        "What decides the result",
+        (Text(SENTENCES["deciding_values"]), Table(_CAPTION, _HEADS, shown, shares=_SHARES)),
+    )
 
 
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
@@ -134,10 +131,7 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
     kept = "" if len(rows) == total else f"; they are the largest of the first {len(rows)}, which are stored"
     if total > len(listed):
         yield Text(f"The {len(listed)} discharges with the largest energy of {total}{kept}.")
-    yield Text(
-        "Voltage and charge have the sign of the shaft against the housing. Charge, energy, current and "
-        "duration follow from the given resistance and extinction of an arc. events.csv has the others."
-    )
+    yield Text(SENTENCES["events"])
     scales = {
         name: unit_for(max(abs(row[name]) for row in listed), about.unit, least=1.0)
         for name, about in EVENT_KEYS.items()
@@ -169,11 +163,6 @@ def _decimals(largest: float) -> int:
 _LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
 
 _SHARES_OF_NUMBERS = (0.44, 0.22, 0.22, 0.12)
-_BOUND = (
-    f"{BOUNDS['≤']} The interval of 95 % counts the scatter within the simulated time, and not the errors of "
-    "the inputs. A dash stands where there is no such number, as without discharges or for ceramic elements. "
-    f"Published limits are {_LIMITS} A/mm² for the current density of all elements."
-)
 
 
 def number_tables(summary: Summary) -> Iterator[Table | Text]:
@@ -183,7 +172,7 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
         yield Table(caption, heads, cells, (1, 2), shares=_SHARES_OF_NUMBERS)
-    yield Text(_BOUND)
+    yield Text(f"{TEXTS['bounds']['≤']} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
 
 
 AS_IT_IS = "as it is"
@@ -191,11 +180,7 @@ AS_IT_IS = "as it is"
 
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
-    yield Text(
-        "Each remedy is a copy of the drive with the changes below, simulated with the same random numbers. "
-        "Remedies whose bounds overlap can hardly be told apart in the simulated time. Where films cannot "
-        "break down, the voltage stays on the shaft, and may reach the bearings of the driven machine."
-    )
+    yield Text(SENTENCES["remedies"])
     changes = tuple(
         row
         for title, changes, found in result.remedies
@@ -255,38 +240,19 @@ def _changes(
         yield printable(title), key, *told
 
 
-# Results of both bearings, and of one of them, that a report draws and lists.
-_BOTH = ("drive.events_per_second", "drive.power")
-_EACH = ("energy_mean", "peak_voltage")
-
-# Columns of the table of points, for each bearing: with its bounds where both bearings are the same.
-_RATE = "events_per_second"
-_LISTED = (_RATE, "energy_mean", "peak_voltage")
-_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH, "breakdown_voltage")
-
-_RULE = (
-    "Points are judged as a single drive is: discharges are expected where a bearing discharges at least "
-    "twenty times in the simulated time, and none where no bearing discharges, also with a strength that is "
-    "20 % lower."
-)
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
-_LEADS = {
-    "green": "No discharge at any point",
-    "yellow": "Discharges at some points",
-    "red": "Discharges at all points",
-}
 
 
 def swept_values(results: SweepResults) -> tuple[str, ...]:
     """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same."""
-    return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in _ends(results)))
+    return tuple(at_ends(SWEEPS["drive_drawn"], _ends(results)))
 
 
 def listed_values(results: SweepResults) -> tuple[str, ...]:
     """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate."""
     ends = _ends(results)
-    keys = _LISTED_OF_ONE if len(ends) == 1 else _LISTED
-    return ("drive.events_per_second", *(f"{end}.{key}" for end in ends for key in keys))
+    keys = SWEEPS["equal_bearings_listed" if len(ends) == 1 else "drive_listed"]
+    return ("drive.events_per_second", *(key for end in ends for key in at_ends(keys, [end])))
 
 
 def _ends(results: SweepResults) -> tuple[str, ...]:
@@ -315,12 +281,12 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
     level: Level = "yellow"
     if not missing and max(counts["green"], counts["red"]) == known:
         level = "green" if counts["green"] else "red"
-    lead = _LEADS[level]
+    lead = TEXTS["meanings"]["swept_drives"][level]
     if level == "yellow" and not counts["red"]:
         lead = "Discharges possible"
     told = [f"expected at {counts['red']} of {known} points"]
     told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
-    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), _RULE]
+    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), SENTENCES["swept_drives"]]
     if missing:
         more = "1 more point is" if missing == 1 else f"{missing} more points are"
         sentences.insert(1, f"{more} not solved, or must not be used.")
@@ -348,7 +314,7 @@ def drive_part(result: DriveResult) -> Part:
         kind=_kind(case),
         command="drive",
         lead=_lead(summary),
-        failure="" if result.converged else UNSOLVED,
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
         warnings=result.warnings,
         before=(assumption_section(case, summary),),

@@ -15,6 +15,7 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.quantities.quantity import data_file
 
 TEXTS = data_file("ehlectric.report", "report_texts.toml")
+SENTENCES = TEXTS["sentences"]
 
 # Limits of bearings that the limits of drives say otherwise.
 _REPLACED = ("contacts of asperities", "circuit", "oil as insulator")

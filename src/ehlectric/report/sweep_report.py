@@ -14,7 +14,9 @@ from ehlectric.cases.input_keys import unit_of
 from ehlectric.errors import InputError, printable
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.sheets import SWEEPS
 from ehlectric.report.drive_report import (
     assumption_section,
     listed_values,
@@ -22,8 +24,8 @@ from ehlectric.report.drive_report import (
     swept_verdict,
 )
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
-from ehlectric.report.report_facts import SWEPT, cell_table, pictures_of, row_tables, swept_names
-from ehlectric.report.report_texts import limits_of, references_of
+from ehlectric.report.report_facts import cell_table, pictures_of, row_tables, swept_names
+from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point
@@ -43,9 +45,6 @@ _SHOWN = 12
 _SCALES: Mapping[str, Scale] = MappingProxyType(
     {"rad/s": Scale(30.0 / np.pi, "rpm"), "K": CELSIUS, "V": Scale(1.0, "V")}
 )
-
-# Results of a point that a report lists, as far as the summaries have them.
-_RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
 
 
 def sweep_part(results: SweepResults) -> Part:
@@ -92,12 +91,10 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
 
 
 def _pictures(results: SweepResults) -> Iterator[Block]:
-    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEPT
+    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEEPS["drawn"]
     names = swept_names(results, (main_value(results.case), *shown))
     yield from pictures_of(results, converged=True, names=names)
-    yield Text(
-        "Other values and other varied inputs along the axes are drawn by: ehlectric map FOLDER --x KEY"
-    )
+    yield Text(SENTENCES["further_maps"])
 
 
 def _details(results: SweepResults) -> dict[str, str]:
@@ -128,7 +125,7 @@ def _sensitivity(results: SweepResults) -> Iterator[Block]:
 def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
-    further = listed_values(results) if isinstance(results.case, DriveCase) else _RESULTS
+    further = listed_values(results) if isinstance(results.case, DriveCase) else SWEEPS["listed"]
     wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
     values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
     inputs = [
@@ -136,10 +133,11 @@ def _points(results: SweepResults) -> Iterator[Block]:
     ]
     found = [_column(results, key, [_value(point, key) for point in results.points]) for key in values]
     # Real films are thinner than those of a sweep, and break down earlier.
-    bounds = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
+    bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
+    signs = [label_of(key, results.case).bound if key in bounded else "" for key in values]
     found = [
-        (f"{head}, upper bound (≤)" if key in bounds else head, column)
-        for key, (head, column) in zip(values, found, strict=True)
+        (f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, column)
+        for sign, (head, column) in zip(signs, found, strict=True)
     ]
     heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
     listed = results.points[:_LISTED]

@@ -16,7 +16,7 @@ from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, sc
 from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
-from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, FILM_COLUMNS, LOAD_COLUMNS
+from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, BEARING_ONLY, FILM_COLUMNS, LOAD_COLUMNS
 from ehlectric.quantities.units import rpm_text
 from ehlectric.tables.measured_tables import columns_table
 
@@ -128,77 +128,18 @@ def _coated(summary: Summary) -> bool:
     return value_at(summary, "bearing.coating_capacitance") is not None
 
 
-def _same_temperature(ring: str) -> Callable[[Summary], bool]:
-    """Whether a ring has the temperature of the oil."""
-    key = f"{ring}_temperature"
-    return lambda s: s["lubricant"].get(key, s["lubricant"]["temperature"]) == s["lubricant"]["temperature"]
+def _ring_temperature(ring: str) -> Callable[[Summary], bool]:
+    """Whether a ring has another temperature than the oil."""
+    return lambda s: s["lubricant"].get(f"{ring}_temperature", _oil(s)) != _oil(s)
+
+
+def _oil(summary: Summary) -> Any:
+    """Temperature of the oil [K]."""
+    return summary["lubricant"]["temperature"]
 
 
 def _state(summary: Summary) -> Any:
     return value_at(summary, "bearing.lubrication")
-
-
-# Keys that are not shown where a condition holds, although a summary has values. Shares of time below a
-# hundredth of a per cent have no rows beside the regime.
-_HIDDEN: tuple[tuple[Callable[[Summary], bool], tuple[str, ...]], ...] = (
-    *(
-        (lambda s, load=f"{name}_load": not _bearing(s)[load], (f"inputs.bearing.{name}_load",))
-        for name in ("radial", "axial")
-    ),
-    *(
-        (_same_temperature(ring), (f"lubricant.{ring}_temperature", f"lubricant.{ring}_viscosity"))
-        for ring in ("inner", "outer")
-    ),
-    (lambda s: not _of_temperature(s), ("lubricant.inner_viscosity", "lubricant.outer_viscosity")),
-    (lambda s: value_at(s, "bearing.unmounted_clearance") is None, ("bearing.running_clearance",)),
-    (
-        lambda s: _supply(s) == "flooded",
-        ("bearing.heat_factor", "bearing.supply_factor", "bearing.film_half_time"),
-    ),
-    (
-        lambda s: _bearing(s)["film_factor"] != "solved",
-        ("bearing.heat_factor", "bearing.inlet_shear_factor"),
-    ),
-    (lambda s: value_at(s, "bearing.contacts") == "solved", ("bearing.film_error",)),
-    (
-        lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) < SELDOM,
-        (
-            *("bearing.inner_contact_time_share", "bearing.outer_contact_time_share"),
-            *("bearing.clarke_time_share", "bearing.insulating_time_share", "bearing.asperity_share_range"),
-        ),
-    ),
-    (lambda s: value_at(s, "bearing.contact_model") == "clarke", ("bearing.clarke_time_share",)),
-    (
-        lambda s: not (value_at(s, "bearing.parallel_capacitance") or _coated(s)),
-        ("bearing.shaft_capacitance",),
-    ),
-    (
-        lambda s: not _coated(s),
-        (
-            *("bearing.film_voltage", "bearing.shaft_first_break", "bearing.shaft_through_breakdown"),
-            "bearing.film_time_constant",
-        ),
-    ),
-    (lambda s: _state(s) != "partial film", ("bearing.lubrication",)),
-    (
-        lambda s: value_at(s, "bearing.margin") is None,
-        (
-            *("margin.range", "margin.critical_speed", "margin.upper_critical_speed"),
-            *("margin.touching_speed", "margin.effects", "margin.left_out"),
-        ),
-    ),
-    (
-        lambda s: value_at(s, "bearing.shaft_time_constant") is None,
-        (
-            *("bearing.relaxation_time", "bearing.shaft_voltage_after_rise"),
-            "bearing.shaft_voltage_after_period",
-        ),
-    ),
-)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    return frozenset(key for holds, keys in _HIDDEN if holds(summary) for key in keys)
 
 
 def _alpha_star(summary: Summary) -> str:
@@ -456,8 +397,6 @@ _WORDS = Words(
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
         "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
         "bearing.film_factor": film_factor_note,
-        "bearing.heat_factor": lambda _: "(solved)",
-        "bearing.inlet_shear_factor": lambda _: "(Wilson and Sheu)",
         "bearing.supply_factor": _supply_note,
         "bearing.rolling_power_loss": _rolling_note,
         "bearing.inner_contact_power_loss": _rolling_coefficient("inner"),
@@ -467,29 +406,13 @@ _WORDS = Words(
         "bearing.regime": _regime_note,
         "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
-        "bearing.asperity_share_range": lambda _: ", by the published laws",
-        "margin.capacitive_speed": lambda _: ", at this temperature",
         "bearing.parallel_capacitance": _parallel_note,
-        "bearing.shaft_capacitance": lambda _: ", smooth films",
         "bearing.meter_capacitance": _meter_note,
-        "bearing.bearing_voltage_ratio": lambda _: ", shaft / common-mode",
         "bearing.shaft_voltage": _shaft_note,
-        "bearing.through_breakdown_mean": lambda _: ", of all cage positions",
-        "bearing.first_break_mean": lambda _: ", of all cage positions",
         "bearing.first_break": _first_break_note,
-        "bearing.coating_share": lambda _: ", at high frequency",
-        "bearing.lubrication": lambda _: (
-            ", lambda below 3: discharges at a lower voltage as contacts open are not computed"
-        ),
-        "bearing.margin": lambda _: ", breakdown below 1",
-        "bearing.breakdown_probability": lambda _: ", while the films insulate",
         "margin.critical_speed": _critical_note,
-        "margin.upper_critical_speed": lambda _: ", breakdown above",
-        "margin.touching_speed": lambda _: ", contacts open and close, discharges are likely",
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,
-        "bearing.discharge_energy": lambda _: ", all that is connected to the shaft",
-        "bearing.pit_diameter": lambda _: ", hemisphere of the melted volume",
         "bearing.current_density": _limits,
     },
     values={
@@ -527,5 +450,23 @@ _WORDS = Words(
         "bearing.current_density": _over_limits,
     },
     rows={"margin.effects": _effects, "margin.left_out": _left_out},
-    hidden=_hidden,
+    holds={
+        "radial load": lambda s: bool(_bearing(s)["radial_load"]),
+        "axial load": lambda s: bool(_bearing(s)["axial_load"]),
+        "inner ring of another temperature": _ring_temperature("inner"),
+        "outer ring of another temperature": _ring_temperature("outer"),
+        "viscosity over temperature": _of_temperature,
+        "mounted": lambda s: value_at(s, "bearing.unmounted_clearance") is not None,
+        "starved": lambda s: bool(_supply(s) != "flooded"),
+        "solved heat": lambda s: bool(_bearing(s)["film_factor"] == "solved"),
+        "quick contacts": lambda s: value_at(s, "bearing.contacts") != "solved",
+        "touching": lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) >= SELDOM,
+        "law other than Clarke's": lambda s: value_at(s, "bearing.contact_model") != "clarke",
+        "further capacitance": lambda s: bool(value_at(s, "bearing.parallel_capacitance")) or _coated(s),
+        "coated": _coated,
+        "partial film": lambda s: bool(_state(s) == "partial film"),
+        "margin": lambda s: value_at(s, "bearing.margin") is not None,
+        "leakage": lambda s: value_at(s, "bearing.shaft_time_constant") is not None,
+    },
+    only=BEARING_ONLY,
 )

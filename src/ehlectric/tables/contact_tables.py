@@ -22,7 +22,7 @@ from ehlectric.quantities.formats import amount, formatted, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
-from ehlectric.quantities.sheets import CHECK, CONTACT
+from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY
 
 # Relative error of the field up to which the table does not repeat it for the breakdown voltage.
 _SMALL = 0.002
@@ -100,34 +100,6 @@ def _geometry(summary: Summary) -> str:
 
 def _touches(summary: Summary) -> bool:
     return bool(value_at(summary, "asperities.spots"))
-
-
-# Of a film whose surfaces touch, not shown: what would be the breakdown of the boundary film, and errors of a
-# field that its thickness gives.
-_OF_FLOATING = frozenset(
-    f"{table}.{name}"
-    for table, names in (
-        ("field", ("max_strength_error", "max_dimensionless", "thin_gap_error")),
-        ("discharge", ("zone_position", "zone_size", "breakdown_energy", "dielectric_strength", "margin")),
-        ("discharge", ("breakdown_voltage", "breakdown_field_error", "breakdown_range", "probability")),
-    )
-    for name in names
-)
-
-# Not shown where the surfaces do not touch.
-_OF_SPOTS = frozenset(key for section in CONTACT for key in section.keys if key.startswith("asperities."))
-
-# Not shown where no film is left around the spots.
-_AROUND_SPOTS = frozenset(
-    f"asperities.{name}"
-    for name in ("mean_film", "rq_deformed", "lambda_undeformed", "lambda_deformed", "boundary_friction")
-)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    if not _touches(summary):
-        return _OF_SPOTS
-    return _OF_FLOATING | (_AROUND_SPOTS if summary["asperities"]["film_5"] is None else frozenset())
 
 
 def _axis_ratio(summary: Summary) -> float | None:
@@ -466,9 +438,7 @@ _WORDS = Words(
     notes={
         "inputs.contact.slide_to_roll_ratio": _speeds,
         "lubricant.temperature": lambda s: f", {s['lubricant']['name']}" if s["lubricant"]["name"] else "",
-        "lubricant.alpha_star": lambda _: ", reciprocal asymptotic",
         "film.minimum_thickness": lambda s: f" at {_place(s, 'film.minimum_position')}{_in_spot(s)}",
-        "film.oil_layer": lambda _: ", on both surfaces together",
         "film.mean_thickness": lambda s: f", in the {_zone(s)}",
         "film.max_pressure": _pressure_error,
         "film.discretisation_error": _film_grid,
@@ -476,51 +446,27 @@ _WORDS = Words(
         "film.isothermal.minimum_thickness": _change("minimum"),
         "film.isothermal.central_thickness": _change("central"),
         "film.max_temperature_rise": _temperature_error,
-        "film.rolling_coefficient": lambda _: ", of each surface",
-        "roughness.rq_1": lambda _: ", in the Hertz zone",
-        "roughness.rq_2": lambda _: ", in the Hertz zone",
         "roughness.lambda_ratio": lambda s: (
             f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
         ),
-        "roughness.lambda_ratio_smooth": lambda _: ", smooth film / combined Rq",
         "asperities.behaviour": _behaviour,
         "asperities.load_share": _coarser_share,
         "asperities.contact_area_share": _area_error,
         "asperities.spots": _spots,
-        "asperities.mass_error": lambda _: ", of the mean flow",
-        "asperities.boundary_film": lambda _: ", gap at which the surfaces touch",
-        "asperities.mean_film": lambda _: ", in the Hertz zone",
-        "asperities.rq_deformed": lambda _: ", in the Hertz zone",
-        "asperities.boundary_friction": lambda _: ", of the asperities where they slide",
         "asperities.resistance": _resistance_note,
-        "asperities.corner_frequency": lambda _: ", above it the film takes more current than the spots",
-        "asperities.breakdown_voltage": lambda _: ", at a probability of 63.2 %",
-        "asperities.breakdown_probability": lambda _: ", at the applied voltage",
         "field.max_strength": _field_place,
-        "field.max_dimensionless": lambda _: "(parallel plates: V/h_min)",
-        "field.high_field_width": lambda _: ", above 95 % of maximum",
-        "field.high_field_area": lambda _: ", above 95 % of maximum",
         "discharge.zone_size": lambda _: (
             f", above 95 %; published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
         ),
         "discharge.capacitance": _beyond,
         "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
-        "discharge.capacitance_by_outlet": lambda _: ", assumption: layers to full",
-        "discharge.pit_diameter": lambda _: "; assumption: a hemisphere",
         "discharge.current_density": _limits,
-        "discharge.relaxation_time": lambda _: ", at ambient pressure",
         "discharge.dielectric_strength": _strength_note,
         "discharge.breakdown_voltage": _breakdown_note,
-        "discharge.probability": lambda _: "at the applied voltage",
         "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
         "meter.capacitance_domain": _share("domain"),
         "meter.capacitance_hertz": _share("hertz"),
         "meter.capacitance_outside": _share("outside"),
-        "meter.parallel_capacitance": lambda _: ", from the case",
-        "meter.coating_voltage_share": lambda _: ", at the minimum film",
-        "meter.film_breakdown_voltage": lambda _: ", between the bodies",
-        "meter.coating_breakdown_voltage": lambda _: ", with the film bridged",
-        "meter.breakdown_voltage": lambda _: ", between the bodies",
         "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
     },
     values={
@@ -552,6 +498,11 @@ _WORDS = Words(
         "seconds.both": lambda s: s["seconds"]["film"] + s["seconds"]["field"],
     },
     alarms={"discharge.margin": _breaks_down},
-    hidden=_hidden,
+    holds={
+        "touching": _touches,
+        "not touching": lambda s: not _touches(s),
+        "film around the spots": lambda s: value_at(s, "asperities.film_5") is not None,
+    },
+    only=CONTACT_ONLY,
     rows={f"film_formulas.*.{key}": _formula_rows(key) for key in ("minimum_thickness", "central_thickness")},
 )

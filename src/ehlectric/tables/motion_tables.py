@@ -47,14 +47,7 @@ def _meniscus(half_width: float, summary: Summary) -> str | None:
 
 def _touches(summary: Summary) -> bool:
     """Whether the surfaces touch at one time step."""
-    return bool(summary["asperities"]["load_share_largest"] > 0.0)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    """Keys of the asperities, where none touches."""
-    if "asperities" not in summary or _touches(summary):
-        return frozenset()
-    return frozenset(key for section in MOTION for key in section.keys if key.startswith("asperities."))
+    return (value_at(summary, "asperities.load_share_largest") or 0.0) > 0.0
 
 
 def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
@@ -103,14 +96,11 @@ _WORDS = Words(
     notes={
         "motion.duration": lambda s: f", {s['motion']['steps']} time steps",
         "film.minimum_thickness": _time("film.minimum_time", boundary=True),
-        "film.oil_layer": lambda _: ", on both surfaces together",
         "field.max_strength": _time("field.max_strength_time", boundary=True),
-        "field.share_above_90": lambda _: " of the evaluated time",
         "field.local_maxima_quantiles.1": lambda s: f", {s['field']['local_maxima']} maxima",
         "discharge.breakdown_voltage": _time("discharge.breakdown_time", boundary=True),
         "asperities.load_share_mean": _coarser_share,
         "asperities.load_share_largest": _time("asperities.load_share_largest_time"),
-        "asperities.contact_area_share_mean": lambda _: ", of the Hertz zone",
         "asperities.time_share": lambda s: f" of {s['asperities']['steps']} evaluated time steps",
     },
     values={
@@ -119,5 +109,5 @@ _WORDS = Words(
         "motion.halvings": _halvings,
         "asperities.load_share_mean": _load_share,
     },
-    hidden=_hidden,
+    holds={"touching": _touches},
 )

@@ -47,6 +47,7 @@ from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, row_of, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.report.light import light_of
+from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
@@ -192,18 +193,6 @@ def _difference(quick: Row | None, solved: Row | None, way: Contacts) -> Differe
     return Difference(either.name, texts[0], texts[1], change, way)
 
 
-# What the first words of a verdict mean for a bearing, in plain words: "expected" for red, "likely" and
-# "possible" for yellow.
-_MEANING: Mapping[str, str] = {
-    "No breakdown expected": "The ideal film holds; a real film may be thinner and break down earlier.",
-    "Breakdown possible": "The ideal film holds, but not beyond doubt. A real film may be thinner and break "
-    "down earlier.",
-    "Breakdown likely": "The ideal film breaks down, but by less than what is uncertain. Discharges are "
-    "likely, and can mark the raceways.",
-    "Breakdown expected": "Within what is assumed, discharges are expected, and can mark the raceways.",
-    "Discharges likely": "The surfaces touch, and current passes as they part: discharges are likely at any "
-    "voltage, and can mark the raceways.",
-}
 _NO_VERDICT = "This page cannot say whether the bearing sparks."
 
 _OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
@@ -228,7 +217,7 @@ def judged(verdict: Verdict) -> Judged:
         level=verdict.level,
         lead=light.words,
         bound=light.bound,
-        meaning=_MEANING.get(lead, _NO_VERDICT),
+        meaning=TEXTS["meanings"]["bearing"].get(lead, _NO_VERDICT),
         numbers=rest[:1].upper() + rest[1:],
         reasons=tuple(text for text in others if text not in assumptions),
         assumptions=" ".join(assumptions),

@@ -25,6 +25,7 @@ from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
 from ehlectric.report.light import light_of
+from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
@@ -133,19 +134,6 @@ def _unknown(key: str) -> Number:
     return Number(key, f"{label[:1].upper()}{label[1:]}", "none", note=_NONE.get(key, ""), known=False)
 
 
-# What a verdict before a simulation means, and one after it.
-_BEFORE: Mapping[str, str] = {
-    "green": "The voltage by the divider stays below what breaks the films down.",
-    "yellow": "The voltage is near the breakdown voltage, within what is uncertain.",
-    "red": "The voltage is above the breakdown voltage: the films break down at edges of the source.",
-    "grey": "The divider alone cannot say whether this drive discharges.",
-}
-_AFTER: Mapping[str, str] = {
-    "green": "No film broke down, and none is expected to.",
-    "yellow": "Discharges can mark the raceways and age the oil; they are not sure here.",
-    "red": "Discharges can mark the raceways and age the oil. Compare remedies.",
-    "grey": "These numbers must not be used.",
-}
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
 
 # Beginnings of sentences on what is assumed.
@@ -162,7 +150,7 @@ def judged_before(verdict: Verdict) -> Judged:
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
     first, *others = sentences_of(verdict.text)
-    return _judged(verdict, _BEFORE, first, others, _NOT_SIMULATED)
+    return _judged(verdict, "drive_before", first, others, _NOT_SIMULATED)
 
 
 def judged_after(verdict: Verdict) -> Judged:
@@ -170,18 +158,16 @@ def judged_after(verdict: Verdict) -> Judged:
     first, *others = sentences_of(verdict.text)
     assumed = [text for text in others if text.startswith(_ASSUMED)]
     reasons = [text for text in others if text not in assumed]
-    return _judged(verdict, _AFTER, first, reasons, " ".join(assumed))
+    return _judged(verdict, "drive_after", first, reasons, " ".join(assumed))
 
 
-def _judged(
-    verdict: Verdict, meaning: Mapping[str, str], first: str, reasons: list[str], assumptions: str
-) -> Judged:
+def _judged(verdict: Verdict, meanings: str, first: str, reasons: list[str], assumptions: str) -> Judged:
     lead, _, rest = first.partition(": ")
     light = light_of(verdict.level, verdict.text)
     return Judged(
         level=verdict.level,
         lead=lead.rstrip("."),
-        meaning=meaning[verdict.level],
+        meaning=TEXTS["meanings"][meanings][verdict.level],
         numbers=rest[:1].upper() + rest[1:],
         reasons=tuple(reasons),
         assumptions=assumptions,

@@ -42,6 +42,7 @@ from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
@@ -259,45 +260,6 @@ MOST_POINTS = 2500
 # Tables whose numbers say how a case is computed, not what it is.
 _OF_SOLUTION = ("solver", "grid", "ranges", "title")
 
-# Inputs that are varied most often, in this order.
-_COMMON = (
-    "bearing.inner_speed",
-    "bearing.radial_load",
-    "bearing.temperature",
-    "bearing.axial_load",
-    "contact.entrainment_speed",
-    "contact.load_per_length",
-    "contact.load",
-    "contact.max_hertz_pressure",
-    "contact.temperature",
-    *swept_drives.COMMON,
-)
-
-# Results that are shown most often. The one by which inputs are ranked and the breakdown voltage of the case
-# stand before them.
-_RESULTS = {
-    "bearing": (
-        "bearing.margin",
-        "bearing.capacitance",
-        "bearing.shaft_voltage",
-        "bearing.lambda_ratio",
-        "bearing.contact_time_share",
-        "bearing.through_breakdown",
-        "bearing.max_strength",
-        "bearing.discharge_energy",
-        "bearing.through_margin",
-    ),
-    "contact": (
-        "discharge.margin",
-        "film.minimum_thickness",
-        "film.central_thickness",
-        "film.max_pressure",
-        "field.max_strength",
-        "discharge.capacitance",
-    ),
-    "drive": swept_drives.RESULTS,
-}
-
 
 def sweep_of(table: Mapping[str, Any]) -> Sweep:
     """Sweep of the tables of a sweep file with its base case inside. Raises InputError if the tables are no
@@ -323,7 +285,8 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
     """
     case = run_case_of(table)
     kind = _kind_of_case(case)
-    keys = dict.fromkeys(filter(None, (ranked_value(case), breakdown_of(case).value, *_RESULTS[kind])))
+    main = filter(None, (ranked_value(case), breakdown_of(case).value))
+    keys = dict.fromkeys((*main, *at_ends(SWEEPS[kind])))
     return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
 
 
@@ -351,7 +314,7 @@ def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
     ]
 
     def rank(key: str) -> tuple[int, int, int]:
-        common = _COMMON.index(key) if key in _COMMON else len(_COMMON)
+        common = SWEEPS["inputs"].index(key) if key in SWEEPS["inputs"] else len(SWEEPS["inputs"])
         return common, key not in written, input_at(key) is None
 
     for key in sorted(numbers, key=rank):

@@ -16,31 +16,6 @@ from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import BOTH, ENDS
 from ehlectric.sweep.sweep_inputs import check_varied
 
-# Inputs that are varied most often, in this order.
-COMMON = (
-    "drive.speed",
-    "drive.temperature",
-    f"{BOTH}.bearing.radial_load",
-    "source.switching_frequency",
-    "source.dc_link",
-    f"{BOTH}.discharge.dielectric_strength",
-    f"{BOTH}.bearing.composite_rq",
-    "circuit.winding_rotor_capacitance",
-    "circuit.rotor_frame_capacitance",
-)
-
-# Results that are shown most often.
-RESULTS = (
-    "drive.events_per_second",
-    *(
-        f"{end}.{name}"
-        for name in ("events_per_second", "peak_voltage", "energy_mean", "power", "breakdown_voltage")
-        for end in ENDS
-    ),
-    *(f"{end}.time_above.5" for end in ENDS),
-    "drive.power",
-)
-
 
 def values_of(case: DriveCase) -> dict[str, Any]:
     """Values of a drive by the keys that a sweep may vary; equal bearings have one key for both."""
