@@ -23,10 +23,10 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
-from ehlectric.report.report_texts import SENTENCES, Limit, Reference
+from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
@@ -40,10 +40,8 @@ _KNOWN = KINDS[: KINDS.index("by rule")]
 # Tables that may name a base of the library: their dotted key, and the folder of the library.
 _BASES = (("lubricant", "lubricant"), ("bearing", "bearing"), ("bearing.coating", "coating"))
 
-# What stands before the keys of two equal bearings of a drive, and the keys of a bearing whose place a key of
-# the table drive takes.
+# What stands before the keys of two equal bearings of a drive.
 _BOTH = f"{BOTH}."
-_REPLACED = {"bearing.inner_speed": "speed", "bearing.temperature": "temperature", "contacts": "contacts"}
 
 
 @dataclass(frozen=True)
@@ -112,10 +110,10 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
 def replaced_by(case: SweptCase, key: str) -> str:
     """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
     end, own = end_and_key(key)
-    if not end or own not in _REPLACED or not isinstance(case, DriveCase):
+    if not end or own not in REPLACED or not isinstance(case, DriveCase):
         return ""
-    name = _REPLACED[own]
-    return f"drive.{name}" if getattr(case.drive, name) is not None else ""
+    above = REPLACED[own]
+    return above if getattr(case.drive, above.partition(".")[2]) is not None else ""
 
 
 def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
@@ -286,16 +284,16 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     yield Text(SENTENCES["given_inputs"])
 
 
-def limit_section(limits: Iterable[Limit]) -> Section:
-    """Section of what the models leave out."""
-    rows = tuple((limit.topic, limit.text) for limit in limits)
+def limit_section(case: SweptCase) -> Section:
+    """Section of what the models behind a result leave out."""
+    rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
     return Section(
         "What the model leaves out",
         (Table("Limits of the model", ("part", "limit"), rows, shares=(0.2, 0.8)),),
     )
 
 
-def source_section(case: SweptCase, references: Iterable[Reference]) -> Section:
+def source_section(case: SweptCase) -> Section:
     """Section of the sources of library values, of materials, and of equations."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
@@ -312,7 +310,7 @@ def source_section(case: SweptCase, references: Iterable[Reference]) -> Section:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
         (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
-        for one in references
+        for one in references_of(case)
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))

@@ -31,8 +31,8 @@ from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import pictures_of, row_tables
-from ehlectric.report.report_texts import SENTENCES, TEXTS, limits_of, references_of
+from ehlectric.report.report_facts import part_of, row_tables
+from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
 
@@ -307,24 +307,19 @@ def _range(results: SweepResults) -> list[str]:
 
 
 def drive_part(result: DriveResult) -> Part:
-    """Part of a report about a drive. Returns what the report says of this result."""
+    """Part of a report about a drive."""
     summary, case = result.summary(), result.case
     verdict = result.verdict
-    return Part(
+    return part_of(
+        result,
         kind=_kind(case),
         command="drive",
         lead=_lead(summary),
-        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
-        warnings=result.warnings,
         before=(assumption_section(case, summary),),
         numbers=tuple(number_tables(summary)),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
         further=tuple(_sections(result, summary)),
-        limits=tuple(limits_of(case)),
-        references=tuple(references_of(case)),
         details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
-        toml=case.to_toml(),
     )
 
 

@@ -19,7 +19,6 @@ from ehlectric.errors import ResultWarning, Severity
 from ehlectric.figures.style import style as figure_style
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.report.light import Light
-from ehlectric.report.report_texts import Limit, Reference
 
 # Resolution of pixels [1/inch].
 DPI = 200
@@ -132,8 +131,6 @@ class Part:
     numbers: tuple[Block, ...]
     pictures: tuple[Block, ...]
     further: tuple[Section, ...] = ()
-    limits: tuple[Limit, ...]  # what the models leave out
-    references: tuple[Reference, ...]  # publications behind the equations
     details: dict[str, str]  # what is known of the computation, by name
     toml: str
     varied: tuple[str, ...] = ()  # dotted keys that a sweep varies

@@ -14,7 +14,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import figure, figure_names
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row
-from ehlectric.report.report_content import Picture, Table, Text, WarningLine, Warnings
+from ehlectric.report.report_content import Part, Picture, Table, Text, WarningLine, Warnings, lead_of
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 
 if TYPE_CHECKING:
@@ -139,6 +139,23 @@ def pictures_of(
         if title and converged:
             _drop_finding(drawn)
         yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
+
+
+def part_of(result: Any, *, unsolved: str = SENTENCES["unsolved"], **further: Any) -> Part:
+    """Part of a report about a single result, with what is the same for all kinds of results.
+
+    ``unsolved`` is the sentence on a result that is not converged. ``further`` are the values of the kind of
+    result, by the attributes of ``Part``.
+    """
+    shared = {
+        "lead": lead_of(result),
+        "failure": "" if result.converged else unsolved,
+        "verdict": getattr(result, "verdict", None),
+        "warnings": result.warnings,
+        "pictures": tuple(pictures_of(result, converged=result.converged)),
+        "toml": result.case.to_toml(),
+    }
+    return Part(**shared | further)
 
 
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:

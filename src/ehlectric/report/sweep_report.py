@@ -25,7 +25,7 @@ from ehlectric.report.drive_report import (
 )
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
 from ehlectric.report.report_facts import cell_table, pictures_of, row_tables, swept_names
-from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
+from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point
@@ -62,8 +62,6 @@ def sweep_part(results: SweepResults) -> Part:
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         pictures=tuple(_pictures(results)),
         further=tuple(_sections(results)),
-        limits=tuple(limits_of(case)),
-        references=tuple(references_of(case)),
         details=_details(results),
         toml=sweep_toml(results),
         varied=tuple(results.varied),

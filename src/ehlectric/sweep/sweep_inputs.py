@@ -29,17 +29,10 @@ from ehlectric.cases.drive_case import (
 from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number_of
 from ehlectric.cases.table import Table, Title, nearest, nearest_key, parser_of, read_toml
 from ehlectric.errors import InputError, printable, short, shown, within
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.runtime.values import Tabled, headline
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
-
-# Keys of a bearing file that a key of a drive replaces at both ends.
-_REPLACED = {
-    "bearing.inner_speed": "drive.speed",
-    "bearing.temperature": "drive.temperature",
-    "contacts": "drive.contacts",
-}
 
 # Keys of a bearing file that no sweep varies: they are not a part of the bearing.
 _NOT_VARIED = ("title", "ranges")
@@ -73,7 +66,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     input_field(key)
     if end and own.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
-    above = _REPLACED.get(own) if end else None
+    above = REPLACED.get(own) if end else None
     if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
     both = f"{BOTH}.{own}"
@@ -86,7 +79,7 @@ def _nearest(key: str) -> str:
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
     of_bearing = nearest_key(key, BearingCase)
-    return _REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
+    return REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, BEARING_ONLY, FILM_COLUMNS, LOAD_COLUMNS
 from ehlectric.quantities.units import rpm_text
-from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -57,12 +57,6 @@ def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
 def input_rows(summary: Summary) -> Iterator[Row]:
     """Rows of the inputs that decide about breakdown."""
     return sheet_rows(BEARING[:1], BEARING_BOOK, summary, _WORDS)
-
-
-def status_rows(summary: Summary) -> Iterator[Row]:
-    """Row that warns of films that are not converged."""
-    if not summary["converged"]:
-        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
 
 
 def loads_table(summary: Summary) -> Table:
@@ -147,29 +141,20 @@ def _alpha_star(summary: Summary) -> str:
     return f", reciprocal asymptotic; α = {ambient:.4g} 1/GPa at ambient pressure"
 
 
-def _strength(summary: Summary) -> Any:
-    """Dielectric strength, the scale of its Weibull law, or its range; that it is not given."""
+def _strength(summary: Summary) -> tuple[Any, str]:
+    """Dielectric strength, the scale of its Weibull law, or its range, with its note."""
     discharge = summary["inputs"].get("discharge", {})
     if "dielectric_strength" in discharge:
-        return discharge["dielectric_strength"]
+        return discharge["dielectric_strength"], ", as assumed"
     if "weibull" in discharge:
-        return discharge["weibull"]["scale"]
+        weibull = discharge["weibull"]
+        return weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}"
     if "strength_table" in discharge:
-        strengths = discharge["strength_table"]["strength"]
-        return " to ".join(f"{end / 1e6:.4g}" for end in (min(strengths), max(strengths))), "V/µm"
-    return "not given"
-
-
-def _strength_note(summary: Summary) -> str:
-    discharge = summary["inputs"].get("discharge", {})
-    if "dielectric_strength" in discharge:
-        return ", as assumed"
-    if "weibull" in discharge:
-        return f", Weibull scale, shape {discharge['weibull']['shape']:g}"
-    if "strength_table" in discharge:
-        over = "pressure" if "pressure" in discharge["strength_table"] else "temperature"
-        return f", table over {over}"
-    return ", no breakdown voltage is computed"
+        table = discharge["strength_table"]
+        ends = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
+        over = "pressure" if "pressure" in table else "temperature"
+        return (" to ".join(ends), "V/µm"), f", table over {over}"
+    return "not given", ", no breakdown voltage is computed"
 
 
 def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Callable[[Summary], Any]:
@@ -392,7 +377,7 @@ _WORDS = Words(
         "bearing.running_clearance": lambda s: (
             ", a preload" if s["bearing"]["running_clearance"] < 0.0 else ""
         ),
-        "inputs.discharge.dielectric_strength": _strength_note,
+        "inputs.discharge.dielectric_strength": lambda s: _strength(s)[1],
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
         "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
@@ -416,7 +401,7 @@ _WORDS = Words(
         "bearing.current_density": _limits,
     },
     values={
-        "inputs.discharge.dielectric_strength": _strength,
+        "inputs.discharge.dielectric_strength": lambda s: _strength(s)[0],
         **{
             f"rings.{ring}.{key}": _loaded(ring, key, of)
             for ring in ("inner", "outer")

@@ -23,6 +23,7 @@ from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY
+from ehlectric.tables.measured_tables import status_rows
 
 # Relative error of the field up to which the table does not repeat it for the breakdown voltage.
 _SMALL = 0.002
@@ -63,13 +64,7 @@ def result_rows(result: Result | PointResult) -> list[Row]:
     summary = result.summary()
     book = CONTACT_BOOK[result.conditions.geometry]
     rows = sheet_rows(CONTACT, book, summary, _WORDS | _of_arrays(result), contact_bounds(book, summary))
-    return [*_status(summary), *rows]
-
-
-def _status(summary: Summary) -> Iterator[Row]:
-    """Row that warns of a film that is not converged."""
-    if not summary["converged"]:
-        yield Row("NOT CONVERGED", note=f"{summary['status']}: do not use these numbers", alarm=True)
+    return [*status_rows(summary), *rows]
 
 
 def _of_arrays(result: Result | PointResult) -> Words:
@@ -318,21 +313,14 @@ def _field_place(summary: Summary) -> str:
     return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
 
 
-def _strength(summary: Summary) -> Any:
-    """Dielectric strength; that it is not given where there is no law."""
+def _strength(summary: Summary) -> tuple[Any, str]:
+    """Dielectric strength and its law; that it is not given where there is no law."""
     found = summary.get("discharge")
     if found is None:
-        return None
-    return "not given" if found["strength_law"] is None else found["dielectric_strength"]
-
-
-def _strength_note(summary: Summary) -> str:
-    found = summary["discharge"]
-    return (
-        ", no breakdown voltage is computed"
-        if found["strength_law"] is None
-        else f", {found['strength_law']}"
-    )
+        return None, ""
+    if found["strength_law"] is None:
+        return "not given", ", no breakdown voltage is computed"
+    return found["dielectric_strength"], f", {found['strength_law']}"
 
 
 def _breakdown_note(summary: Summary) -> str:
@@ -461,7 +449,7 @@ _WORDS = Words(
         "discharge.capacitance": _beyond,
         "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
         "discharge.current_density": _limits,
-        "discharge.dielectric_strength": _strength_note,
+        "discharge.dielectric_strength": lambda s: _strength(s)[1],
         "discharge.breakdown_voltage": _breakdown_note,
         "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
         "meter.capacitance_domain": _share("domain"),
@@ -489,7 +477,7 @@ _WORDS = Words(
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
         "discharge.capacitance_by_outlet": _by_outlet,
-        "discharge.dielectric_strength": _strength,
+        "discharge.dielectric_strength": lambda s: _strength(s)[0],
         "discharge.breakdown_field_error": _breakdown_error,
         "discharge.breakdown_range": _breakdown_range,
         "discharge.probability": _probability,

@@ -17,8 +17,7 @@ from ehlectric.quantities.result_bounds import ideal_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
-from ehlectric.tables.bearing_tables import status_rows
-from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
     from rich.table import Table

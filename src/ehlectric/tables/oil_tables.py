@@ -9,7 +9,6 @@ from types import MappingProxyType
 from typing import Any, BinaryIO
 
 from rich.table import Table
-from rich.text import Text
 
 from ehlectric.cases.case_oil import known_oil, named_oil
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing
@@ -196,8 +195,10 @@ def _csv_rows(report: OilReport) -> Iterator[list[Any]]:
 
 
 # Heads of the columns after the name.
-_HEADS = ("bore\n[mm]", "outer\n[mm]", "width\n[mm]", "elements\n[mm]", "pitch\n[mm]", "angle\n[deg]")
-_RATINGS = ("C\n[kN]", "C0\n[kN]")
+_HEADS = (
+    *("bore\n[mm]", "outer\n[mm]", "width\n[mm]", "elements\n[mm]", "pitch\n[mm]", "angle\n[deg]"),
+    *("C\n[kN]", "C0\n[kN]"),
+)
 
 
 def described(bearing: CatalogueBearing) -> dict[str, Any]:
@@ -218,19 +219,15 @@ def described(bearing: CatalogueBearing) -> dict[str, Any]:
 
 
 def catalogue_tables(bearings: Iterable[CatalogueBearing]) -> Iterator[Table]:
-    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources. Yields
-    table of one kind of bearing, at most 80 characters wide.
+    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources, at
+    most 80 characters wide.
     """
     ordered = sorted(bearings, key=lambda bearing: bearing.kind)
     for kind, group in groupby(ordered, key=lambda bearing: bearing.kind):
-        title = Text(f"{kind} bearings")
-        table = Table(title=title, title_justify="left", title_style="bold", box=None, padding=(0, 1, 0, 0))
-        table.add_column("name", no_wrap=True)
-        for head in (*_HEADS, *_RATINGS):
-            table.add_column(Text(head), justify="right", no_wrap=True)
-        table.add_column("elements\nare", no_wrap=True)
-        for bearing in group:
-            table.add_row(bearing.name, *_bearing_cells(bearing), bearing.internal_kind or "")
+        heads = ("name", *_HEADS, "elements\nare")
+        rows = ((one.name, *_bearing_cells(one), one.internal_kind or "") for one in group)
+        table = columns_table(heads, rows, f"{kind} bearings", left=(0, len(heads) - 1))
+        table.title_style = "bold"
         yield table
 
 

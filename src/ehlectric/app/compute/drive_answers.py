@@ -39,16 +39,6 @@ from ehlectric.tables.drive_tables import (
     worse_cells,
 )
 
-# Quantities that a card has in its note.
-_BESIDE: Mapping[str, tuple[str, ...]] = {
-    "source.peak": ("source.edges_per_second",),
-    "circuit.winding_rotor_capacitance": (
-        "circuit.rotor_frame_capacitance",
-        "circuit.winding_frame_capacitance",
-    ),
-    "end.events_per_second": ("end.events_per_second_range",),
-}
-
 # Why neither bearing has a value.
 _NONE = {"end.breakdown_voltage": "ceramic elements insulate"}
 
@@ -98,7 +88,7 @@ def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
 
 def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
     row = rows[key]
-    others = [rows[other] for other in _BESIDE.get(key, ()) if other in rows]
+    others = [rows[other] for other in DRIVE_CARDS[key] if other in rows]
     notes = [row.note.strip(" ,"), *(f"{other.name}: {other.amount}" for other in others)]
     return replace(card(row), note="; ".join(filter(None, notes)))
 
@@ -106,7 +96,7 @@ def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
     """Number of both bearings: that of the drive end, and the other one in its note where it differs."""
     first, second = pairs.get(key, (None, None))
-    beside_it = [pairs[other] for other in _BESIDE.get(key, ()) if other in pairs]
+    beside_it = [pairs[other] for other in DRIVE_CARDS[key] if other in pairs]
     one, other = (
         "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
     )
