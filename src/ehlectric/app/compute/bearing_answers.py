@@ -251,19 +251,21 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
-def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+def quick_answer(
+    table: Mapping[str, Any], session: Path | None = None, *, whole: bool = False
+) -> BearingAnswer:
     """Answer about a bearing without solving its contacts, and without what depends on other inputs.
 
     Contacts are by formula where the tables say so, and otherwise from the atlas of films.
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(_quick(table, session), whole=False)
+    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=whole)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``quick_answer`` has it, with critical speeds and effects of the inputs."""
-    return answer_of(_quick(table, session), whole=True)
+    return quick_answer(table, session, whole=True)
 
 
 def solve_contacts(
@@ -294,10 +296,6 @@ def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, 
     except InputError:
         return ()
     return differences(quick, solved)
-
-
-def _quick(table: Mapping[str, Any], session: Path | None) -> BearingResult:
-    return solved_quickly(bearing_case(table, session=session))
 
 
 def solved_quickly(case: BearingCase) -> BearingResult:
