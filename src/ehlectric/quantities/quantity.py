@@ -42,6 +42,8 @@ class Quantity:
     head: str = field(default="", kw_only=True)
     # Note that follows every value and its unit, such as ", of each surface".
     note: str = field(default="", kw_only=True)
+    # Text in place of a value that a summary has as null; if it is empty, such a value is not shown.
+    null: str = field(default="", kw_only=True)
 
     def bounded(self, text: str) -> str:
         """Text of a value after the sign of its bound.

@@ -150,10 +150,13 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
     if key in words.rows:
         yield from words.rows[key](summary)
         return
+    about = key_of(book, key)
     value = words.values[key](summary) if key in words.values else value_at(summary, key)
+    table, _, name = key.rpartition(".")
+    if value is None and about is not None and about.null and name in (value_at(summary, table) or ()):
+        value = about.null
     if value is None:
         return
-    about = key_of(book, key)
     if about is None:
         raise KeyError(key)
     note = words.notes[key](summary) if key in words.notes else about.note

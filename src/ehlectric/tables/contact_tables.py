@@ -170,18 +170,6 @@ def _iterations(summary: Summary) -> str:
     return f"after {film['newton_iterations']} {'V-cycles' if film['solver'] == 'paper' else 'Newton steps'}"
 
 
-def _known(key: str, *, only: str) -> Callable[[Summary], Any]:
-    """Value of a key, or "unknown" where it is null, of a table ``film`` that has a key of this name."""
-
-    def value(summary: Summary) -> Any:
-        if value_at(summary, "film") is None or only not in summary["film"]:
-            return None
-        found = value_at(summary, key)
-        return "unknown" if found is None else found
-
-    return value
-
-
 def _meniscus(summary: Summary) -> str | None:
     """Where oil fills the gap; None without a supply of oil."""
     film = summary["film"]
@@ -204,16 +192,6 @@ def _change(name: str) -> Callable[[Summary], str]:
         return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"
 
     return note
-
-
-def _solved_heat(key: str) -> Callable[[Summary], Any]:
-    """Value of a film with heat or shear, or that it did not converge; None of another film."""
-
-    def value(summary: Summary) -> Any:
-        found = value_at(summary, key)
-        return "not converged" if found is None and "rheology" in summary["film"] else found
-
-    return value
 
 
 def _constants(case: object) -> str:
@@ -280,14 +258,6 @@ def _oil_error(summary: Summary) -> Any:
     if error is None or error >= _LEAST_ERROR:
         return error
     return f"< {100.0 * _LEAST_ERROR:g}", "%"
-
-
-def _resistance(summary: Summary) -> Any:
-    """Resistance of the spots; that it is not known where an input for it is missing."""
-    if not _touches(summary):
-        return None
-    found = summary["asperities"]["resistance"]
-    return "not known" if found is None else found
 
 
 def _resistance_note(summary: Summary) -> str:
@@ -459,21 +429,12 @@ _WORDS = Words(
     },
     values={
         "hertz.axis_ratio": _axis_ratio,
-        "film.film_ratio": _known("film.film_ratio", only="oil_layer"),
-        "film.flooded.minimum_thickness": _known("film.flooded.minimum_thickness", only="oil_layer"),
-        "film.oil_layer": _known("film.oil_layer", only="oil_layer"),
         "film.meniscus": _meniscus,
-        "film.discretisation_error": _known("film.discretisation_error", only="residual"),
         "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
         "film.thermal": _temperature,
-        "film.isothermal.minimum_thickness": _solved_heat("film.isothermal.minimum_thickness"),
-        "film.isothermal.central_thickness": _solved_heat("film.isothermal.central_thickness"),
-        "film.traction_coefficient": _solved_heat("film.traction_coefficient"),
-        "field.max_strength_error": _known("field.max_strength_error", only="residual"),
         "asperities.load_share": _load_share,
         "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
         "asperities.mass_error": _oil_error,
-        "asperities.resistance": _resistance,
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
         "discharge.capacitance_by_outlet": _by_outlet,
