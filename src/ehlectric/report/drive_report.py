@@ -295,11 +295,7 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
 
 def _range(results: SweepResults) -> list[str]:
     """Sentence with the smallest and the largest rate of discharges."""
-    rates = [
-        float(point.summary["drive"]["events_per_second"])
-        for point in results.points
-        if point.solved and not point.doubtful and point.summary
-    ]
+    rates = [float(point.usable["drive"]["events_per_second"]) for point in results.points if point.usable]
     if not rates:
         return []
     low, high = number_text(min(rates)), number_text(max(rates))

@@ -125,11 +125,15 @@ def _points(results: SweepResults) -> Iterator[Block]:
     breakdown = breakdown_of(results.case)
     further = listed_values(results) if isinstance(results.case, DriveCase) else SWEEPS["listed"]
     wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
-    values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
+    values = [
+        key for key in wanted if any(is_number(value_at(point.usable, key)) for point in results.points)
+    ]
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
     ]
-    found = [_column(results, key, [_value(point, key) for point in results.points]) for key in values]
+    found = [
+        _column(results, key, [value_at(point.usable, key) for point in results.points]) for key in values
+    ]
     # Real films are thinner than those of a sweep, and break down earlier.
     bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
     signs = [label_of(key, results.case).bound if key in bounded else "" for key in values]
@@ -165,11 +169,6 @@ def _varied(results: SweepResults) -> Iterator[tuple[str, str]]:
     for key, ends in results.ranges.items():
         head, cells = _column(results, key, (ends.start, ends.stop))
         yield f"{key}: {head}", f"{' to '.join(cells)}, {ends.spacing}"
-
-
-def _value(point: Point, key: str) -> Any:
-    """Value of a usable point; None for others, so that no table shows it as a result."""
-    return value_at(point.summary or {}, key) if point.solved and not point.doubtful else None
 
 
 def _status(point: Point) -> str:

@@ -72,7 +72,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
     """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
-    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = results.rows
     return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
 
 
@@ -82,7 +82,7 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
     An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
     example is a viscosity that follows from a varied temperature.
     """
-    rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = [{key: value for key, value in row.items() if is_number(value)} for row in results.rows]
     keys = dict.fromkeys(key for row in rows for key in row)
     columns = {key: [row.get(key) for row in rows] for key in keys}
     varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
@@ -91,11 +91,6 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
         for key, values in columns.items()
         if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
     }
-
-
-def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
-    """Numbers of a summary by dotted key."""
-    return {key: value for key, value in flat(summary).items() if is_number(value)}
 
 
 def dataset_of(results: SweepPoints) -> xr.Dataset:
@@ -225,8 +220,7 @@ class SweepResults(Shown, SweepPoints):
         if key in self.varied:
             return np.array([as_number(point.inputs.get(key)) for point in self.points])
         self._check(key)
-        column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
-        return np.array([as_number(value) for value in column])
+        return np.array([as_number(row.get(key)) for row in self.rows])
 
     @cached_property
     def verdict(self) -> Verdict | None:
@@ -235,8 +229,7 @@ class SweepResults(Shown, SweepPoints):
 
     def _check(self, key: str) -> None:
         """Raise an InputError for a key that no summary has and that is not documented."""
-        rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
-        if any(key in row for row in rows) or key_of(result_keys(self.case), key) is not None:
+        if any(key in row for row in self.rows) or key_of(result_keys(self.case), key) is not None:
             return
         known = list(numbers_of(self)) or list(result_keys(self.case))
         table = key.partition(".")[0] + "."
@@ -351,8 +344,7 @@ def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
 
 def _plain(column: list[Any]) -> list[Any]:
     """Column with values of a single type, as Parquet needs."""
-    texts = any(isinstance(value, str | list | bool) for value in column)
-    if texts:
+    if any(isinstance(value, str | list | bool) for value in column):
         return [None if value is None else cell(value) for value in column]
     if any(isinstance(value, float) for value in column):
         return [None if value is None else float(value) for value in column]

@@ -13,14 +13,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import Line, Number
+from ehlectric.app.answers import Judged, Line, Number
 from ehlectric.app.page_warnings import SEVERITIES, Told
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.input_keys import describe
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.rows import Row
+from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.rows import Row, row_of
+from ehlectric.report.light import light_of
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
 
@@ -54,6 +57,11 @@ def card(row: Row) -> Number:
     """
     label = f"{row.name[:1].upper()}{row.name[1:]}"
     return Number(row.key, label, row.shown, row.unit, row.note.strip(" ,;:"), row.bound)
+
+
+def unknown(key: str, about: Quantity, text: str, reason: str = "") -> Number:
+    """Number without a value, with the label of its quantity and a text in place of the value."""
+    return replace(card(row_of(key, about, text, reason)), known=False)
 
 
 def concerned(key: str) -> str:
@@ -177,6 +185,21 @@ def sentences_of(text: str) -> list[str]:
     ['No breakdown expected: margin 1.44.', 'Upper bound: smooth film.']
     """
     return re.split(r"(?<=[.!?]) (?=[A-Z])", text)
+
+
+def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:
+    """Verdict in its parts, without what it means. ``assumed`` are beginnings of sentences on assumptions."""
+    first, *others = sentences_of(verdict.text)
+    lead, _, rest = first.partition(": ")
+    return Judged(
+        level=verdict.level,
+        lead=lead.rstrip("."),
+        meaning="",
+        numbers=rest[:1].upper() + rest[1:],
+        reasons=tuple(text for text in others if not text.startswith(assumed)),
+        assumptions=" ".join(text for text in others if text.startswith(assumed)),
+        bound=light_of(verdict.level, verdict.text).bound,
+    )
 
 
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:

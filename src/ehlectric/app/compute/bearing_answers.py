@@ -30,7 +30,7 @@ from ehlectric.app.charts.bearing_charts import (
     load_figure,
     speed_rows,
 )
-from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, sentences_of, told_of
+from ehlectric.app.compute.answer_parts import cards, case_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
@@ -44,7 +44,7 @@ from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK
-from ehlectric.quantities.rows import Row, row_of, value_at
+from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.report.light import light_of
 from ehlectric.report.report_texts import TEXTS
@@ -127,20 +127,15 @@ def _missing(
         "bearing.shaft_voltage": shaft,
         "bearing.margin": broken if totals["first_break"] is None else shaft,
     }
-    found = {key: _none(key, "none", why) for key, why in reasons.items() if value_at(summary, key) is None}
+    texts = {key: ("none", why) for key, why in reasons.items() if value_at(summary, key) is None}
     if totals["margin"] is None:
-        found[speed] = _none(speed, "none", "there is no margin")
+        texts[speed] = ("none", "there is no margin")
     elif not whole:
-        found[speed] = _none(speed, PENDING, "being computed")
+        texts[speed] = (PENDING, "being computed")
     elif speed not in rows:
         other = "margin.upper_critical_speed" in rows
-        found[speed] = _none(speed, "none", "" if other else "no other speed could be computed")
-    return found
-
-
-def _none(key: str, text: str, reason: str) -> Number:
-    """Number without a value, with the label of its quantity."""
-    return replace(card(row_of(key, BEARING_BOOK[key], text, reason)), known=False)
+        texts[speed] = ("none", "" if other else "no other speed could be computed")
+    return {key: unknown(key, BEARING_BOOK[key], *text) for key, text in texts.items()}
 
 
 def _no_voltage(summary: Mapping[str, Any]) -> str:
@@ -209,19 +204,9 @@ def judged(verdict: Verdict) -> Judged:
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
-    first, *others = sentences_of(verdict.text)
-    lead, _, rest = first.partition(": ")
-    assumptions = [text for text in others if text.startswith("Upper bound")]
-    light = light_of(verdict.level, verdict.text)
-    return Judged(
-        level=verdict.level,
-        lead=light.words,
-        bound=light.bound,
-        meaning=TEXTS["meanings"]["bearing"].get(lead, _NO_VERDICT),
-        numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(text for text in others if text not in assumptions),
-        assumptions=" ".join(assumptions),
-    )
+    parts, light = judged_of(verdict, ("Upper bound",)), light_of(verdict.level, verdict.text)
+    meaning = TEXTS["meanings"]["bearing"].get(parts.lead, _NO_VERDICT)
+    return replace(parts, lead=light.words, meaning=meaning)
 
 
 def quick_verdict(solution: BearingSolution) -> Verdict:

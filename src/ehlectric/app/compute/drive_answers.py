@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
-from ehlectric.app.compute.answer_parts import card, drive_of, lines_of, sentences_of, told_of
+from ehlectric.app.compute.answer_parts import card, drive_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
@@ -24,7 +24,6 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
-from ehlectric.report.light import light_of
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
@@ -38,9 +37,6 @@ from ehlectric.tables.drive_tables import (
     whole_rows,
     worse_cells,
 )
-
-# Why neither bearing has a value.
-_NONE = {"end.breakdown_voltage": "ceramic elements insulate"}
 
 
 def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tuple[Number, ...]:
@@ -87,10 +83,8 @@ def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
 
 
 def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
-    row = rows[key]
     others = [rows[other] for other in DRIVE_CARDS[key] if other in rows]
-    notes = [row.note.strip(" ,"), *(f"{other.name}: {other.amount}" for other in others)]
-    return replace(card(row), note="; ".join(filter(None, notes)))
+    return replace(card(rows[key]), note="; ".join(_texts(rows[key], others)))
 
 
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
@@ -100,9 +94,10 @@ def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
     one, other = (
         "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
     )
-    number = card(first) if first is not None else _unknown(key)
     if first is None and second is None:
-        return number
+        reason = "ceramic elements insulate" if key == "end.breakdown_voltage" else ""
+        return unknown(key, DRIVE_BOOK[key], "none", reason)
+    number = card(first) if first is not None else unknown(key, DRIVE_BOOK[key], "none")
     if first is not None and second is not None and (first.text, one) == (second.text, other):
         return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
     place, further = NAMES_OF_ENDS.values()
@@ -116,12 +111,6 @@ def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
     if row is not None and row.note:
         yield row.note.strip(" ,")
     yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
-
-
-def _unknown(key: str) -> Number:
-    """Number that a bearing does not have."""
-    label = DRIVE_BOOK[key].label
-    return Number(key, f"{label[:1].upper()}{label[1:]}", "none", note=_NONE.get(key, ""), known=False)
 
 
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
@@ -139,30 +128,14 @@ def judged_before(verdict: Verdict) -> Judged:
     >>> parts.lead, parts.numbers, parts.reasons
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
-    first, *others = sentences_of(verdict.text)
-    return _judged(verdict, "drive_before", first, others, _NOT_SIMULATED)
+    meaning = TEXTS["meanings"]["drive_before"][verdict.level]
+    return replace(judged_of(verdict, ()), meaning=meaning, assumptions=_NOT_SIMULATED)
 
 
 def judged_after(verdict: Verdict) -> Judged:
     """Verdict on a simulated drive, which is that of its report."""
-    first, *others = sentences_of(verdict.text)
-    assumed = [text for text in others if text.startswith(_ASSUMED)]
-    reasons = [text for text in others if text not in assumed]
-    return _judged(verdict, "drive_after", first, reasons, " ".join(assumed))
-
-
-def _judged(verdict: Verdict, meanings: str, first: str, reasons: list[str], assumptions: str) -> Judged:
-    lead, _, rest = first.partition(": ")
-    light = light_of(verdict.level, verdict.text)
-    return Judged(
-        level=verdict.level,
-        lead=lead.rstrip("."),
-        meaning=TEXTS["meanings"][meanings][verdict.level],
-        numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(reasons),
-        assumptions=assumptions,
-        bound=light.bound,
-    )
+    meaning = TEXTS["meanings"]["drive_after"][verdict.level]
+    return replace(judged_of(verdict, _ASSUMED), meaning=meaning)
 
 
 _SOLVING = "solving the contacts of both bearings, then simulating"

@@ -50,7 +50,7 @@ from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.engine import case_key, solve_point
-from ehlectric.sweep.points import Point, flat
+from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.run import planned_points
 from ehlectric.sweep.slices import known_values
@@ -134,7 +134,7 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     axes = [_axis(results, key) for key in results.varied[:2]]
     about, label = breakdown_of(results.case, shown), label_of(shown, results.case)
     name = named(shown, results.case)
-    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = results.rows
     values = [row[shown] if is_number(row.get(shown)) else None for row in rows]
     usable = [
         value
