@@ -66,8 +66,8 @@ def data_file(package: str, name: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> sorted(data_file("ehlectric.quantities", "sheets.toml"))
-    ['cards', 'columns', 'main', 'only', 'sections', 'sheets', 'sweeps']
+    >>> sorted(data_file("ehlectric.quantities", "sheets.toml")["columns"])
+    ['films', 'loads', 'page']
     """
     return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
 

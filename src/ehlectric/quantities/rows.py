@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from ehlectric.quantities.formats import UNITS, USUAL, formatted, scale_of, suited
 from ehlectric.quantities.quantity import Bound, Keys, Quantity, key_of
@@ -88,13 +88,20 @@ class Section:
 Sheet: TypeAlias = tuple[Section, ...]
 
 
+class Noted(NamedTuple):
+    """Value of a quantity, as ``Words`` gives it, with the note that follows it."""
+
+    value: Any
+    note: str
+
+
 @dataclass(frozen=True)
 class Words:
     """Texts next to the numbers of a kind of result, by dotted key: functions of the summary."""
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
     # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
-    # text with its unit, or None where there is nothing to show.
+    # text with its unit, or None where there is nothing to show; ``Noted`` for one with a note of its own.
     values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
     # Whether a quantity says that the numbers must not be used.
     alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
@@ -152,6 +159,7 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
         return
     about = key_of(book, key)
     value = words.values[key](summary) if key in words.values else value_at(summary, key)
+    value, note = value if isinstance(value, Noted) else (value, "")
     table, _, name = key.rpartition(".")
     if value is None and about is not None and about.null and name in (value_at(summary, table) or ()):
         value = about.null
@@ -159,7 +167,7 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
         return
     if about is None:
         raise KeyError(key)
-    note = words.notes[key](summary) if key in words.notes else about.note
+    note = words.notes[key](summary) if key in words.notes else note or about.note
     alarm = words.alarms[key](summary) if key in words.alarms else False
     yield row_of(key, about, value, note, bound=bounds.get(key, ""), alarm=alarm)
 

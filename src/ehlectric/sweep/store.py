@@ -302,19 +302,12 @@ _VERSION = 1
 # Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
 _FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
 # Error codes of SQLite that say nothing of the content of a file, but that it is locked, or of its disk.
-_UNUSABLE = (
-    sqlite3.SQLITE_PERM,
-    sqlite3.SQLITE_ABORT,
-    sqlite3.SQLITE_BUSY,
-    sqlite3.SQLITE_LOCKED,
-    sqlite3.SQLITE_READONLY,
-    sqlite3.SQLITE_INTERRUPT,
-    sqlite3.SQLITE_IOERR,
-    sqlite3.SQLITE_FULL,
-    sqlite3.SQLITE_CANTOPEN,
-    sqlite3.SQLITE_PROTOCOL,
-    sqlite3.SQLITE_AUTH,
-    sqlite3.SQLITE_NOLFS,
+_UNUSABLE = tuple(
+    getattr(sqlite3, f"SQLITE_{name}")
+    for name in (
+        *("PERM", "ABORT", "BUSY", "LOCKED", "READONLY", "INTERRUPT"),
+        *("IOERR", "FULL", "CANTOPEN", "PROTOCOL", "AUTH", "NOLFS"),
+    )
 )
 
 # Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory

@@ -30,6 +30,7 @@ from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number
 from ehlectric.cases.table import Table, Title, nearest, nearest_key, parser_of, read_toml
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
+from ehlectric.quantities.sheets import BREAKDOWNS
 from ehlectric.runtime.values import Tabled, headline
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
@@ -117,21 +118,7 @@ class Breakdown:
         return np.where(np.isfinite(margin), margin, ratio)
 
 
-CONTACT = Breakdown("discharge.breakdown_voltage", "discharge.margin", "field.voltage")
-FIRST_BREAK = Breakdown(
-    "bearing.first_break",
-    "bearing.margin",
-    "bearing.shaft_voltage",
-    "first breakdown",
-    "shaft voltage",
-)
-THROUGH = Breakdown(
-    "bearing.through_breakdown",
-    "bearing.through_margin",
-    "bearing.shaft_voltage",
-    "ring-to-ring breakdown",
-    "shaft voltage",
-)
+CONTACT, FIRST_BREAK, THROUGH = (Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through"))
 
 # With a coating on a ring, the breakdown voltages beside the shaft voltage are those of the shaft.
 _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")

@@ -15,7 +15,7 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
-from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
+from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, BEARING_ONLY, FILM_COLUMNS, LOAD_COLUMNS
 from ehlectric.quantities.units import rpm_text
 from ehlectric.tables.measured_tables import columns_table, status_rows
@@ -141,20 +141,20 @@ def _alpha_star(summary: Summary) -> str:
     return f", reciprocal asymptotic; α = {ambient:.4g} 1/GPa at ambient pressure"
 
 
-def _strength(summary: Summary) -> tuple[Any, str]:
+def _strength(summary: Summary) -> Noted:
     """Dielectric strength, the scale of its Weibull law, or its range, with its note."""
     discharge = summary["inputs"].get("discharge", {})
     if "dielectric_strength" in discharge:
-        return discharge["dielectric_strength"], ", as assumed"
+        return Noted(discharge["dielectric_strength"], ", as assumed")
     if "weibull" in discharge:
         weibull = discharge["weibull"]
-        return weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}"
+        return Noted(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")
     if "strength_table" in discharge:
         table = discharge["strength_table"]
         ends = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
         over = "pressure" if "pressure" in table else "temperature"
-        return (" to ".join(ends), "V/µm"), f", table over {over}"
-    return "not given", ", no breakdown voltage is computed"
+        return Noted((" to ".join(ends), "V/µm"), f", table over {over}")
+    return Noted("not given", ", no breakdown voltage is computed")
 
 
 def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Callable[[Summary], Any]:
@@ -248,44 +248,30 @@ def _searched(summary: Summary) -> bool:
     return not crossed and lowest is not None and highest is not None and bool(lowest < highest)
 
 
-def _critical_speed(summary: Summary) -> Any:
+def _critical_speed(summary: Summary) -> Noted:
     """Critical speed, or the end of the searched speeds beyond which it lies."""
     if not _searched(summary):
-        return _speed("critical_speed")(summary)
-    found, broken = summary["margin"], summary["bearing"]["margin"] < 1.0
-    end = found["highest_speed" if broken else "lowest_speed"]
-    return f"{'above' if broken else 'below'} {rpm_text(end)}", "rpm"
+        return Noted(_speed("critical_speed")(summary), ", breakdown below")
+    low, high = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
+    beyond = f"above {high}" if summary["bearing"]["margin"] < 1.0 else f"below {low}"
+    return Noted((beyond, "rpm"), f", none from {low} to {high} rpm")
 
 
-def _critical_note(summary: Summary) -> str:
-    if not _searched(summary):
-        return ", breakdown below"
-    ends = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
-    return f", none from {' to '.join(ends)} rpm"
-
-
-def _parallel(summary: Summary) -> Any:
+def _parallel(summary: Summary) -> Noted:
+    """Capacitance next to the bearing, or that it is not given and taken as 0."""
     found = value_at(summary, "bearing.parallel_capacitance")
-    return found if found or found is None or "parallel_capacitance" in _bearing(summary) else "not given"
+    if found or found is None or "parallel_capacitance" in _bearing(summary):
+        return Noted(found, ", cage, shields and wiring")
+    return Noted("not given", ", taken as 0 (cage, shields and wiring)")
 
 
-def _parallel_note(summary: Summary) -> str:
-    given = _parallel(summary) != "not given"
-    return ", cage, shields and wiring" if given else ", taken as 0 (cage, shields and wiring)"
-
-
-def _meter(summary: Summary) -> Any:
+def _meter(summary: Summary) -> Noted:
     """Capacitance that a meter reads; that it is not computed where asperities touch."""
-    found = value_at(summary, "bearing.meter_capacitance")
-    touching = _state(summary) in ("conducting", "partial film")
-    return "not computed" if found is None and touching else found
-
-
-def _meter_note(summary: Summary) -> str:
     totals = summary["bearing"]
-    if totals["meter_capacitance"] is None:
-        return ", asperities touch"
-    return "" if totals["roughness_factor"] is None else ", rough films"
+    if totals.get("meter_capacitance") is None:
+        touching = _state(summary) in ("conducting", "partial film")
+        return Noted("not computed" if touching else None, ", asperities touch")
+    return Noted(totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films")
 
 
 def _shaft_note(summary: Summary) -> str:
@@ -293,15 +279,14 @@ def _shaft_note(summary: Summary) -> str:
     return f", by the capacitive divider{'; upper bound: the oil discharges it' if leaks else ''}"
 
 
-def _first_break(summary: Summary) -> Any:
+def _first_break(summary: Summary) -> Noted:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
-    return "not computed" if _state(summary) == "conducting" else value_at(summary, "bearing.first_break")
-
-
-def _first_break_note(summary: Summary) -> str:
     if _state(summary) == "conducting":
-        return ", lambda below 1: contacts open and close and discharge at a low voltage"
-    return f", {summary['bearing']['first_break_at']}; {bearing_bound_words(summary)}"
+        return Noted(
+            "not computed", ", lambda below 1: contacts open and close and discharge at a low voltage"
+        )
+    found = summary["bearing"]
+    return Noted(found["first_break"], f", {found['first_break_at']}; {bearing_bound_words(summary)}")
 
 
 def _period(summary: Summary) -> str:
@@ -377,7 +362,6 @@ _WORDS = Words(
         "bearing.running_clearance": lambda s: (
             ", a preload" if s["bearing"]["running_clearance"] < 0.0 else ""
         ),
-        "inputs.discharge.dielectric_strength": lambda s: _strength(s)[1],
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
         "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
@@ -391,17 +375,13 @@ _WORDS = Words(
         "bearing.regime": _regime_note,
         "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
-        "bearing.parallel_capacitance": _parallel_note,
-        "bearing.meter_capacitance": _meter_note,
         "bearing.shaft_voltage": _shaft_note,
-        "bearing.first_break": _first_break_note,
-        "margin.critical_speed": _critical_note,
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,
         "bearing.current_density": _limits,
     },
     values={
-        "inputs.discharge.dielectric_strength": lambda s: _strength(s)[0],
+        "inputs.discharge.dielectric_strength": _strength,
         **{
             f"rings.{ring}.{key}": _loaded(ring, key, of)
             for ring in ("inner", "outer")

@@ -21,7 +21,7 @@ from ehlectric.film.film_error import UNRESOLVED
 from ehlectric.quantities.formats import amount, formatted, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
+from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY
 from ehlectric.tables.measured_tables import status_rows
 
@@ -223,20 +223,16 @@ def _temperature_error(summary: Summary) -> str:
     return "" if error is None else f", error {error:.1g} K"
 
 
-def _load_share(summary: Summary) -> tuple[str, str] | None:
-    """Load share with no more digits than its change from a coarser grid leaves."""
-    found = summary.get("asperities")
-    return found and (share_text(found["load_share"], found["load_share_coarser"]), "%")
-
-
-def _coarser_share(summary: Summary) -> str:
+def _load_share(summary: Summary) -> Noted:
+    """Load share with no more digits than its change from a coarser grid leaves, and this change."""
     found = summary["asperities"]
-    before = found["load_share_coarser"]
-    if before is None:
-        return ", not known on a coarser grid"
-    error = formatted(100.0 * abs(found["load_share"] - before), ".2g")
-    half = share_text(before, found["load_share"])
-    return f", ± {error} percentage points by the grid: {half} % on half the nodes"
+    share, before = found["load_share"], found["load_share_coarser"]
+    note = ", not known on a coarser grid"
+    if before is not None:
+        error = formatted(100.0 * abs(share - before), ".2g")
+        half = share_text(before, share)
+        note = f", ± {error} percentage points by the grid: {half} % on half the nodes"
+    return Noted((share_text(share, before), "%"), note)
 
 
 def _area_error(summary: Summary) -> str:
@@ -247,10 +243,11 @@ def _area_error(summary: Summary) -> str:
     return f", of the Hertz {part}{within}"
 
 
-def _spots(summary: Summary) -> str:
-    single = summary["asperities"]["spots_of_one_node"]
+def _spots(summary: Summary) -> Noted:
+    found = summary["asperities"]
     strips = ", strips along the contact" if _geometry(summary) == "line" else ""
-    return strips + (f", {single} of a single node" if single else "")
+    single = f", {found['spots_of_one_node']} of a single node" if found["spots_of_one_node"] else ""
+    return Noted(str(found["spots"]), strips + single)
 
 
 def _oil_error(summary: Summary) -> Any:
@@ -283,14 +280,14 @@ def _field_place(summary: Summary) -> str:
     return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
 
 
-def _strength(summary: Summary) -> tuple[Any, str]:
+def _strength(summary: Summary) -> Noted | None:
     """Dielectric strength and its law; that it is not given where there is no law."""
     found = summary.get("discharge")
     if found is None:
-        return None, ""
+        return None
     if found["strength_law"] is None:
-        return "not given", ", no breakdown voltage is computed"
-    return found["dielectric_strength"], f", {found['strength_law']}"
+        return Noted("not given", ", no breakdown voltage is computed")
+    return Noted(found["dielectric_strength"], f", {found['strength_law']}")
 
 
 def _breakdown_note(summary: Summary) -> str:
@@ -389,7 +386,9 @@ def _beside(summary: Summary, key: str, value: float) -> str:
 
 
 def _formula_error(summary: Summary) -> Any:
-    return "none: surfaces touch" if _touches(summary) else ("up to 40", "%")
+    if _touches(summary):
+        return Noted("none: surfaces touch", ", formulas are of smooth ones")
+    return "up to 40", "%"
 
 
 _WORDS = Words(
@@ -408,9 +407,7 @@ _WORDS = Words(
             f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
         ),
         "asperities.behaviour": _behaviour,
-        "asperities.load_share": _coarser_share,
         "asperities.contact_area_share": _area_error,
-        "asperities.spots": _spots,
         "asperities.resistance": _resistance_note,
         "field.max_strength": _field_place,
         "discharge.zone_size": lambda _: (
@@ -419,13 +416,11 @@ _WORDS = Words(
         "discharge.capacitance": _beyond,
         "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
         "discharge.current_density": _limits,
-        "discharge.dielectric_strength": lambda s: _strength(s)[1],
         "discharge.breakdown_voltage": _breakdown_note,
         "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
         "meter.capacitance_domain": _share("domain"),
         "meter.capacitance_hertz": _share("hertz"),
         "meter.capacitance_outside": _share("outside"),
-        "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
     },
     values={
         "hertz.axis_ratio": _axis_ratio,
@@ -433,12 +428,12 @@ _WORDS = Words(
         "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
         "film.thermal": _temperature,
         "asperities.load_share": _load_share,
-        "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
+        "asperities.spots": _spots,
         "asperities.mass_error": _oil_error,
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
         "discharge.capacitance_by_outlet": _by_outlet,
-        "discharge.dielectric_strength": lambda s: _strength(s)[0],
+        "discharge.dielectric_strength": _strength,
         "discharge.breakdown_field_error": _breakdown_error,
         "discharge.breakdown_range": _breakdown_range,
         "discharge.probability": _probability,
