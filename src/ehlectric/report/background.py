@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -25,6 +25,7 @@ from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.quantities.rows import value_at
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
 from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.runtime.values import is_number
@@ -150,10 +151,7 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
     found: dict[str, tuple[str, Source | None, Any]] = {}
     given = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     for table, folder in _BASES:
-        named: Any = given
-        for part in table.split("."):
-            named = named.get(part) if isinstance(named, Mapping) else None
-        base = named.get("base") if isinstance(named, Mapping) else None
+        base = value_at(given, f"{table}.base")
         if base is None:
             continue
         file = library.tables(folder, base)
@@ -210,9 +208,8 @@ def _materials(case: Case | BearingCase) -> Iterator[str]:
         yield from (body.material for body in bodies if body is not None and body.material is not None)
         return
     table, known = case.to_dict()["bearing"], library.solid_names()
-    keys = [key for tables in (table, table.get("fits", {})) for key in tables if key.endswith("_material")]
-    values = {**table, **table.get("fits", {})}
-    yield from (values[key] for key in keys if values[key] in known)
+    values = {**table, **table.get("fits", {})}.items()
+    yield from (value for key, value in values if key.endswith("_material") and value in known)
 
 
 # Heads of the tables of inputs, and shares of their columns.
@@ -225,18 +222,22 @@ _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weib
 _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name in NAMES_OF_ENDS.items()}}
 
 
-def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
+def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
+    """Varied keys and those of the single bearings that they stand for, and whether bearings vary apart."""
+    keys = {one for key in varied for one in (key, *of_both_ends(key))}
+    return keys, any(end_and_key(key)[0] in ENDS for key in varied)
+
+
+def input_section(case: SweptCase, varied: Sequence[str] = ()) -> Section:
     """Section of all inputs with their origin, and of those that are assumptions."""
-    varied = tuple(varied)
-    either = {*varied, *(key for each in varied for key in of_both_ends(each))}
-    apart = any(end_and_key(key)[0] in ENDS for key in varied)
+    either, apart = varied_keys(varied)
     inputs = [
         replace(one, origin="varied", source=None) if one.key in either else one
         for one in inputs_of(case, apart=apart)
     ]
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
     blocks: list[Block] = [Text(SENTENCES["input_values"])]
-    if varied:
+    if either:
         blocks.append(Text(SENTENCES["varied_inputs"]))
     for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
         rows = tuple(_input_cells(case, one, numbers) for one in group)

@@ -5,7 +5,7 @@ drives.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -28,7 +28,7 @@ from ehlectric.quantities.results import EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
-from ehlectric.report.background import input_text, inputs_of
+from ehlectric.report.background import input_text, inputs_of, varied_keys
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
 from ehlectric.report.report_facts import part_of, row_tables
@@ -38,27 +38,23 @@ from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads,
 
 # Words for the origin of an input that is not a value of the library.
 _GIVEN = "input file"
-_ORIGINS = {"given": _GIVEN}
-_CAPTION = "Values that decide the result"
-_HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
 
 
 def assumption_section(
-    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Iterable[str] = ()
+    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Sequence[str] = ()
 ) -> Section:
     """Section of the values that decide the result and that no model gives."""
-    apart = any(end_and_key(key)[0] in ENDS for key in varied)
-    origins = {one.key: _ORIGINS.get(one.origin, one.origin) for one in inputs_of(case, apart=apart)}
+    either, apart = varied_keys(varied)
+    inputs = inputs_of(case, apart=apart)
+    origins = {one.key: one.origin for one in inputs if one.origin != "given"}
     values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
     rows = [(key, value, origin or origins.get(key, _GIVEN), why) for key, value, origin, why in values]
-    either = {one for key in varied for one in (key, *of_both_ends(key))}
     shown = tuple(
         (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
     )
-    return Section(
-        "What decides the result",
-        (Text(SENTENCES["deciding_values"]), Table(_CAPTION, _HEADS, shown, shares=_SHARES)),
-    )
+    heads, shares = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
+    table = Table("Values that decide the result", heads, shown, shares=shares)
+    return Section("What decides the result", (Text(SENTENCES["deciding_values"]), table))
 
 
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
@@ -117,8 +113,6 @@ LISTED = 20
 # Digits of the largest time: two discharges at the same edge of the source differ in them.
 _DIGITS = 6
 
-_SHARES_OF_EVENTS = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
-
 
 def event_blocks(result: DriveResult) -> Iterator[Block]:
     """Table of the discharges with the largest energy, and sentences about the others."""
@@ -136,8 +130,9 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
         name: unit_for(max(abs(row[name]) for row in listed), about.unit, least=1.0)
         for name, about in EVENT_KEYS.items()
     }
-    heads = [f"{EVENT_KEYS[name].label} [{unit}]" for name, (_, unit) in scales.items()]
-    digits = _decimals(max(row["time"] for row in listed) * scales["time"][0])
+    heads = ("number", "bearing", *(f"{EVENT_KEYS[name].label} [{scales[name][1]}]" for name in scales))
+    largest = max(row["time"] for row in listed) * scales["time"][0]
+    digits = max(0, _DIGITS - len(f"{largest:.0f}"))
     cells = tuple(
         (
             str(number),
@@ -149,20 +144,12 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
         )
         for number, row in enumerate(listed, 1)
     )
-    numeric = (0, *range(2, 2 + len(scales)))
-    heads = ["number", "bearing", *heads]
-    yield Table("Discharges with the largest energy", tuple(heads), cells, numeric, shares=_SHARES_OF_EVENTS)
-
-
-def _decimals(largest: float) -> int:
-    """Decimals of numbers up to a largest one, which is at least 1."""
-    return max(0, _DIGITS - len(f"{largest:.0f}"))
+    numeric, shares = (0, *range(2, len(heads))), (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
+    yield Table("Discharges with the largest energy", heads, cells, numeric, shares=shares)
 
 
 # Published limits of the current density [A/mm²].
 _LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
-
-_SHARES_OF_NUMBERS = (0.44, 0.22, 0.22, 0.12)
 
 
 def number_tables(summary: Summary) -> Iterator[Table | Text]:
@@ -171,7 +158,7 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
-        yield Table(caption, heads, cells, (1, 2), shares=_SHARES_OF_NUMBERS)
+        yield Table(caption, heads, cells, (1, 2), shares=(0.44, 0.22, 0.22, 0.12))
     yield Text(f"{TEXTS['bounds']['≤']} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
 
 
@@ -198,11 +185,7 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
     keys = REMEDIES[0].keys
     rows = tuple(
-        (
-            printable(title),
-            place,
-            *map(unbroken, remedy_cells(own, end, keys)),
-        )
+        (printable(title), place, *map(unbroken, remedy_cells(own, end, keys)))
         for title, _, own in drives
         for end, place in NAMES_OF_ENDS.items()
     )

@@ -131,16 +131,13 @@ def _points(results: SweepResults) -> Iterator[Block]:
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
     ]
-    found = [
-        _column(results, key, [value_at(point.usable, key) for point in results.points]) for key in values
-    ]
     # Real films are thinner than those of a sweep, and break down earlier.
     bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
-    signs = [label_of(key, results.case).bound if key in bounded else "" for key in values]
-    found = [
-        (f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, column)
-        for sign, (head, column) in zip(signs, found, strict=True)
-    ]
+    found = []
+    for key in values:
+        head, cells = _column(results, key, [value_at(point.usable, key) for point in results.points])
+        sign = label_of(key, results.case).bound if key in bounded else ""
+        found.append((f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, cells))
     heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
     listed = results.points[:_LISTED]
     rows = tuple(

@@ -213,26 +213,18 @@ def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
     return tuple(Line(row.name, row.text, row.alarm) for row in rows)
 
 
-_LIKELY = "The margin is below 1: breakdown is likely."
-
-
 def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, ...]:
     """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
 
     Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
     says.
     """
-    meanings = {"breakdown-expected": _LIKELY} if level == "yellow" else {}
-    found = [
-        Told(
-            one.code,
-            one.severity,
-            one.text,
-            CODES[one.code].concerns,
-            meanings.get(one.code, CODES[one.code].meaning),
-        )
-        for one in dict.fromkeys(warnings)
-    ]
+    found = []
+    for one in dict.fromkeys(warnings):
+        about = CODES[one.code]
+        likely = level == "yellow" and one.code == "breakdown-expected"
+        meaning = "The margin is below 1: breakdown is likely." if likely else about.meaning
+        found.append(Told(one.code, one.severity, one.text, about.concerns, meaning))
     return tuple(sorted(found, key=lambda told: SEVERITIES.index(told.severity)))
 
 

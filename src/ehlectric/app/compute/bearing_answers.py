@@ -387,39 +387,33 @@ def _around(result: BearingResult) -> dict[str, Around]:
     found = {}
     for name in ("inner", "outer"):
         rings = [getattr(position, name) for position in positions]
-        load, film, loaded = (
-            np.concatenate(columns)[order].tolist()
-            for columns in (
-                [ring.load for ring in rings],
-                [ring.values.minimum_thickness for ring in rings],
-                [ring.solved for ring in rings],
-            )
+        columns = (
+            [ring.load for ring in rings],
+            [ring.values.minimum_thickness for ring in rings],
+            [ring.solved for ring in rings],
         )
-        found[name] = Around(angle[order].tolist(), load, film, loaded)
+        values = (np.concatenate(column)[order].tolist() for column in columns)
+        found[name] = Around(angle[order].tolist(), *values)
     return found
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     """Figures over the speed; voltages only where there is a breakdown or a shaft voltage at any speed."""
     how = ", scaled to the solved contacts" if _is_solved(over) else ""
-    caption = f"Bearing over its speed, {over.contacts}{how}"
-    table = Table(caption, SPEED_HEADS, tuple(speed_rows(over)))
-    drawn = {
-        name: key
-        for name, key in (("first breakdown", "first_break"), ("shaft voltage", "shaft_voltage"))
-        if np.any(np.isfinite(over.curves[key]))
-    }
+    table = Table(f"Bearing over its speed, {over.contacts}{how}", SPEED_HEADS, tuple(speed_rows(over)))
+    names = {"first_break": "first breakdown", "shaft_voltage": "shaft voltage"}
+    drawn = {name: key for key, name in names.items() if np.any(np.isfinite(over.curves[key]))}
     found = {}
     if drawn:
         breaks = "first breakdown" in drawn
-        names = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
+        label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         found["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
-            f"{names[0].upper()}{names[1:]} over the speed of the inner ring",
+            f"{label[0].upper()}{label[1:]} over the speed of the inner ring",
             breakdown_figure(over),
             table,
-            ("Breakdown voltages are upper bounds, with" if breaks else "With")
-            + f" {over.contacts}{_scaled(over, drawn)}.",
+            f"{'Breakdown voltages are upper bounds, with' if breaks else 'With'} "
+            f"{over.contacts}{_scaled(over, drawn)}.",
         )
     found["capacitance"] = Figure(
         "Capacitance over speed",

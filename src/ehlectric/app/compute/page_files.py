@@ -83,14 +83,14 @@ def _with_bearings(table: dict[str, Any], contents: Mapping[str, bytes]) -> list
     """Put the tables of the bearing files that a drive names into its own, and return the missing files."""
     missing = []
     for end in ENDS:
-        own = table.get(end)
-        if not isinstance(own, Mapping) or not isinstance(own.get("file"), str):
+        file = _file_at(table, end)
+        if not isinstance(file, str):
             continue
-        name = _plain(f"{end}.file", own["file"])
+        name = _plain(f"{end}.file", file)
         if name not in contents:
             missing.append(name)
             continue
-        further = Inputs({key: value for key, value in own.items() if key != "file"}).flat()
+        further = Inputs({key: value for key, value in table[end].items() if key != "file"}).flat()
         table[end] = dict(changed(Inputs(_tables(name, contents[name])), further).table)
     return missing
 
