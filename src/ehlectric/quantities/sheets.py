@@ -51,8 +51,10 @@ LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (
 # ones.
 COMPARED, DIFFERENCES = (tuple[str, ...](_READ["main"][name]) for name in ("compared", "differences"))
 
-# Columns of rough surfaces and of oils, and voltages that belong together.
-SURFACES, OILS, BREAKDOWNS = (_READ[name] for name in ("surfaces", "oils", "breakdowns"))
+# Columns of rough surfaces, of oils and of sweeps, voltages that belong together, and values in words.
+SURFACES, OILS, SWEEP_COLUMNS, BREAKDOWNS, VALUES = (
+    _READ[name] for name in ("surfaces", "oils", "sweep_columns", "breakdowns", "values")
+)
 
 # Inputs and results of sweeps, on a page and in a report.
 SWEEPS: Mapping[str, tuple[str, ...]] = {name: tuple(keys) for name, keys in _READ["sweeps"].items()}

@@ -19,6 +19,7 @@ from ehlectric.cases.table import nearest
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
@@ -35,16 +36,6 @@ if TYPE_CHECKING:
 
 # Keys of the summary whose values are texts that may differ between points.
 _TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
-
-# Variables of a point besides its inputs and results, with their attributes in the CF conventions.
-_OWN = {
-    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
-    "status": {"long_name": "what became of the point"},
-    "reason": {"long_name": "why it is not solved"},
-    "warnings": {"long_name": "what to know before using its numbers"},
-    "warning_codes": {"long_name": "codes of the warnings"},
-    "seconds": {"long_name": "time it took", "units": "s"},
-}
 
 
 def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
@@ -107,7 +98,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
+    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in SWEEP_COLUMNS.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
@@ -164,7 +155,7 @@ def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
 
 def unit_of_column(results: SweepPoints, key: str) -> str | None:
     """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers."""
-    if key in _OWN:
+    if key in SWEEP_COLUMNS:
         return "s" if key == "seconds" else None
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):
         return None

@@ -499,11 +499,15 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
     field = input_field(key)
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    if isinstance(value, Mapping):
-        return _range(key, value, number_of(field), design, written=written)
     if isinstance(value, Range):
-        value = {"from": value.start, "to": value.stop, "spacing": value.spacing}
-        return _range(key, value, number_of(field), design)
+        value, written = {"from": value.start, "to": value.stop, "spacing": value.spacing}, False
+    if isinstance(value, Mapping):
+        number = number_of(field)
+        unknown = [str(name) for name in value if number is not None and name not in _RANGE_KEYS]
+        if unknown:
+            raise InputError.unknown(f"{key}.{unknown[0]}", f"{key}.{nearest(unknown[0], _RANGE_KEYS)}")
+        with within(key):
+            return _range(value, number, design, written=written)
     if design == "sobol":
         raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
@@ -527,53 +531,45 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool)
 
 
 def _range(
-    key: str, table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool = False
+    table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool
 ) -> tuple[Any, ...] | Range:
     """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
-        raise InputError(key, got="a range", takes="a list of values, because the key is not a number")
-    for name in table:
-        if name not in _RANGE_KEYS:
-            near = nearest(str(name), _RANGE_KEYS)
-            raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
-    over = _over(key, table, number, written=written)
+        raise InputError(got="a range", takes="a list of values, because the key is not a number")
+    over = _over(table, number, written=written)
     if design == "sobol":
         if "count" in table:
-            raise InputError.worded(
-                f"{key}.count", "is not used by a sobol design; samples gives the number for all keys"
-            )
+            text = "is not used by a sobol design; samples gives the number for all keys"
+            raise InputError.worded("count", text)
         return over
     count = table.get("count")
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
         got = None if count is None else shown(count)
-        raise InputError(
-            f"{key}.count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}"
-        )
+        raise InputError("count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}")
     values = between(over, np.linspace(0.0, 1.0, count))
     if isinstance(number, Amount):
         return tuple(values.tolist())
     rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
     if design == "grid" and len(set(rounded)) < count:
-        raise InputError(
-            f"{key}.count", got=count, takes=f"at most the whole numbers from {over.start:g} to {over.stop:g}"
-        )
+        takes = f"at most the whole numbers from {over.start:g} to {over.stop:g}"
+        raise InputError("count", got=count, takes=takes)
     return rounded
 
 
-def _over(key: str, table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
+def _over(table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
     """Range of a varied key: its ends in SI units, and its spacing."""
     ends = []
     for name in ("from", "to"):
         if name not in table:
-            raise InputError.missing(f"{key}.{name}", number.takes)
-        with within(f"{key}.{name}"):
+            raise InputError.missing(name, number.takes)
+        with within(name):
             ends.append(number.parse(table[name], written=written))
     start, stop = ends
     spacing = table.get("spacing", "linear")
     if spacing not in _SPACINGS:
-        raise InputError(f"{key}.spacing", got=shown(spacing), takes="'linear' or 'log'")
+        raise InputError("spacing", got=shown(spacing), takes="'linear' or 'log'")
     if not start < stop:
-        raise InputError(f"{key}.to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
+        raise InputError("to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
     if spacing == "log" and start <= 0.0:
-        raise InputError(f"{key}.from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
+        raise InputError("from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
     return Range(start, stop, spacing)

@@ -16,27 +16,23 @@ from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, sc
 from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, shown_unit, value_at
-from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, BEARING_ONLY, FILM_COLUMNS, LOAD_COLUMNS
+from ehlectric.quantities.sheets import (
+    BEARING,
+    BEARING_CHECK,
+    BEARING_ONLY,
+    FILM_COLUMNS,
+    LOAD_COLUMNS,
+    VALUES,
+)
 from ehlectric.quantities.units import rpm_text
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-# What a lambda ratio below 1 means, by the state of lubrication.
-_TOUCH = {
-    "conducting": ", surfaces touch (no voltage computed)",
-    "touching": ", surfaces touch",
-}
 
-# Heat of a film factor in words.
-_HEAT: Mapping[object, str] = {
-    "inlet-shear": "heating by shear in the inlet",
-    "solved": "solved heat in the film, in pure rolling",
-}
-
-# Laws of the share of time of a contact, in words.
-_LAWS = {"clarke": "Clarke's fit over lambda", "greenwood_williamson": "the number of spots"}
+# Heat of a film factor, laws of the share of time of a contact, and what a lambda ratio below 1 means.
+_HEAT, _LAWS, _TOUCH = (VALUES[name] for name in ("heat", "contact_model", "touching"))
 
 
 def total_rows(summary: Summary) -> list[Row]:
@@ -183,7 +179,7 @@ def film_factor_note(summary: Summary) -> str:
         return "(isothermal, fully flooded)"
     factor = _bearing(summary)["film_factor"]
     if supply == "flooded":
-        return f"({_HEAT.get(factor, 'given')})"
+        return f"({VALUES['heat'].get(factor, 'given')})"
     other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
     return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
 
@@ -364,7 +360,7 @@ _WORDS = Words(
         ),
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
-        "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
+        "bearing.lambda_ratio": lambda s: f", {_TOUCH.get(_state(s), _state(s))}",
         "bearing.film_factor": film_factor_note,
         "bearing.supply_factor": _supply_note,
         "bearing.rolling_power_loss": _rolling_note,
@@ -373,8 +369,12 @@ _WORDS = Words(
         "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
         "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
         "bearing.regime": _regime_note,
-        "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
-        "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
+        "bearing.inner_contact_time_share": lambda s: (
+            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
+        ),
+        "bearing.outer_contact_time_share": lambda s: (
+            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
+        ),
         "bearing.shaft_voltage": _shaft_note,
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,

@@ -22,7 +22,7 @@ from ehlectric.quantities.formats import amount, formatted, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
-from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY
+from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY, VALUES
 from ehlectric.tables.measured_tables import status_rows
 
 # Relative error of the field up to which the table does not repeat it for the breakdown voltage.
@@ -30,14 +30,6 @@ _SMALL = 0.002
 
 # Error of the oil balance below which it is not stated.
 _LEAST_ERROR = 1e-4
-
-# Names of the laws between shear stress and shear rate.
-RHEOLOGIES = {
-    "newtonian": "Newtonian",
-    "eyring": "Ree-Eyring",
-    "carreau": "Carreau",
-    "limiting": "limiting shear stress",
-}
 
 
 def case_rows(case: Case, summary: Summary) -> list[Row]:
@@ -312,11 +304,6 @@ def _probability(summary: Summary) -> Any:
     return summary["discharge"]["probability"] if weibull else None
 
 
-def _breaks_down(summary: Summary) -> bool:
-    margin = value_at(summary, "discharge.margin")
-    return margin is not None and margin < 1.0
-
-
 def _zone_place(summary: Summary) -> str | None:
     return _place(summary, "discharge.zone_position") if "discharge" in summary else None
 
@@ -425,7 +412,7 @@ _WORDS = Words(
     values={
         "hertz.axis_ratio": _axis_ratio,
         "film.meniscus": _meniscus,
-        "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
+        "film.rheology": lambda s: VALUES["rheology"].get(value_at(s, "film.rheology")),
         "film.thermal": _temperature,
         "asperities.load_share": _load_share,
         "asperities.spots": _spots,
@@ -441,7 +428,7 @@ _WORDS = Words(
         "formula_error": _formula_error,
         "seconds.both": lambda s: s["seconds"]["film"] + s["seconds"]["field"],
     },
-    alarms={"discharge.margin": _breaks_down},
+    alarms={"discharge.margin": lambda s: bool(s["discharge"]["margin"] < 1.0)},
     holds={
         "touching": _touches,
         "not touching": lambda s: not _touches(s),
