@@ -156,11 +156,13 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
             continue
         file = library.tables(folder, base)
         sources = _sources_of_inputs(file)
+        # A single source may be that of the whole file; else each key has its own.
+        whole = sources[0] if len(sources) == 1 and not sources[0].keys else None
         for key, value in _values(folder, base, file[folder]).items():
             if key == "base":
                 continue
-            source = next((one for one in sources if key in one.keys), None)
-            found[f"{table}.{key}"] = (base, source or _whole(sources), value)
+            source = next((one for one in sources if key in one.keys), whole)
+            found[f"{table}.{key}"] = (base, source, value)
     return found
 
 
@@ -174,11 +176,6 @@ def _sources_of_inputs(file: Mapping[str, Any]) -> tuple[Source, ...]:
             (), "published", source.get("citation", ""), source.get("doi", ""), source.get("assumption", "")
         ),
     )
-
-
-def _whole(sources: tuple[Source, ...]) -> Source | None:
-    """Single source of a whole file; None where each key has its own."""
-    return sources[0] if len(sources) == 1 and not sources[0].keys else None
 
 
 def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:

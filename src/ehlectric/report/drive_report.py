@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
@@ -86,25 +85,16 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
 def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
     """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
     first, second = case.bearings
-    if first == second and not apart:
-        yield from _of_bearing(case, first, BOTH, ENDS[0])
-        return
-    for end, one in zip(ENDS, (first, second), strict=True):
-        yield from _of_bearing(case, one, end, end)
-
-
-def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> Iterator[tuple[str, ...]]:
-    """Rows of one bearing, whose keys begin with a name."""
-    given = flattened(bearing.to_dict())
-    for key, decides in TEXTS["decided_by_bearing"].items():
-        if key in given:
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", decides
-    decides = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
-    for key, value in given.items():
-        if key.startswith("discharge.weibull."):
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", value), "", decides
-    if any(key.startswith("discharge.strength_table.") for key in given):
-        yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides
+    alike = first == second and not apart
+    decides_strength = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
+    for name, end, bearing in zip((BOTH,) if alike else ENDS, ENDS, case.bearings, strict=False):
+        given = flattened(bearing.to_dict())
+        decides = {key: why for key, why in TEXTS["decided_by_bearing"].items() if key in given}
+        decides |= {key: decides_strength for key in given if key.startswith("discharge.weibull.")}
+        for key, why in decides.items():
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", why
+        if any(key.startswith("discharge.strength_table.") for key in given):
+            yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides_strength
 
 
 # Largest number of discharges that a report lists.

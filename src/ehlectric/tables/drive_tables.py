@@ -106,7 +106,8 @@ def worse_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Heads of the table of remedies, then the cells of each drive, of its bearing with more discharges."""
     keys = [key for key in REMEDIES[0].keys if not key.endswith("_range")]
     yield "remedy, worse bearing", *remedy_heads(keys)
-    for title, tables in _drives(summary):
+    drives = [("as it is", summary), *((one["title"], one) for one in summary["remedies"])]
+    for title, tables in drives:
         worse = max(ENDS, key=lambda end: (tables[end]["power"], tables[end]["peak_voltage"]))
         yield printable(title), *remedy_cells(tables, worse, keys)
 
@@ -120,12 +121,6 @@ def remedy_cells(tables: Mapping[str, Any], end: str, keys: Sequence[str]) -> It
     """Cells of the bearing at one end of a drive or of a remedy."""
     found = {row.key: row for row in end_rows(tables, end, REMEDIES)}
     return (_cell(found.get(key)) for key in keys)
-
-
-def _drives(summary: Summary) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    yield "as it is", summary
-    for one in summary["remedies"]:
-        yield one["title"], one
 
 
 def _range(summary: Summary) -> tuple[str, str]:

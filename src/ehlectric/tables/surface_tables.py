@@ -13,12 +13,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 # Title of the table of the summits, and sentences below it.
-SUMMITS_TITLE = "spectral moments and summits after the last step"
-SUMMITS_NOTE = (
-    "Bandwidth, density and radius belong to the sampling interval: name it with the numbers. They hold for "
-    "Gaussian heights (skewness 0, kurtosis 3). A dash stands where no isotropic Gaussian surface has the "
-    "bandwidth, below 1.5."
-)
+SUMMITS_TITLE, SUMMITS_NOTE = SURFACES["summits_title"], SURFACES["summits_note"]
 
 
 def surface_table(surface: dict[str, Any]) -> Table:

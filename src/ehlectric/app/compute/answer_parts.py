@@ -27,6 +27,9 @@ from ehlectric.report.light import light_of
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
 
+# Note of a number of films that are not converged.
+UNUSABLE = "not converged: do not use this value"
+
 
 def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number]:
     """Numbers of some keys, in the order of the keys; those that no row has are left out.

@@ -30,7 +30,7 @@ from ehlectric.app.charts.bearing_charts import (
     load_figure,
     speed_rows,
 )
-from ehlectric.app.compute.answer_parts import cards, case_of, judged_of, lines_of, told_of, unknown
+from ehlectric.app.compute.answer_parts import UNUSABLE, cards, case_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
@@ -98,22 +98,16 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
     found = []
     for key in (key for key in BEARING_CARDS if key in known):
-        follows = RANGE_FOLLOWS if key == "bearing.margin" and not whole and _ranges(summary) else ""
+        follows = (
+            RANGE_FOLLOWS if key == "bearing.margin" and not whole and summary["inputs"].get("ranges") else ""
+        )
         note = "; ".join(filter(None, [follows, known[key].note]))
         near = tuple(one for one in beside(told, key) if known[key].known or one.code not in _BOUNDS)
-        found.append(replace(known[key], note=note, told=near))
-    return tuple(found) if summary["converged"] else tuple(map(_unusable, found))
-
-
-def _ranges(summary: Mapping[str, Any]) -> bool:
-    return bool(summary["inputs"].get("ranges"))
-
-
-def _unusable(number: Number) -> Number:
-    """Number of films that are not converged, with words that say so."""
-    if not number.known:
-        return number
-    return replace(number, bound="", note="not converged: do not use this value", known=False)
+        number = replace(known[key], note=note, told=near)
+        if number.known and not summary["converged"]:
+            number = replace(number, bound="", note=UNUSABLE, known=False)
+        found.append(number)
+    return tuple(found)
 
 
 def _missing(

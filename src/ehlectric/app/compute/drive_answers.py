@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
-from ehlectric.app.compute.answer_parts import card, drive_of, judged_of, lines_of, told_of, unknown
+from ehlectric.app.compute.answer_parts import UNUSABLE, card, drive_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
@@ -46,8 +46,7 @@ def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tup
     keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
     found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
     if not summary.get("converged", True):
-        note = "not converged: do not use this value"
-        found = [replace(one, note=note, known=False) for one in found]
+        found = [replace(one, note=UNUSABLE, known=False) for one in found]
     return tuple(replace(one, told=beside(told, one.key)) for one in found)
 
 
