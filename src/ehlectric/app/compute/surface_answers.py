@@ -199,9 +199,9 @@ def _answer(
     )
     kind = "map" if of_map else "profile"
     summit_heads, summit_rows = summits_rows(summits)
-    table = SummitsTable(SUMMITS_TITLE, summit_heads, tuple(summit_rows), SUMMITS_NOTE)
+    of_summits = SummitsTable(SUMMITS_TITLE, summit_heads, tuple(summit_rows), SUMMITS_NOTE)
     return SurfaceAnswer(
-        kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines, table
+        kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines, of_summits
     )
 
 
