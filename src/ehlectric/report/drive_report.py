@@ -23,7 +23,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
-from ehlectric.quantities.results import EVENT_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
@@ -149,7 +149,8 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
         yield Table(caption, heads, cells, (1, 2), shares=(0.44, 0.22, 0.22, 0.12))
-    yield Text(f"{TEXTS['bounds']['≤']} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
+    bounds = TEXTS["bounds"][DRIVE_BOOK["end.breakdown_voltage"].bound]
+    yield Text(f"{bounds} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
 
 
 AS_IT_IS = "as it is"
