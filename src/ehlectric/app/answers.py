@@ -261,7 +261,7 @@ class Result:
     text: str  # value as shown, without its unit
     unit: str = ""
     note: str = ""
-    bound: str = ""  # "≤" where the number is an upper bound only, "≥" where it is a lower one
+    bound: str = ""  # sign of the bound where the number is one only
     main: bool = False
     # Dotted key of the quantity, by which results are compared; empty for a result that has none.
     key: str = ""
@@ -422,7 +422,7 @@ class Number:
     text: str  # the number as it is shown, or why there is none
     unit: str = ""
     note: str = ""  # what a reader must know of the number
-    bound: str = ""  # "≤" where the value is an upper bound only, "≥" where it is a lower one
+    bound: str = ""  # sign of the bound where the value is one only
     known: bool = True
     told: tuple[Told, ...] = ()
 

@@ -21,6 +21,7 @@ from ehlectric.field.zones import Zone, contact_zones
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.runtime.values import headline
 
 if TYPE_CHECKING:
@@ -66,7 +67,8 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         """Title, minimum film, maximum pressure and maximum field on one line."""
         film, touching = self.film, self.spots
         least = f"minimum film {amount(film.minimum_thickness, 'm')}"
-        strongest: str | None = f"maximum field ≥ {amount(self.field.max_strength, 'V/m')}"
+        field = CONTACT_BOOK[self.conditions.geometry]["field.max_strength"]
+        strongest: str | None = f"maximum field {field.bounded(amount(self.field.max_strength, 'V/m'))}"
         if touching is not None:
             # Minimum film and maximum field are those of the boundary film.
             least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"

@@ -11,6 +11,7 @@ from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.runtime.values import Shown, headline
 
 if TYPE_CHECKING:
@@ -67,11 +68,12 @@ class MotionResult(Shown, MotionRun):
     def _headline(self) -> str:
         """Title, time steps, minimum film and maximum field on one line."""
         steps = self.dataset.sizes["step"] - 1
+        strongest = amount(float(np.max(self.values("max_strength"))), "V/m")
         return headline(
             self.case.title,
             f"{self.case.contact.geometry} contact with moving roughness",
             f"{steps} time steps to {amount(float(self.values('time')[-1]), 's')}",
             f"minimum film {amount(float(np.min(self.values('minimum_thickness'))), 'm')}",
-            f"maximum field ≥ {amount(float(np.max(self.values('max_strength'))), 'V/m')}",
+            f"maximum field {MOTION_BOOK['line']['field.max_strength'].bounded(strongest)}",
             "complete" if self.complete else "NOT COMPLETE",
         )

@@ -18,6 +18,13 @@ from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 ENDS = ("drive_end", "non_drive_end")
 BOTH = "bearings"
 
+# Keys of a bearing file that a key of a drive replaces at both ends.
+REPLACED = {
+    "bearing.inner_speed": "drive.speed",
+    "bearing.temperature": "drive.temperature",
+    "contacts": "drive.contacts",
+}
+
 # Tables of the keys that stand in no table.
 _FILES = ("case_file", "bearing_file", "drive_file")
 

@@ -11,10 +11,16 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import resources
+from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
+
+from ehlectric.errors import printable
 
 # Sign of a value that is a bound only; empty for any other value.
 Bound: TypeAlias = Literal["", "≤", "≥"]
+
+# Words for the signs of bounds.
+BOUNDS: Mapping[str, str] = MappingProxyType({"≤": "upper bound", "≥": "lower bound"})
 
 
 @dataclass(frozen=True)
@@ -35,6 +41,20 @@ class Quantity:
     bound: Bound = field(default="", kw_only=True)
     # Short label at the head of a column; if it is empty, the label.
     head: str = field(default="", kw_only=True)
+    # Note that follows every value and its unit, such as ", of each surface".
+    note: str = field(default="", kw_only=True)
+    # Text in place of a value that a summary has as null; if it is empty, such a value is not shown.
+    null: str = field(default="", kw_only=True)
+
+    def bounded(self, text: str) -> str:
+        """Text of a value after the sign of its bound.
+
+        Examples
+        --------
+        >>> Quantity("maximum field", "V/m", bound="≥").bounded("2 V/µm")
+        '≥ 2 V/µm'
+        """
+        return " ".join(filter(None, [self.bound, text]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,10 +92,18 @@ def data_file(package: str, name: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> sorted(data_file("ehlectric.quantities", "sheets.toml"))
-    ['cards', 'columns', 'main', 'sections', 'sheets']
+    >>> sorted(data_file("ehlectric.quantities", "sheets.toml")["columns"])
+    ['films', 'loads', 'page']
     """
     return tomllib.loads(resources.files(package).joinpath(name).read_text(encoding="utf-8"))
+
+
+def unbroken(text: str) -> str:
+    """Printable text in which the sign of a bound stays on the line of its number."""
+    text = printable(text)
+    for sign in BOUNDS:
+        text = text.replace(f"{sign} ", f"{sign}\xa0")
+    return text
 
 
 def under(table: str, keys: Keys) -> dict[str, Quantity]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from ehlectric.quantities.formats import UNITS, USUAL, formatted, scale_of, suited
 from ehlectric.quantities.quantity import Bound, Keys, Quantity, key_of
@@ -81,10 +81,18 @@ class Section:
 
     heading: str
     keys: tuple[str, ...]
+    only: str = ""  # condition under which it is shown; empty for one that always is
 
 
 # What a kind of result shows: one list for the terminal, the notebook, the report and the page.
 Sheet: TypeAlias = tuple[Section, ...]
+
+
+class Noted(NamedTuple):
+    """Value of a quantity, as ``Words`` gives it, with the note that follows it."""
+
+    value: Any
+    note: str
 
 
 @dataclass(frozen=True)
@@ -93,23 +101,26 @@ class Words:
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
     # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
-    # text with its unit, or None where there is nothing to show.
+    # text with its unit, or None where there is nothing to show; ``Noted`` for one with a note of its own.
     values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
     # Whether a quantity says that the numbers must not be used.
     alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
     # Rows of a key that stands for several quantities, as "film_formulas.*.minimum_thickness"
     rows: Mapping[str, Callable[[Summary], Iterable[Row]]] = field(default_factory=dict)
-    # Keys that are not shown for a summary, although it has a value.
-    hidden: Callable[[Summary], Container[str]] = lambda _: ()
+    # Conditions under which sections and quantities are shown, by name.
+    holds: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
+    # Keys that are shown only where a condition holds, by the name of the condition.
+    only: Mapping[str, Iterable[str]] = field(default_factory=dict)
 
     def __or__(self, other: Words) -> Words:
-        """Words of both, those of the other where both have some; what is hidden is that of the first."""
+        """Words of both, those of the other where both have some; the conditions are those of the first."""
         return Words(
             {**self.notes, **other.notes},
             {**self.values, **other.values},
             {**self.alarms, **other.alarms},
             {**self.rows, **other.rows},
-            self.hidden,
+            self.holds,
+            self.only,
         )
 
 
@@ -130,8 +141,10 @@ def sheet_rows(
     >>> [row.name for row in sheet_rows(sheet, book, {"film": {"error": None, "minimum": 1e-7}})]
     ['film', 'minimum film']
     """
-    hidden = words.hidden(summary)
+    hidden = {key for name, keys in words.only.items() if not words.holds[name](summary) for key in keys}
     for section in sheet:
+        if section.only and not words.holds[section.only](summary):
+            continue
         keys = (key for key in section.keys if key not in hidden)
         found = [row for key in keys for row in _row(key, book, summary, words, bounds)]
         if found:
@@ -144,13 +157,17 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
     if key in words.rows:
         yield from words.rows[key](summary)
         return
+    about = key_of(book, key)
     value = words.values[key](summary) if key in words.values else value_at(summary, key)
+    value, note = value if isinstance(value, Noted) else (value, "")
+    table, _, name = key.rpartition(".")
+    if value is None and about is not None and about.null and name in (value_at(summary, table) or ()):
+        value = about.null
     if value is None:
         return
-    about = key_of(book, key)
     if about is None:
         raise KeyError(key)
-    note = words.notes[key](summary) if key in words.notes else ""
+    note = words.notes[key](summary) if key in words.notes else note or about.note
     alarm = words.alarms[key](summary) if key in words.alarms else False
     yield row_of(key, about, value, note, bound=bounds.get(key, ""), alarm=alarm)
 

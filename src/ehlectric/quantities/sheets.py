@@ -5,14 +5,16 @@ The terminal, the notebook and the report show whole sheets; a page shows the sa
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Section, Sheet
 
 _READ = data_file("ehlectric.quantities", "sheets.toml")
 _SECTIONS = {
-    name: Section(section["heading"], tuple(section["keys"])) for name, section in _READ["sections"].items()
+    name: Section(section["heading"], tuple(section["keys"]), section.get("only", ""))
+    for name, section in _READ["sections"].items()
 }
 
 
@@ -31,6 +33,9 @@ MOTION, MOTION_CHECK = _sheet("motion"), _sheet("motion_check")
 BEARING, BEARING_CHECK = _sheet("bearing"), _sheet("bearing_check")
 DRIVE, DRIVE_CHECK, REMEDIES = _sheet("drive"), _sheet("drive_check"), _sheet("remedies")
 
+# Keys that are shown only where a condition holds, by its name.
+CONTACT_ONLY, BEARING_ONLY = (_READ["only"][name] for name in ("contact", "bearing"))
+
 # Cards of the pages. A spot may be in the middle of a contact whose surfaces touch, so that its mean film
 # says more than the central one.
 CONTACT_CARDS, CHECK_CARDS = _cards("contact"), _cards("contact_check")
@@ -45,6 +50,28 @@ LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (
 # Main results of two cases next to each other, and how far solved contacts of a bearing differ from quick
 # ones.
 COMPARED, DIFFERENCES = (tuple[str, ...](_READ["main"][name]) for name in ("compared", "differences"))
+
+# Columns of rough surfaces, of oils and of sweeps, voltages that belong together, and values in words.
+SURFACES, OILS, SWEEP_COLUMNS, BREAKDOWNS, VALUES = (
+    _READ[name] for name in ("surfaces", "oils", "sweep_columns", "breakdowns", "values")
+)
+
+# Inputs and results of sweeps, on a page and in a report.
+SWEEPS: Mapping[str, tuple[str, ...]] = {name: tuple(keys) for name, keys in _READ["sweeps"].items()}
+
+
+def at_ends(keys: Iterable[str], ends: Iterable[str] = ENDS) -> Iterator[str]:
+    """Keys in which "end" stands for each of some ends of a drive.
+
+    Examples
+    --------
+    >>> list(at_ends(["drive.power", "end.power"]))
+    ['drive.power', 'drive_end.power', 'non_drive_end.power']
+    """
+    for key in keys:
+        table, _, name = key.partition(".")
+        yield from (f"{end}.{name}" for end in ends) if table == "end" else (key,)
+
 
 # What two cases next to each other show among their inputs, or what is no result of either.
 NOT_COMPARED = frozenset((*CHECK[0].keys, *BEARING[0].keys, *CHECK[-1].keys, "formula_error"))

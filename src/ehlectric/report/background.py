@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -23,10 +23,11 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.quantities.rows import value_at
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
-from ehlectric.report.report_texts import Limit, Reference
+from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
@@ -40,10 +41,8 @@ _KNOWN = KINDS[: KINDS.index("by rule")]
 # Tables that may name a base of the library: their dotted key, and the folder of the library.
 _BASES = (("lubricant", "lubricant"), ("bearing", "bearing"), ("bearing.coating", "coating"))
 
-# What stands before the keys of two equal bearings of a drive, and the keys of a bearing whose place a key of
-# the table drive takes.
+# What stands before the keys of two equal bearings of a drive.
 _BOTH = f"{BOTH}."
-_REPLACED = {"bearing.inner_speed": "speed", "bearing.temperature": "temperature", "contacts": "contacts"}
 
 
 @dataclass(frozen=True)
@@ -112,10 +111,10 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
 def replaced_by(case: SweptCase, key: str) -> str:
     """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
     end, own = end_and_key(key)
-    if not end or own not in _REPLACED or not isinstance(case, DriveCase):
+    if not end or own not in REPLACED or not isinstance(case, DriveCase):
         return ""
-    name = _REPLACED[own]
-    return f"drive.{name}" if getattr(case.drive, name) is not None else ""
+    above = REPLACED[own]
+    return above if getattr(case.drive, above.partition(".")[2]) is not None else ""
 
 
 def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
@@ -152,19 +151,18 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
     found: dict[str, tuple[str, Source | None, Any]] = {}
     given = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     for table, folder in _BASES:
-        named: Any = given
-        for part in table.split("."):
-            named = named.get(part) if isinstance(named, Mapping) else None
-        base = named.get("base") if isinstance(named, Mapping) else None
+        base = value_at(given, f"{table}.base")
         if base is None:
             continue
         file = library.tables(folder, base)
         sources = _sources_of_inputs(file)
+        # A single source may be that of the whole file; else each key has its own.
+        whole = sources[0] if len(sources) == 1 and not sources[0].keys else None
         for key, value in _values(folder, base, file[folder]).items():
             if key == "base":
                 continue
-            source = next((one for one in sources if key in one.keys), None)
-            found[f"{table}.{key}"] = (base, source or _whole(sources), value)
+            source = next((one for one in sources if key in one.keys), whole)
+            found[f"{table}.{key}"] = (base, source, value)
     return found
 
 
@@ -178,11 +176,6 @@ def _sources_of_inputs(file: Mapping[str, Any]) -> tuple[Source, ...]:
             (), "published", source.get("citation", ""), source.get("doi", ""), source.get("assumption", "")
         ),
     )
-
-
-def _whole(sources: tuple[Source, ...]) -> Source | None:
-    """Single source of a whole file; None where each key has its own."""
-    return sources[0] if len(sources) == 1 and not sources[0].keys else None
 
 
 def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
@@ -212,44 +205,37 @@ def _materials(case: Case | BearingCase) -> Iterator[str]:
         yield from (body.material for body in bodies if body is not None and body.material is not None)
         return
     table, known = case.to_dict()["bearing"], library.solid_names()
-    keys = [key for tables in (table, table.get("fits", {})) for key in tables if key.endswith("_material")]
-    values = {**table, **table.get("fits", {})}
-    yield from (values[key] for key in keys if values[key] in known)
+    values = {**table, **table.get("fits", {})}.items()
+    yield from (value for key, value in values if key.endswith("_material") and value in known)
 
 
 # Heads of the tables of inputs, and shares of their columns.
 _HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.19, 0.21, 0.35)
 _DOI = "https://doi.org/"
-_UNITS = (
-    "Values stand in units that suit them; the input file at the end of the report has them in SI units. "
-    "“default” is the value that the program takes on its own, whether the input file has it or not; “given” "
-    "is any other value of the input file. A value of the library has the number of its source and the kind "
-    "of it: measured, read off a diagram, fitted, published, by rule, estimated or assumed."
-)
-_VARIED = (
-    "These are the inputs of the base case. The values of the varied inputs, and of their alternatives such "
-    "as a load for a Hertz pressure, differ from point to point."
-)
-# Keys of the dielectric strength, which no measurement of films gives, and sentences below the inputs.
+# Keys of the dielectric strength, which no measurement of films gives.
 _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weibull", "strength_table"))
-_NO_STRENGTH = "No measurement of a film stands behind it, whatever its value."
 
 # Names of the bearings of a drive by the first word of their keys.
 _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name in NAMES_OF_ENDS.items()}}
-_GIVEN = "Given values count as known: only the author of the input file can say how they were found."
 
 
-def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
+def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
+    """Varied keys and those of the single bearings that they stand for, and whether bearings vary apart."""
+    keys = {one for key in varied for one in (key, *of_both_ends(key))}
+    return keys, any(end_and_key(key)[0] in ENDS for key in varied)
+
+
+def input_section(case: SweptCase, varied: Sequence[str] = ()) -> Section:
     """Section of all inputs with their origin, and of those that are assumptions."""
-    varied = tuple(varied)
-    either = {*varied, *(key for each in varied for key in of_both_ends(each))}
-    apart = any(end_and_key(key)[0] in ENDS for key in varied)
+    either, apart = varied_keys(varied)
     inputs = [
         replace(one, origin="varied", source=None) if one.key in either else one
         for one in inputs_of(case, apart=apart)
     ]
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
-    blocks: list[Block] = [Text(_UNITS), *([Text(_VARIED)] if varied else [])]
+    blocks: list[Block] = [Text(SENTENCES["input_values"])]
+    if either:
+        blocks.append(Text(SENTENCES["varied_inputs"]))
     for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
         rows = tuple(_input_cells(case, one, numbers) for one in group)
         blocks.append(Table(f"Inputs: {_PLACES.get(name, name)}", _HEADS, rows, shares=_SHARES))
@@ -289,23 +275,23 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)
         elif end_and_key(one.key)[1].startswith(_STRENGTHS):
-            groups.setdefault(("assumed", _NO_STRENGTH), []).append(text)
+            groups.setdefault(("assumed", SENTENCES["no_strength_measured"]), []).append(text)
     rows = tuple(("; ".join(texts), kind, why) for (kind, why), texts in groups.items())
     if rows:
         yield Table("Inputs that are assumptions", ("inputs", "kind", "why"), rows, shares=(0.42, 0.12, 0.46))
-    yield Text(_GIVEN)
+    yield Text(SENTENCES["given_inputs"])
 
 
-def limit_section(limits: Iterable[Limit]) -> Section:
-    """Section of what the models leave out."""
-    rows = tuple((limit.topic, limit.text) for limit in limits)
+def limit_section(case: SweptCase) -> Section:
+    """Section of what the models behind a result leave out."""
+    rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
     return Section(
         "What the model leaves out",
         (Table("Limits of the model", ("part", "limit"), rows, shares=(0.2, 0.8)),),
     )
 
 
-def source_section(case: SweptCase, references: Iterable[Reference]) -> Section:
+def source_section(case: SweptCase) -> Section:
     """Section of the sources of library values, of materials, and of equations."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
@@ -322,7 +308,7 @@ def source_section(case: SweptCase, references: Iterable[Reference]) -> Section:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
         (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
-        for one in references
+        for one in references_of(case)
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))
@@ -354,7 +340,7 @@ def file_section(toml: str, command: str) -> Section:
     text = f"Write these lines to a file and solve it again with: ehlectric {command} FILE"
     blocks: list[Block] = [Text(text)]
     if "\nfile = " in toml:
-        blocks.append(Text("The file names measured surfaces or voltages, which must lie at the same paths."))
+        blocks.append(Text(SENTENCES["files_named"]))
     return Section("Input file", (*blocks, Text(toml, "code")))
 
 

@@ -8,7 +8,6 @@ from types import MappingProxyType
 from typing import Any
 
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import HOW
 from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
@@ -24,9 +23,9 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import UNSOLVED, Block, Part, Report, Section, Text, details_of, lead_of
-from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
-from ehlectric.report.report_texts import limits_of, references_of
+from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of
+from ehlectric.report.report_facts import alarms_of, cell_table, part_of, row_tables, warning_block
+from ehlectric.report.report_texts import SENTENCES
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
@@ -55,8 +54,8 @@ def report_of(path: str | Path) -> Report:
         Section("Figures", part.pictures or (Text("The result has no figures."),)),
         *part.further,
         input_section(result.case, part.varied),
-        limit_section(part.limits),
-        source_section(result.case, part.references),
+        limit_section(result.case),
+        source_section(result.case),
         version_section(part.details),
         file_section(part.toml, part.command),
     )
@@ -74,36 +73,29 @@ def _answer(part: Part) -> Iterator[Block]:
     if part.verdict is not None:
         yield light_of(part.verdict.level, part.verdict.text)
     else:
-        yield Text(part.no_verdict)
+        yield Text(SENTENCES["no_verdict"])
 
 
 def _contact(result: Any) -> Part:
-    summary, case = result.summary(), result.case
-    assert isinstance(case, Case)  # every stored result has one
-    return Part(
-        kind=f"{case.contact.geometry} contact",
+    summary = result.summary()
+    return part_of(
+        result,
+        kind=f"{result.case.contact.geometry} contact",
         command="run",
-        failure="" if result.converged else UNSOLVED,
-        verdict=result.verdict,
         numbers=tuple(row_tables(result_rows(result), "Overview")),
         details=details_of(summary, result.to_xarray().attrs.get("date", "")),
-        **_shared(result),
     )
 
 
 def _motion(result: MotionResult) -> Part:
     summary = result.summary()
-    ended = (
-        "NOT COMPLETE: the run ends early. Numbers and figures hold for the instants that are solved only."
-    )
-    return Part(
+    return part_of(
+        result,
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
-        failure="" if result.converged else ended,
-        verdict=None,
+        unsolved=SENTENCES["ended_early"],
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
         details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
-        **_shared(result),
     )
 
 
@@ -120,28 +112,14 @@ def _bearing(result: BearingResult) -> Part:
             cell_table(films_table(summary), "Films, capacitances and voltages of the contacts", "element"),
         ),
     )
-    return Part(
+    return part_of(
+        result,
         kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
-        failure="" if result.converged else UNSOLVED,
-        verdict=result.verdict,
         numbers=tuple(row_tables(total_rows(summary), "Overview")),
         further=(contacts,),
         details=details_of(summary, ""),
-        **_shared(result),
     )
-
-
-def _shared(result: Any) -> dict[str, Any]:
-    """Values that contacts and bearings give to a ``Part`` in the same way, by its attributes."""
-    return {
-        "lead": lead_of(result),
-        "warnings": result.warnings,
-        "pictures": tuple(pictures_of(result, converged=result.converged)),
-        "limits": tuple(limits_of(result.case)),
-        "references": tuple(references_of(result.case)),
-        "toml": result.case.to_toml(),
-    }
 
 
 # Parts by the class of the result.

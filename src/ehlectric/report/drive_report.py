@@ -5,13 +5,12 @@ drives.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
@@ -23,45 +22,38 @@ from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
-from ehlectric.quantities.results import EVENT_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.quantity import unbroken
+from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
-from ehlectric.quantities.sheets import REMEDIES
+from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
-from ehlectric.report.background import input_text, inputs_of
+from ehlectric.report.background import input_text, inputs_of, varied_keys
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import UNSOLVED, Block, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import BOUNDS, pictures_of, row_tables, unbroken
-from ehlectric.report.report_texts import TEXTS, limits_of, references_of
+from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
+from ehlectric.report.report_facts import part_of, row_tables
+from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
 
-_TEXT = (
-    "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
-    "the result. The report cannot know whether they were measured. Take each of them for an assumption "
-    "unless the author of the input file says how it was found, and see with remedies what half and double "
-    "of it change."
-)
-
 # Words for the origin of an input that is not a value of the library.
 _GIVEN = "input file"
-_ORIGINS = {"given": _GIVEN}
-_CAPTION = "Values that decide the result"
-_HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
 
 
 def assumption_section(
-    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Iterable[str] = ()
+    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Sequence[str] = ()
 ) -> Section:
     """Section of the values that decide the result and that no model gives."""
-    apart = any(end_and_key(key)[0] in ENDS for key in varied)
-    origins = {one.key: _ORIGINS.get(one.origin, one.origin) for one in inputs_of(case, apart=apart)}
+    either, apart = varied_keys(varied)
+    inputs = inputs_of(case, apart=apart)
+    origins = {one.key: one.origin for one in inputs if one.origin != "given"}
     values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
     rows = [(key, value, origin or origins.get(key, _GIVEN), why) for key, value, origin, why in values]
-    either = {one for key in varied for one in (key, *of_both_ends(key))}
     shown = tuple(
         (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
     )
-    return Section("What decides the result", (Text(_TEXT), Table(_CAPTION, _HEADS, shown, shares=_SHARES)))
+    heads, shares = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
+    table = Table("Values that decide the result", heads, shown, shares=shares)
+    return Section("What decides the result", (Text(SENTENCES["deciding_values"]), table))
 
 
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
@@ -93,25 +85,16 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
 def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
     """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
     first, second = case.bearings
-    if first == second and not apart:
-        yield from _of_bearing(case, first, BOTH, ENDS[0])
-        return
-    for end, one in zip(ENDS, (first, second), strict=True):
-        yield from _of_bearing(case, one, end, end)
-
-
-def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> Iterator[tuple[str, ...]]:
-    """Rows of one bearing, whose keys begin with a name."""
-    given = flattened(bearing.to_dict())
-    for key, decides in TEXTS["decided_by_bearing"].items():
-        if key in given:
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", decides
-    decides = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
-    for key, value in given.items():
-        if key.startswith("discharge.weibull."):
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", value), "", decides
-    if any(key.startswith("discharge.strength_table.") for key in given):
-        yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides
+    alike = first == second and not apart
+    decides_strength = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
+    for name, end, bearing in zip((BOTH,) if alike else ENDS, ENDS, case.bearings, strict=False):
+        given = flattened(bearing.to_dict())
+        decides = {key: why for key, why in TEXTS["decided_by_bearing"].items() if key in given}
+        decides |= {key: decides_strength for key in given if key.startswith("discharge.weibull.")}
+        for key, why in decides.items():
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", why
+        if any(key.startswith("discharge.strength_table.") for key in given):
+            yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides_strength
 
 
 # Largest number of discharges that a report lists.
@@ -119,8 +102,6 @@ LISTED = 20
 
 # Digits of the largest time: two discharges at the same edge of the source differ in them.
 _DIGITS = 6
-
-_SHARES_OF_EVENTS = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
 
 
 def event_blocks(result: DriveResult) -> Iterator[Block]:
@@ -134,16 +115,14 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
     kept = "" if len(rows) == total else f"; they are the largest of the first {len(rows)}, which are stored"
     if total > len(listed):
         yield Text(f"The {len(listed)} discharges with the largest energy of {total}{kept}.")
-    yield Text(
-        "Voltage and charge have the sign of the shaft against the housing. Charge, energy, current and "
-        "duration follow from the given resistance and extinction of an arc. events.csv has the others."
-    )
+    yield Text(SENTENCES["events"])
     scales = {
         name: unit_for(max(abs(row[name]) for row in listed), about.unit, least=1.0)
         for name, about in EVENT_KEYS.items()
     }
-    heads = [f"{EVENT_KEYS[name].label} [{unit}]" for name, (_, unit) in scales.items()]
-    digits = _decimals(max(row["time"] for row in listed) * scales["time"][0])
+    heads = ("number", "bearing", *(f"{EVENT_KEYS[name].label} [{scales[name][1]}]" for name in scales))
+    largest = max(row["time"] for row in listed) * scales["time"][0]
+    digits = max(0, _DIGITS - len(f"{largest:.0f}"))
     cells = tuple(
         (
             str(number),
@@ -155,25 +134,12 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
         )
         for number, row in enumerate(listed, 1)
     )
-    numeric = (0, *range(2, 2 + len(scales)))
-    heads = ["number", "bearing", *heads]
-    yield Table("Discharges with the largest energy", tuple(heads), cells, numeric, shares=_SHARES_OF_EVENTS)
-
-
-def _decimals(largest: float) -> int:
-    """Decimals of numbers up to a largest one, which is at least 1."""
-    return max(0, _DIGITS - len(f"{largest:.0f}"))
+    numeric, shares = (0, *range(2, len(heads))), (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
+    yield Table("Discharges with the largest energy", heads, cells, numeric, shares=shares)
 
 
 # Published limits of the current density [A/mm²].
 _LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
-
-_SHARES_OF_NUMBERS = (0.44, 0.22, 0.22, 0.12)
-_BOUND = (
-    f"{BOUNDS['≤']} The interval of 95 % counts the scatter within the simulated time, and not the errors of "
-    "the inputs. A dash stands where there is no such number, as without discharges or for ceramic elements. "
-    f"Published limits are {_LIMITS} A/mm² for the current density of all elements."
-)
 
 
 def number_tables(summary: Summary) -> Iterator[Table | Text]:
@@ -182,8 +148,9 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
-        yield Table(caption, heads, cells, (1, 2), shares=_SHARES_OF_NUMBERS)
-    yield Text(_BOUND)
+        yield Table(caption, heads, cells, (1, 2), shares=(0.44, 0.22, 0.22, 0.12))
+    bounds = TEXTS["bounds"][DRIVE_BOOK["end.breakdown_voltage"].bound]
+    yield Text(f"{bounds} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
 
 
 AS_IT_IS = "as it is"
@@ -191,11 +158,7 @@ AS_IT_IS = "as it is"
 
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
-    yield Text(
-        "Each remedy is a copy of the drive with the changes below, simulated with the same random numbers. "
-        "Remedies whose bounds overlap can hardly be told apart in the simulated time. Where films cannot "
-        "break down, the voltage stays on the shaft, and may reach the bearings of the driven machine."
-    )
+    yield Text(SENTENCES["remedies"])
     changes = tuple(
         row
         for title, changes, found in result.remedies
@@ -213,11 +176,7 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
     keys = REMEDIES[0].keys
     rows = tuple(
-        (
-            printable(title),
-            place,
-            *map(unbroken, remedy_cells(own, end, keys)),
-        )
+        (printable(title), place, *map(unbroken, remedy_cells(own, end, keys)))
         for title, _, own in drives
         for end, place in NAMES_OF_ENDS.items()
     )
@@ -255,38 +214,19 @@ def _changes(
         yield printable(title), key, *told
 
 
-# Results of both bearings, and of one of them, that a report draws and lists.
-_BOTH = ("drive.events_per_second", "drive.power")
-_EACH = ("energy_mean", "peak_voltage")
-
-# Columns of the table of points, for each bearing: with its bounds where both bearings are the same.
-_RATE = "events_per_second"
-_LISTED = (_RATE, "energy_mean", "peak_voltage")
-_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH, "breakdown_voltage")
-
-_RULE = (
-    "Points are judged as a single drive is: discharges are expected where a bearing discharges at least "
-    "twenty times in the simulated time, and none where no bearing discharges, also with a strength that is "
-    "20 % lower."
-)
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
-_LEADS = {
-    "green": "No discharge at any point",
-    "yellow": "Discharges at some points",
-    "red": "Discharges at all points",
-}
 
 
 def swept_values(results: SweepResults) -> tuple[str, ...]:
     """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same."""
-    return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in _ends(results)))
+    return tuple(at_ends(SWEEPS["drive_drawn"], _ends(results)))
 
 
 def listed_values(results: SweepResults) -> tuple[str, ...]:
     """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate."""
     ends = _ends(results)
-    keys = _LISTED_OF_ONE if len(ends) == 1 else _LISTED
-    return ("drive.events_per_second", *(f"{end}.{key}" for end in ends for key in keys))
+    keys = SWEEPS["equal_bearings_listed" if len(ends) == 1 else "drive_listed"]
+    return ("drive.events_per_second", *(key for end in ends for key in at_ends(keys, [end])))
 
 
 def _ends(results: SweepResults) -> tuple[str, ...]:
@@ -315,12 +255,12 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
     level: Level = "yellow"
     if not missing and max(counts["green"], counts["red"]) == known:
         level = "green" if counts["green"] else "red"
-    lead = _LEADS[level]
+    lead = TEXTS["meanings"]["swept_drives"][level]
     if level == "yellow" and not counts["red"]:
         lead = "Discharges possible"
     told = [f"expected at {counts['red']} of {known} points"]
     told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
-    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), _RULE]
+    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), SENTENCES["swept_drives"]]
     if missing:
         more = "1 more point is" if missing == 1 else f"{missing} more points are"
         sentences.insert(1, f"{more} not solved, or must not be used.")
@@ -329,11 +269,7 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
 
 def _range(results: SweepResults) -> list[str]:
     """Sentence with the smallest and the largest rate of discharges."""
-    rates = [
-        float(point.summary["drive"]["events_per_second"])
-        for point in results.points
-        if point.solved and not point.doubtful and point.summary
-    ]
+    rates = [float(point.usable["drive"]["events_per_second"]) for point in results.points if point.usable]
     if not rates:
         return []
     low, high = number_text(min(rates)), number_text(max(rates))
@@ -341,24 +277,19 @@ def _range(results: SweepResults) -> list[str]:
 
 
 def drive_part(result: DriveResult) -> Part:
-    """Part of a report about a drive. Returns what the report says of this result."""
+    """Part of a report about a drive."""
     summary, case = result.summary(), result.case
     verdict = result.verdict
-    return Part(
+    return part_of(
+        result,
         kind=_kind(case),
         command="drive",
         lead=_lead(summary),
-        failure="" if result.converged else UNSOLVED,
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
-        warnings=result.warnings,
         before=(assumption_section(case, summary),),
         numbers=tuple(number_tables(summary)),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
         further=tuple(_sections(result, summary)),
-        limits=tuple(limits_of(case)),
-        references=tuple(references_of(case)),
         details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
-        toml=case.to_toml(),
     )
 
 

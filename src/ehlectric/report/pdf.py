@@ -5,17 +5,15 @@ outline.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from io import BytesIO
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import matplotlib as mpl
 from reportlab.lib.colors import HexColor
-from reportlab.lib.enums import TA_LEFT, TA_RIGHT
 from reportlab.lib.pagesizes import A4
 from reportlab.lib.styles import ParagraphStyle
 from reportlab.lib.units import mm
@@ -38,6 +36,7 @@ from reportlab.platypus import (
 
 from ehlectric.errors import SEVERITY_WORDS, short
 from ehlectric.quantities.palette import GREY, LIGHTS
+from ehlectric.quantities.quantity import data_file
 from ehlectric.report.light import Light
 from ehlectric.report.report_content import (
     Cell,
@@ -51,18 +50,12 @@ from ehlectric.report.report_content import (
 )
 from ehlectric.version import __version__
 
-# Fonts with Greek letters and signs, which matplotlib carries: name in the document, and file.
-_FONTS: Mapping[str, str] = MappingProxyType(
-    {
-        "Sans": "DejaVuSans.ttf",
-        "Sans-Bold": "DejaVuSans-Bold.ttf",
-        "Sans-Oblique": "DejaVuSans-Oblique.ttf",
-        "Mono": "DejaVuSansMono.ttf",
-    }
-)
+# Fonts with Greek letters and signs, which matplotlib carries, and styles of paragraphs.
+_FONTS, _STYLES = (data_file("ehlectric.report", "pdf_styles.toml")[name] for name in ("fonts", "styles"))
 
 INK, SOFT, LINE, PANEL = (HexColor(colour) for colour in ("#1a1a1a", GREY, "#c8c8c8", "#f2f3f5"))
 _LINK, _ALARM = "#0058a3", "#b00020"
+_COLOURS = {"soft": SOFT, "alarm": HexColor(_ALARM)}
 _SEVERITIES = {"severe": _ALARM, "warning": LIGHTS["yellow"], "note": LIGHTS["grey"]}
 
 # Parts of a word after which a line may end.
@@ -92,26 +85,8 @@ def fonts() -> str:
 def style(name: str, size: float = 9.0) -> ParagraphStyle:
     """Style of paragraphs: "body", "title", "section", "caption", "cell", "number", "head" or "alarm"."""
     base: dict[str, Any] = {"fontName": fonts(), "fontSize": size, "leading": 1.35 * size, "textColor": INK}
-    own: dict[str, dict[str, Any]] = {
-        "body": {"spaceAfter": 5.0},
-        "title": {"fontName": "Sans-Bold", "fontSize": 17.0, "leading": 21.0, "spaceAfter": 3.0},
-        "section": {
-            "fontName": "Sans-Bold", "fontSize": 12.5, "leading": 16.0, "spaceBefore": 14.0,
-            "spaceAfter": 5.0,
-        },
-        "soft": {"textColor": SOFT, "spaceAfter": 3.0},
-        "caption": {"fontName": "Sans-Bold"},
-        "cell": {},
-        "number": {"alignment": TA_RIGHT},
-        "head": {"fontName": "Sans-Bold", "alignment": TA_LEFT},
-        "headnumber": {"fontName": "Sans-Bold", "alignment": TA_RIGHT},
-        "alarm": {
-            "fontName": "Sans-Bold", "textColor": HexColor(_ALARM), "borderColor": HexColor(_ALARM),
-            "borderWidth": 1.2, "borderPadding": 5.0, "spaceBefore": 6.0, "spaceAfter": 10.0,
-        },
-        "code": {"fontName": "Mono", "fontSize": 7.5, "leading": 9.6},
-    }  # fmt: skip
-    return ParagraphStyle(name, **{**base, **own[name]})
+    own = {key: _COLOURS.get(value, value) for key, value in _STYLES[name].items()}
+    return ParagraphStyle(name, **{**base, **own})
 
 
 def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:

@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 
 from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.film_verdict import Verdict
-from ehlectric.errors import ResultWarning, Severity, printable
+from ehlectric.errors import ResultWarning, Severity
 from ehlectric.figures.style import style as figure_style
+from ehlectric.quantities.quantity import unbroken
 from ehlectric.report.light import Light
-from ehlectric.report.report_texts import Limit, Reference
 
 # Resolution of pixels [1/inch].
 DPI = 200
@@ -117,10 +117,6 @@ class Report:
             yield from section.blocks
 
 
-UNSOLVED = "NOT CONVERGED: this result is no solution. Do not use its numbers and figures."
-NO_VERDICT = "This result has no verdict: it has no breakdown voltage, or no voltage to compare it with."
-
-
 @dataclass(frozen=True, kw_only=True)
 class Part:
     """Content of a report that depends on the kind of the result."""
@@ -130,14 +126,11 @@ class Part:
     lead: str  # main numbers in a sentence
     failure: str  # what is not solved; empty where all is
     verdict: Verdict | None  # answer of the result; None where it has none
-    no_verdict: str = NO_VERDICT
     warnings: tuple[ResultWarning, ...]
     before: tuple[Section, ...] = ()
     numbers: tuple[Block, ...]
     pictures: tuple[Block, ...]
     further: tuple[Section, ...] = ()
-    limits: tuple[Limit, ...]  # what the models leave out
-    references: tuple[Reference, ...]  # publications behind the equations
     details: dict[str, str]  # what is known of the computation, by name
     toml: str
     varied: tuple[str, ...] = ()  # dotted keys that a sweep varies
@@ -171,7 +164,7 @@ def lead_of(result: Any) -> str:
     if isinstance(result, BearingResult) and result.case.bearing.base:
         # The name of a bearing keeps its letters.
         line = f"Bearing {line}"
-    return printable(f"{line[:1].upper()}{line[1:]}.").replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
+    return unbroken(f"{line[:1].upper()}{line[1:]}.")
 
 
 def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:

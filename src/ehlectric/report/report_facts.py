@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import figure, figure_names
+from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row
-from ehlectric.report.report_content import Picture, Table, Text, WarningLine, Warnings
-from ehlectric.report.report_texts import TEXTS
+from ehlectric.report.report_content import Part, Picture, Table, Text, WarningLine, Warnings, lead_of
+from ehlectric.report.report_texts import SENTENCES, TEXTS
 
 if TYPE_CHECKING:
     from rich.table import Table as RichTable
@@ -24,15 +25,6 @@ _HEADS, _SHARES = ("quantity", "value", "unit", "note"), (0.42, 0.17, 0.1, 0.31)
 
 # Order of warnings in a report, the most important first.
 _SEVERITIES = ("severe", "warning", "note")
-
-# Sentences below tables with bounds, by their signs.
-BOUNDS: Mapping[str, str] = MappingProxyType(
-    {
-        "≤": "≤ marks an upper bound, before a range one of both ends. Real films are thinner than "
-        "isothermal, fully flooded, smooth ones, and break down at lower voltages.",
-        "≥": "≥ marks a lower bound: the field is higher in thinner films.",
-    }
-)
 
 
 def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
@@ -51,7 +43,7 @@ def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
         bounds |= {row.bound for row in group}
         alarms = tuple(number for number, row in enumerate(group) if row.alarm)
         yield Table(caption, _HEADS, cells, numeric=(1,), alarms=alarms, shares=_SHARES)
-    meanings = [text for bound, text in BOUNDS.items() if bound in bounds]
+    meanings = [text for bound, text in TEXTS["bounds"].items() if bound in bounds]
     if meanings:
         yield Text(" ".join(meanings))
 
@@ -63,11 +55,6 @@ def _cells(row: Row) -> Iterator[str]:
     yield unbroken(row.bounded)
     yield printable(row.unit).replace(" ", "\xa0")
     yield printable(row.note.lstrip(",; ").strip())
-
-
-def unbroken(text: str) -> str:
-    """Text of a cell whose sign of a bound stays on the line of its number."""
-    return printable(text).replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
 
 
 def cell_table(table: RichTable, caption: str, first: str) -> Table:
@@ -113,25 +100,6 @@ def alarms_of(warnings: Iterable[ResultWarning], failure: str) -> Iterator[Text]
         yield Text(f"Do not use the numbers: {CODES[code].meaning}", "alarm")
 
 
-# Meaning of a mark of sweeps.
-_RING = "A ring marks a point that is less accurate than others, as its warnings in sweep.csv say."
-
-# Captions of maps and lines of a sweep, which are named by the value that they show.
-_OF_SWEEPS = (
-    (
-        "map_",
-        f"Map of the value over the varied inputs. Points without a usable film have marks. {_RING}",
-    ),
-    (
-        "lines_",
-        f"Lines of the value over the varied inputs; points without a usable film are left out. {_RING}",
-    ),
-)
-
-# Sentence below each figure of a result that is not converged.
-UNCONVERGED = "NOT CONVERGED: the figure shows no solution; do not use it."
-
-
 def caption_of(name: str, *, converged: bool) -> str:
     """Caption of a figure; that of a result that is not converged says so.
 
@@ -140,15 +108,11 @@ def caption_of(name: str, *, converged: bool) -> str:
     >>> caption_of("film_map", converged=True)
     'Film thickness, with contours and the position of the minimum.'
     """
-    text = TEXTS["captions"].get(name, "")
-    for start, caption in _OF_SWEEPS:
-        if name.startswith(start):
-            text = caption
-    return " ".join(filter(None, ["" if converged else UNCONVERGED, with_units_kept(text)]))
+    of_sweeps = TEXTS["swept_captions"].items()
+    swept = next((caption for start, caption in of_sweeps if name.startswith(start)), "")
+    text = with_units_kept(TEXTS["captions"].get(name, swept))
+    return " ".join(filter(None, ["" if converged else SENTENCES["unconverged_figure"], text]))
 
-
-# Values of a sweep that a report draws beside the breakdown voltage; all others are drawn by ehlectric map.
-SWEPT = ("bearing.margin", "bearing.capacitance", "film.minimum_thickness", "field.max_strength")
 
 # Sentences in place of figures that have nothing to show.
 _EMPTY: Mapping[str, str] = MappingProxyType(
@@ -175,6 +139,23 @@ def pictures_of(
         if title and converged:
             _drop_finding(drawn)
         yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
+
+
+def part_of(result: Any, *, unsolved: str = SENTENCES["unsolved"], **further: Any) -> Part:
+    """Part of a report about a single result, with what is the same for all kinds of results.
+
+    ``unsolved`` is the sentence on a result that is not converged. ``further`` are the values of the kind of
+    result, by the attributes of ``Part``.
+    """
+    shared = {
+        "lead": lead_of(result),
+        "failure": "" if result.converged else unsolved,
+        "verdict": getattr(result, "verdict", None),
+        "warnings": result.warnings,
+        "pictures": tuple(pictures_of(result, converged=result.converged)),
+        "toml": result.case.to_toml(),
+    }
+    return Part(**shared | further)
 
 
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:

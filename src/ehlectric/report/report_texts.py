@@ -15,6 +15,7 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.quantities.quantity import data_file
 
 TEXTS = data_file("ehlectric.report", "report_texts.toml")
+SENTENCES = TEXTS["sentences"]
 
 # Limits of bearings that the limits of drives say otherwise.
 _REPLACED = ("contacts of asperities", "circuit", "oil as insulator")
@@ -53,24 +54,27 @@ REFERENCES, DRIVE_REFERENCES = _of_file(Reference, "references"), _of_file(Refer
 
 def limits_of(case: SweptCase) -> Iterator[Limit]:
     """Limits that hold for a case; those of a drive are followed by those of its bearings, each once."""
-    if not isinstance(case, DriveCase):
+    if isinstance(case, DriveCase):
+        yield from _holding(DRIVE_LIMITS, case)
+        yield from (limit for limit in _of_bearings(case, LIMITS) if limit.topic not in _REPLACED)
+    else:
         yield from _holding(LIMITS, case)
-        return
-    yield from _holding(DRIVE_LIMITS, case)
-    bearings = dict.fromkeys(limit for one in case.bearings for limit in limits_of(one))
-    yield from (limit for limit in bearings if limit.topic not in _REPLACED)
 
 
 def references_of(case: SweptCase) -> Iterator[Reference]:
     """Publications behind the equations of a case; of a drive, those of its bearings follow, each once."""
-    if not isinstance(case, DriveCase):
+    if isinstance(case, DriveCase):
+        simulation = list(_holding(DRIVE_REFERENCES, case))
+        known = {one.doi for one in simulation if one.doi}
+        yield from simulation
+        yield from (one for one in _of_bearings(case, REFERENCES) if one.doi not in known)
+    else:
         yield from _holding(REFERENCES, case)
-        return
-    simulation = list(_holding(DRIVE_REFERENCES, case))
-    known = {one.doi for one in simulation if one.doi}
-    yield from simulation
-    bearings = dict.fromkeys(one for bearing in case.bearings for one in references_of(bearing))
-    yield from (one for one in bearings if one.doi not in known)
+
+
+def _of_bearings(case: DriveCase, entries: tuple[T, ...]) -> Iterator[T]:
+    """Entries that hold for a bearing of a drive, each once."""
+    yield from dict.fromkeys(one for bearing in case.bearings for one in _holding(entries, bearing))
 
 
 def conditions_of(case: SweptCase) -> dict[str, bool]:

@@ -14,7 +14,9 @@ from ehlectric.cases.input_keys import unit_of
 from ehlectric.errors import InputError, printable
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.sheets import SWEEPS
 from ehlectric.report.drive_report import (
     assumption_section,
     listed_values,
@@ -22,8 +24,8 @@ from ehlectric.report.drive_report import (
     swept_verdict,
 )
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
-from ehlectric.report.report_facts import SWEPT, cell_table, pictures_of, row_tables, swept_names
-from ehlectric.report.report_texts import limits_of, references_of
+from ehlectric.report.report_facts import cell_table, pictures_of, row_tables, swept_names
+from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point
@@ -44,9 +46,6 @@ _SCALES: Mapping[str, Scale] = MappingProxyType(
     {"rad/s": Scale(30.0 / np.pi, "rpm"), "K": CELSIUS, "V": Scale(1.0, "V")}
 )
 
-# Results of a point that a report lists, as far as the summaries have them.
-_RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
-
 
 def sweep_part(results: SweepResults) -> Part:
     """Part of a report about a sweep."""
@@ -63,8 +62,6 @@ def sweep_part(results: SweepResults) -> Part:
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         pictures=tuple(_pictures(results)),
         further=tuple(_sections(results)),
-        limits=tuple(limits_of(case)),
-        references=tuple(references_of(case)),
         details=_details(results),
         toml=sweep_toml(results),
         varied=tuple(results.varied),
@@ -92,12 +89,10 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
 
 
 def _pictures(results: SweepResults) -> Iterator[Block]:
-    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEPT
+    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEEPS["drawn"]
     names = swept_names(results, (main_value(results.case), *shown))
     yield from pictures_of(results, converged=True, names=names)
-    yield Text(
-        "Other values and other varied inputs along the axes are drawn by: ehlectric map FOLDER --x KEY"
-    )
+    yield Text(SENTENCES["further_maps"])
 
 
 def _details(results: SweepResults) -> dict[str, str]:
@@ -128,19 +123,21 @@ def _sensitivity(results: SweepResults) -> Iterator[Block]:
 def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
-    further = listed_values(results) if isinstance(results.case, DriveCase) else _RESULTS
+    further = listed_values(results) if isinstance(results.case, DriveCase) else SWEEPS["listed"]
     wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
-    values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
+    values = [
+        key for key in wanted if any(is_number(value_at(point.usable, key)) for point in results.points)
+    ]
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
     ]
-    found = [_column(results, key, [_value(point, key) for point in results.points]) for key in values]
     # Real films are thinner than those of a sweep, and break down earlier.
-    bounds = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
-    found = [
-        (f"{head}, upper bound (≤)" if key in bounds else head, column)
-        for key, (head, column) in zip(values, found, strict=True)
-    ]
+    bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
+    found = []
+    for key in values:
+        head, cells = _column(results, key, [value_at(point.usable, key) for point in results.points])
+        sign = label_of(key, results.case).bound if key in bounded else ""
+        found.append((f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, cells))
     heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
     listed = results.points[:_LISTED]
     rows = tuple(
@@ -169,11 +166,6 @@ def _varied(results: SweepResults) -> Iterator[tuple[str, str]]:
     for key, ends in results.ranges.items():
         head, cells = _column(results, key, (ends.start, ends.stop))
         yield f"{key}: {head}", f"{' to '.join(cells)}, {ends.spacing}"
-
-
-def _value(point: Point, key: str) -> Any:
-    """Value of a usable point; None for others, so that no table shows it as a result."""
-    return value_at(point.summary or {}, key) if point.solved and not point.doubtful else None
 
 
 def _status(point: Point) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType, ModuleType
@@ -58,12 +58,10 @@ def _data(picture: Picture) -> str:
 FORMATS = ("html", "pdf")
 
 
-def _html(report: Report) -> bytes:
-
-    return html_of(report).encode()
-
-
-def _pdf(report: Report) -> bytes:
+def _content(report: Report, ending: str) -> bytes:
+    """Content of a file of a report in one of ``FORMATS``."""
+    if ending == "html":
+        return html_of(report).encode()
     _load_reportlab()
     from ehlectric.report.pdf import pdf_of
 
@@ -81,9 +79,6 @@ def _load_reportlab() -> None:
     except OSError:
         # The module that the file would have been: reportlab then does not look into the home.
         sys.modules["reportlab_mods"] = ModuleType("reportlab_mods")
-
-
-_CONTENTS: Mapping[str, Callable[[Report], bytes]] = MappingProxyType({"html": _html, "pdf": _pdf})
 
 
 def write_report(result: str | Path, target: str | Path, *further: str | Path) -> list[Path]:
@@ -127,22 +122,22 @@ def write_report(result: str | Path, target: str | Path, *further: str | Path) -
     ['report.html']
     """
     targets = [Path(one) for one in (target, *further)]
-    contents = [_content_for(one) for one in targets]
+    endings = [_ending_of(one) for one in targets]
     from ehlectric.report.build import report_of
 
     report = report_of(result)
-    for path, content in zip(targets, contents, strict=True):
-        write(path, content(report))
+    for path, ending in zip(targets, endings, strict=True):
+        write(path, _content(report, ending))
     return targets
 
 
-def _content_for(target: Path) -> Callable[[Report], bytes]:
-    """Function that makes the content of a file, by its ending; nothing is computed for a wrong target."""
+def _ending_of(target: Path) -> str:
+    """Format of a file by its ending. Raises InputError for a wrong target, before anything is computed."""
     ending = target.suffix.lower().removeprefix(".")
-    if ending not in _CONTENTS:
+    if ending not in FORMATS:
         takes = " or ".join(f".{name}" for name in FORMATS)
         raise InputError(target, f"ends in {shown(target.suffix)}", takes=f"a file that ends in {takes}")
     if not target.parent.is_dir():
         raise InputError(target, "cannot be written to, its folder does not exist")
     refuse_special(target)
-    return _CONTENTS[ending]
+    return ending

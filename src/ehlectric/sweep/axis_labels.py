@@ -12,7 +12,7 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.quantities.formats import Scale, scale_for
 from ehlectric.quantities.inputs import end_and_key
-from ehlectric.quantities.quantity import Keys, key_of
+from ehlectric.quantities.quantity import Bound, Keys, key_of
 from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS, NAMES_OF_ENDS
 
 
@@ -23,6 +23,7 @@ class Label:
     name: str  # name, such as "load per length"; the dotted key itself if it has no name
     symbol: str  # symbol, such as "$w$"; may be empty
     unit: str  # SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known
+    bound: Bound = ""  # sign of the bound that an ideal film makes of a result
 
     def scaled(self, values: Array) -> Scale:
         """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored."""
@@ -40,7 +41,7 @@ def label_of(key: str, case: SweptCase) -> Label:
     result, entry = key_of(result_keys(case), key), input_of(own)
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(own) is None)):
-        return Label(result.label or key, result.symbol, result.unit)
+        return Label(result.label or key, result.symbol, result.unit, result.bound)
     end = NAMES_OF_ENDS.get(end_and_key(own)[0], "")
     if entry is None:
         return Label(key, "", "" if own == key else unit_of(own))

@@ -65,6 +65,11 @@ class Point:
         """
         return self.solved and any(warning.severity == "severe" for warning in self.warnings)
 
+    @property
+    def usable(self) -> Mapping[str, Any]:
+        """Summary of a point that is solved and not ``doubtful``; empty for another one."""
+        return self.summary if self.solved and self.summary and not self.doubtful else {}
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SweepPoints(Values):
@@ -104,6 +109,11 @@ class SweepPoints(Values):
     def varied(self) -> tuple[str, ...]:
         """Dotted keys of the case that vary, in the order of the input."""
         return tuple(self.ranges if self.design == "sobol" else self.axes)
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """Values of the summary of each point by dotted key; empty for a point that is not solved."""
+        return [flat(point.summary) if point.solved and point.summary else {} for point in self.points]
 
     @property
     def doubtful(self) -> Mask:

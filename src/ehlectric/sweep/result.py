@@ -19,6 +19,7 @@ from ehlectric.cases.table import nearest
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
@@ -35,16 +36,6 @@ if TYPE_CHECKING:
 
 # Keys of the summary whose values are texts that may differ between points.
 _TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
-
-# Variables of a point besides its inputs and results, with their attributes in the CF conventions.
-_OWN = {
-    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
-    "status": {"long_name": "what became of the point"},
-    "reason": {"long_name": "why it is not solved"},
-    "warnings": {"long_name": "what to know before using its numbers"},
-    "warning_codes": {"long_name": "codes of the warnings"},
-    "seconds": {"long_name": "time it took", "units": "s"},
-}
 
 
 def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
@@ -72,7 +63,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
     """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
-    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = results.rows
     return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
 
 
@@ -82,7 +73,7 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
     An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
     example is a viscosity that follows from a varied temperature.
     """
-    rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = [{key: value for key, value in row.items() if is_number(value)} for row in results.rows]
     keys = dict.fromkeys(key for row in rows for key in row)
     columns = {key: [row.get(key) for row in rows] for key in keys}
     varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
@@ -91,11 +82,6 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
         for key, values in columns.items()
         if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
     }
-
-
-def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
-    """Numbers of a summary by dotted key."""
-    return {key: value for key, value in flat(summary).items() if is_number(value)}
 
 
 def dataset_of(results: SweepPoints) -> xr.Dataset:
@@ -112,7 +98,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
+    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in SWEEP_COLUMNS.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
@@ -169,7 +155,7 @@ def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
 
 def unit_of_column(results: SweepPoints, key: str) -> str | None:
     """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers."""
-    if key in _OWN:
+    if key in SWEEP_COLUMNS:
         return "s" if key == "seconds" else None
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):
         return None
@@ -225,8 +211,7 @@ class SweepResults(Shown, SweepPoints):
         if key in self.varied:
             return np.array([as_number(point.inputs.get(key)) for point in self.points])
         self._check(key)
-        column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
-        return np.array([as_number(value) for value in column])
+        return np.array([as_number(row.get(key)) for row in self.rows])
 
     @cached_property
     def verdict(self) -> Verdict | None:
@@ -235,8 +220,7 @@ class SweepResults(Shown, SweepPoints):
 
     def _check(self, key: str) -> None:
         """Raise an InputError for a key that no summary has and that is not documented."""
-        rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
-        if any(key in row for row in rows) or key_of(result_keys(self.case), key) is not None:
+        if any(key in row for row in self.rows) or key_of(result_keys(self.case), key) is not None:
             return
         known = list(numbers_of(self)) or list(result_keys(self.case))
         table = key.partition(".")[0] + "."
@@ -351,8 +335,7 @@ def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
 
 def _plain(column: list[Any]) -> list[Any]:
     """Column with values of a single type, as Parquet needs."""
-    texts = any(isinstance(value, str | list | bool) for value in column)
-    if texts:
+    if any(isinstance(value, str | list | bool) for value in column):
         return [None if value is None else cell(value) for value in column]
     if any(isinstance(value, float) for value in column):
         return [None if value is None else float(value) for value in column]

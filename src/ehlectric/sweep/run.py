@@ -149,13 +149,7 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
 
     def tasks() -> Iterator[Task]:
         for key, inputs in store.open_points():
-            table = tables.get(key)
-            yield key, _plain(sweep, inputs) if table is None else table
+            yield key, tables.get(key) or sweep.case.replace(inputs).to_dict()
 
     done(())
     run_points(tasks(), solvers, done)
-
-
-def _plain(sweep: Sweep, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Tables of the case of a point."""
-    return sweep.case.replace(inputs).to_dict()

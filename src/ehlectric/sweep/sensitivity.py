@@ -142,8 +142,9 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
             takes="a value that varies",
         )
     a, b, mixed = pages[0, complete], pages[1, complete], pages[2:, complete]
-    first, total = indices(a, b, mixed)
-    low, high = intervals(a, b, mixed, resamples=resamples, seed=seed)
+    first, total = (found.tolist() for found in indices(a, b, mixed))
+    ends = intervals(a, b, mixed, resamples=resamples, seed=seed)
+    low, high = (found.tolist() for found in ends)
     breakdown = breakdown_of(results.case, value)
     margins = breakdown.margins(results)[: 2 * rows][drawn]
     has_margins = value in breakdown.keys and bool(np.all(np.isfinite(margins)))
@@ -156,13 +157,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
         doubtful=int(np.sum(np.any(results.doubtful.reshape(pages.shape)[:, complete], axis=0))),
         spread=spread_of(samples),
         indices=tuple(
-            Index(
-                key=key,
-                first_order=float(first[k]),
-                first_order_interval=(float(low[0, k]), float(high[0, k])),
-                total=float(total[k]),
-                total_interval=(float(low[1, k]), float(high[1, k])),
-            )
+            Index(key, first[k], (low[0][k], high[0][k]), total[k], (low[1][k], high[1][k]))
             for k, key in enumerate(results.varied)
         ),
         share_below_voltage=float(np.mean(margins < 1.0)) if has_margins else None,

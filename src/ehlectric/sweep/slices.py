@@ -23,7 +23,7 @@ from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.points import Point, Status, as_number, flat
+from ehlectric.sweep.points import Point, Status, as_number
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sweep_inputs import Breakdown, breakdown_of, main_value
 
@@ -401,12 +401,7 @@ def _drawn(points: Sequence[Point]) -> str:
 
 def known_values(results: SweepResults) -> list[str]:
     """Dotted keys of the summaries that have a number at some solved point, in their order."""
-    keys: dict[str, None] = {}
-    for point in results.points:
-        if point.solved:
-            table = flat(point.summary or {})
-            keys |= dict.fromkeys(key for key, value in table.items() if is_number(value))
-    return list(keys)
+    return list(dict.fromkeys(key for row in results.rows for key, value in row.items() if is_number(value)))
 
 
 def numbers_of(results: SweepResults, value: str) -> Array:

@@ -73,6 +73,12 @@ def check_tables(file: sqlite3.Connection) -> None:
         raise UnfitError("its pages do not fit together")
 
 
+def _check(name: str, *, right: bool) -> None:
+    """Raise UnfitError where a part of the file is not as it was written."""
+    if not right:
+        raise UnfitError(f"{name} is not as it was written")
+
+
 def seal_of_row(row: Sequence[Any]) -> int:
     """Checksum of the outcome of a point, the values of its row in the table of results.
 
@@ -103,8 +109,7 @@ def check_results(file: sqlite3.Connection) -> None:
     rows = file.execute("SELECT key, again, date, status, reason, seconds, version, summary FROM results")
     for key, again, date, status, reason, seconds, version, summary in rows:
         name = f"the outcome {str(key)[:12]}"
-        if not (is_text(key) and is_text(date) and again in (0, 1)):
-            raise UnfitError(f"{name} is not as it was written")
+        _check(name, right=is_text(key) and is_text(date) and again in (0, 1))
         table = None if summary is None else _json(summary, name)
         _check_outcome(name, status, reason, seconds, version, table)
 
@@ -117,21 +122,12 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
     rows = file.execute(
         f"SELECT {_COLUMNS_OF_POINTS} FROM points LEFT JOIN results USING (key) ORDER BY number"
     ).fetchall()
-    case = case_of(settings, swept_case_of_dict)
-    axes = {key: tuple(values) for key, values in settings["axes"].items()}
-    ranges = {key: Range(**over) for key, over in settings["ranges"].items()}
-    points = tuple(_points(rows, case))
-    _check_design(settings["design"], axes, ranges, settings["samples"], points)
-    return SweepResults(
-        case=case,
-        design=settings["design"],
-        axes=axes,
-        ranges=ranges,
-        samples=settings["samples"],
-        points=points,
-        seed=settings["seed"],
-        title=settings["title"],
-    )
+    settings["case"] = case = case_of(settings, swept_case_of_dict)
+    settings["axes"] = {key: tuple(values) for key, values in settings["axes"].items()}
+    settings["ranges"] = {key: Range(**over) for key, over in settings["ranges"].items()}
+    results = SweepResults(points=tuple(_points(rows, case)), **settings)
+    _check_design(results)
+    return results
 
 
 _is_count = partial(is_number, values="whole")
@@ -185,36 +181,31 @@ def _settings(rows: Sequence[tuple[Any, Any]]) -> dict[str, Any]:
         if name not in texts:
             raise UnfitError(f"the setting {name} is missing")
         settings[name] = _json(texts[name], f"the setting {name}")
-        if not right(settings[name]):
-            raise UnfitError(f"the setting {name} is not as it was written")
+        _check(f"the setting {name}", right=right(settings[name]))
     return settings
 
 
-def _check_design(
-    design: str,
-    axes: Mapping[str, tuple[Any, ...]],
-    ranges: Mapping[str, Range],
-    samples: int,
-    points: Sequence[Point],
-) -> None:
+def _check_design(results: SweepResults) -> None:
     """Check that the points are those of the design.
 
     Those of a Sobol design are not computed again, as other versions may draw others.
     """
-    sobol = design == "sobol"
+    axes, ranges, points = results.axes, results.ranges, results.points
+    sobol = results.design == "sobol"
     if not (ranges if sobol else axes) or (axes if sobol else ranges):
         raise UnfitError("axes and ranges do not belong to the design")
     if [point.number for point in points] != list(range(len(points))):
         raise UnfitError("the numbers of its points have gaps")
     if not sobol:
-        if design == "paired" and len({len(axis) for axis in axes.values()}) > 1:
+        if results.design == "paired" and len({len(axis) for axis in axes.values()}) > 1:
             raise UnfitError("the setting axes has lists of different lengths")
-        expected = (sweep_design.grid if design == "grid" else sweep_design.paired)(axes)
-        for planned, point in zip_longest(expected, points):
-            if planned is None or point is None or planned != point.inputs:
-                raise UnfitError("its points are not those of the design")
+        planned = (sweep_design.grid if results.design == "grid" else sweep_design.paired)(axes)
+        # A grid may have far more points than the file: no list of them is made.
+        pairs = zip_longest(planned, (point.inputs for point in points))
+        if any(wanted != found for wanted, found in pairs):
+            raise UnfitError("its points are not those of the design")
         return
-    if samples < 1 or len(points) != samples * (len(ranges) + 2):
+    if results.samples < 1 or len(points) != results.samples * (len(ranges) + 2):
         raise UnfitError(f"it has {len(points)} points, which its design has not")
     within = dict.fromkeys(ranges, is_number)
     for point in points:
@@ -228,8 +219,7 @@ def _points(rows: Sequence[tuple[Any, ...]], case: SweptCase) -> Iterator[Point]
         rows, _parsed(rows), strict=True
     ):
         name = f"point {number}"
-        if not (is_text(refused) and isinstance(inputs, dict)):
-            raise UnfitError(f"{name} is not as it was written")
+        _check(name, right=is_text(refused) and isinstance(inputs, dict))
         if refused or status is None:
             yield Point(number, inputs, "failed" if refused else "open", refused)
             continue
@@ -274,13 +264,12 @@ def _check_outcome(name: str, status: Any, reason: Any, seconds: Any, version: A
     """Check the outcome of a point that was tried."""
     if status not in get_args(Status) or status == "open":
         raise UnfitError(f"the status of {name} is none of a point")
-    if not (is_text(reason) and is_text(version) and is_number(seconds, "not negative")):
-        raise UnfitError(f"{name} is not as it was written")
-    if summary is None:
-        if status != "failed":
-            raise UnfitError(f"the summary of {name} is missing")
-    elif not (isinstance(summary, dict) and _is_summary(summary) and _has_warnings(summary)):
-        raise UnfitError(f"the summary of {name} is not as it was written")
+    _check(name, right=is_text(reason) and is_text(version) and is_number(seconds, "not negative"))
+    if summary is not None:
+        usable = isinstance(summary, dict) and _is_summary(summary) and _has_warnings(summary)
+        _check(f"the summary of {name}", right=usable)
+    elif status != "failed":
+        raise UnfitError(f"the summary of {name} is missing")
 
 
 def _is_summary(value: Any, levels: int = _DEEPEST) -> bool:
@@ -313,19 +302,12 @@ _VERSION = 1
 # Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
 _FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
 # Error codes of SQLite that say nothing of the content of a file, but that it is locked, or of its disk.
-_UNUSABLE = (
-    sqlite3.SQLITE_PERM,
-    sqlite3.SQLITE_ABORT,
-    sqlite3.SQLITE_BUSY,
-    sqlite3.SQLITE_LOCKED,
-    sqlite3.SQLITE_READONLY,
-    sqlite3.SQLITE_INTERRUPT,
-    sqlite3.SQLITE_IOERR,
-    sqlite3.SQLITE_FULL,
-    sqlite3.SQLITE_CANTOPEN,
-    sqlite3.SQLITE_PROTOCOL,
-    sqlite3.SQLITE_AUTH,
-    sqlite3.SQLITE_NOLFS,
+_UNUSABLE = tuple(
+    getattr(sqlite3, f"SQLITE_{name}")
+    for name in (
+        *("PERM", "ABORT", "BUSY", "LOCKED", "READONLY", "INTERRUPT"),
+        *("IOERR", "FULL", "CANTOPEN", "PROTOCOL", "AUTH", "NOLFS"),
+    )
 )
 
 # Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory

@@ -29,17 +29,11 @@ from ehlectric.cases.drive_case import (
 from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number_of
 from ehlectric.cases.table import Table, Title, nearest, nearest_key, parser_of, read_toml
 from ehlectric.errors import InputError, printable, short, shown, within
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
+from ehlectric.quantities.sheets import BREAKDOWNS
 from ehlectric.runtime.values import Tabled, headline
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
-
-# Keys of a bearing file that a key of a drive replaces at both ends.
-_REPLACED = {
-    "bearing.inner_speed": "drive.speed",
-    "bearing.temperature": "drive.temperature",
-    "contacts": "drive.contacts",
-}
 
 # Keys of a bearing file that no sweep varies: they are not a part of the bearing.
 _NOT_VARIED = ("title", "ranges")
@@ -73,7 +67,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     input_field(key)
     if end and own.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
-    above = _REPLACED.get(own) if end else None
+    above = REPLACED.get(own) if end else None
     if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
     both = f"{BOTH}.{own}"
@@ -86,7 +80,7 @@ def _nearest(key: str) -> str:
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
     of_bearing = nearest_key(key, BearingCase)
-    return _REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
+    return REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
 
 
 @dataclass(frozen=True)
@@ -124,21 +118,7 @@ class Breakdown:
         return np.where(np.isfinite(margin), margin, ratio)
 
 
-CONTACT = Breakdown("discharge.breakdown_voltage", "discharge.margin", "field.voltage")
-FIRST_BREAK = Breakdown(
-    "bearing.first_break",
-    "bearing.margin",
-    "bearing.shaft_voltage",
-    "first breakdown",
-    "shaft voltage",
-)
-THROUGH = Breakdown(
-    "bearing.through_breakdown",
-    "bearing.through_margin",
-    "bearing.shaft_voltage",
-    "ring-to-ring breakdown",
-    "shaft voltage",
-)
+CONTACT, FIRST_BREAK, THROUGH = (Breakdown(**BREAKDOWNS[name]) for name in ("contact", "first", "through"))
 
 # With a coating on a ring, the breakdown voltages beside the shaft voltage are those of the shaft.
 _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
@@ -519,11 +499,15 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
     field = input_field(key)
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    if isinstance(value, Mapping):
-        return _range(key, value, number_of(field), design, written=written)
     if isinstance(value, Range):
-        value = {"from": value.start, "to": value.stop, "spacing": value.spacing}
-        return _range(key, value, number_of(field), design)
+        value, written = {"from": value.start, "to": value.stop, "spacing": value.spacing}, False
+    if isinstance(value, Mapping):
+        number = number_of(field)
+        unknown = [str(name) for name in value if number is not None and name not in _RANGE_KEYS]
+        if unknown:
+            raise InputError.unknown(f"{key}.{unknown[0]}", f"{key}.{nearest(unknown[0], _RANGE_KEYS)}")
+        with within(key):
+            return _range(value, number, design, written=written)
     if design == "sobol":
         raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
@@ -547,53 +531,45 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool)
 
 
 def _range(
-    key: str, table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool = False
+    table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool
 ) -> tuple[Any, ...] | Range:
     """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
-        raise InputError(key, got="a range", takes="a list of values, because the key is not a number")
-    for name in table:
-        if name not in _RANGE_KEYS:
-            near = nearest(str(name), _RANGE_KEYS)
-            raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
-    over = _over(key, table, number, written=written)
+        raise InputError(got="a range", takes="a list of values, because the key is not a number")
+    over = _over(table, number, written=written)
     if design == "sobol":
         if "count" in table:
-            raise InputError.worded(
-                f"{key}.count", "is not used by a sobol design; samples gives the number for all keys"
-            )
+            text = "is not used by a sobol design; samples gives the number for all keys"
+            raise InputError.worded("count", text)
         return over
     count = table.get("count")
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
         got = None if count is None else shown(count)
-        raise InputError(
-            f"{key}.count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}"
-        )
+        raise InputError("count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}")
     values = between(over, np.linspace(0.0, 1.0, count))
     if isinstance(number, Amount):
         return tuple(values.tolist())
     rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
     if design == "grid" and len(set(rounded)) < count:
-        raise InputError(
-            f"{key}.count", got=count, takes=f"at most the whole numbers from {over.start:g} to {over.stop:g}"
-        )
+        takes = f"at most the whole numbers from {over.start:g} to {over.stop:g}"
+        raise InputError("count", got=count, takes=takes)
     return rounded
 
 
-def _over(key: str, table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
+def _over(table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
     """Range of a varied key: its ends in SI units, and its spacing."""
     ends = []
     for name in ("from", "to"):
         if name not in table:
-            raise InputError.missing(f"{key}.{name}", number.takes)
-        with within(f"{key}.{name}"):
+            raise InputError.missing(name, number.takes)
+        with within(name):
             ends.append(number.parse(table[name], written=written))
     start, stop = ends
     spacing = table.get("spacing", "linear")
     if spacing not in _SPACINGS:
-        raise InputError(f"{key}.spacing", got=shown(spacing), takes="'linear' or 'log'")
+        raise InputError("spacing", got=shown(spacing), takes="'linear' or 'log'")
     if not start < stop:
-        raise InputError(f"{key}.to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
+        raise InputError("to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
     if spacing == "log" and start <= 0.0:
-        raise InputError(f"{key}.from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
+        raise InputError("from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
     return Range(start, stop, spacing)

@@ -62,7 +62,8 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         *_crossings(results, usable, word),
     ]
     if missing:
-        sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
+        have = "point has" if missing == 1 else "points have"
+        sentences.append(f"{missing} more {have} no margin, {_why(results, usable)}.")
     touching = sum(
         math.isfinite(margin) and any(one.code == "asperities-touch" for one in point.warnings)
         for point, margin in zip(results.points, usable, strict=True)
@@ -85,18 +86,14 @@ def _without_voltages(results: SweepPoints) -> Verdict | None:
     if not count:
         return None
     sure = all(point.solved and not point.doubtful for point in results.points)
-    everywhere = sure and count == len(states) and _driven(results)
+    # With a motor, its common-mode voltage lies on the shaft.
+    driven = isinstance(results.case, BearingCase) and results.case.motor is not None
+    everywhere = sure and count == len(states) and driven
     return Verdict(
         "red" if everywhere else "yellow",
         f"Discharges likely: at {count} of {len(states)} points surfaces touch (lambda ratio below 1), and "
         "contacts discharge at a low voltage as they open; no voltage is computed for that.",
     )
-
-
-def _driven(results: SweepPoints) -> bool:
-    """Whether all points have a motor, whose common-mode voltage lies on the shaft."""
-    case = results.case
-    return isinstance(case, BearingCase) and case.motor is not None
 
 
 def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
@@ -145,39 +142,28 @@ def _strength_varies(results: SweepPoints) -> bool:
 
 def _assumptions(results: SweepPoints) -> Iterator[str]:
     """Sentence about the assumptions behind the margins, which drives have not."""
-    if isinstance(results.case, DriveCase):
+    case = results.case
+    if isinstance(case, DriveCase) or case.discharge is None or not case.discharge.has_strength:
         return
-    bound = ""
-    factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
-    if not isinstance(results.case, BearingCase):
-        supplied = results.case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
-        heated = results.case.film is not None and results.case.film.thermal
-        cold = "" if heated and "film.thermal" not in results.varied else "isothermal"
-        kinds = [kind for kind in (cold, "" if supplied else "fully flooded") if kind]
-        bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
+    if isinstance(case, BearingCase):
+        factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
+        kinds = ["isothermal", "fully flooded", "smooth"] if factors & {1.0} else ["smooth"]
     else:
-        heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
-        bound = f"Upper bound: {heat}; "
-    discharge = results.case.discharge
-    if discharge is None or not discharge.has_strength:
-        return
-    if _strength_varies(results):
-        clause = "the dielectric strength is an assumption"
-    else:
-        clause = assumption_of(discharge)
-    text = f"{bound}{clause}."
+        supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
+        heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied
+        kinds = ["isothermal"] * (not heated) + ["fully flooded"] * (not supplied)
+    bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
+    varies = _strength_varies(results)
+    text = (
+        f"{bound}{'the dielectric strength is an assumption' if varies else assumption_of(case.discharge)}."
+    )
     yield text[0].upper() + text[1:]
-
-
-def _have(count: int) -> str:
-    return "point has" if count == 1 else "points have"
 
 
 def _margins(results: SweepPoints) -> Array:
     """Margin at every point; NaN where a point has none or its film must not be used."""
     table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
-    used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
-    values = [value_at(summary, f"{table}.margin") for summary in used]
+    values = [value_at(point.usable, f"{table}.margin") for point in results.points]
     return np.array([math.nan if value is None else float(value) for value in values])
 
 

@@ -15,28 +15,24 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
-from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
-from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, FILM_COLUMNS, LOAD_COLUMNS
+from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, shown_unit, value_at
+from ehlectric.quantities.sheets import (
+    BEARING,
+    BEARING_CHECK,
+    BEARING_ONLY,
+    FILM_COLUMNS,
+    LOAD_COLUMNS,
+    VALUES,
+)
 from ehlectric.quantities.units import rpm_text
-from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-# What a lambda ratio below 1 means, by the state of lubrication.
-_TOUCH = {
-    "conducting": ", surfaces touch (no voltage computed)",
-    "touching": ", surfaces touch",
-}
 
-# Heat of a film factor in words.
-_HEAT: Mapping[object, str] = {
-    "inlet-shear": "heating by shear in the inlet",
-    "solved": "solved heat in the film, in pure rolling",
-}
-
-# Laws of the share of time of a contact, in words.
-_LAWS = {"clarke": "Clarke's fit over lambda", "greenwood_williamson": "the number of spots"}
+# Heat of a film factor, laws of the share of time of a contact, and what a lambda ratio below 1 means.
+_HEAT, _LAWS, _TOUCH = (VALUES[name] for name in ("heat", "contact_model", "touching"))
 
 
 def total_rows(summary: Summary) -> list[Row]:
@@ -57,12 +53,6 @@ def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
 def input_rows(summary: Summary) -> Iterator[Row]:
     """Rows of the inputs that decide about breakdown."""
     return sheet_rows(BEARING[:1], BEARING_BOOK, summary, _WORDS)
-
-
-def status_rows(summary: Summary) -> Iterator[Row]:
-    """Row that warns of films that are not converged."""
-    if not summary["converged"]:
-        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
 
 
 def loads_table(summary: Summary) -> Table:
@@ -128,77 +118,18 @@ def _coated(summary: Summary) -> bool:
     return value_at(summary, "bearing.coating_capacitance") is not None
 
 
-def _same_temperature(ring: str) -> Callable[[Summary], bool]:
-    """Whether a ring has the temperature of the oil."""
-    key = f"{ring}_temperature"
-    return lambda s: s["lubricant"].get(key, s["lubricant"]["temperature"]) == s["lubricant"]["temperature"]
+def _ring_temperature(ring: str) -> Callable[[Summary], bool]:
+    """Whether a ring has another temperature than the oil."""
+    return lambda s: s["lubricant"].get(f"{ring}_temperature", _oil(s)) != _oil(s)
+
+
+def _oil(summary: Summary) -> Any:
+    """Temperature of the oil [K]."""
+    return summary["lubricant"]["temperature"]
 
 
 def _state(summary: Summary) -> Any:
     return value_at(summary, "bearing.lubrication")
-
-
-# Keys that are not shown where a condition holds, although a summary has values. Shares of time below a
-# hundredth of a per cent have no rows beside the regime.
-_HIDDEN: tuple[tuple[Callable[[Summary], bool], tuple[str, ...]], ...] = (
-    *(
-        (lambda s, load=f"{name}_load": not _bearing(s)[load], (f"inputs.bearing.{name}_load",))
-        for name in ("radial", "axial")
-    ),
-    *(
-        (_same_temperature(ring), (f"lubricant.{ring}_temperature", f"lubricant.{ring}_viscosity"))
-        for ring in ("inner", "outer")
-    ),
-    (lambda s: not _of_temperature(s), ("lubricant.inner_viscosity", "lubricant.outer_viscosity")),
-    (lambda s: value_at(s, "bearing.unmounted_clearance") is None, ("bearing.running_clearance",)),
-    (
-        lambda s: _supply(s) == "flooded",
-        ("bearing.heat_factor", "bearing.supply_factor", "bearing.film_half_time"),
-    ),
-    (
-        lambda s: _bearing(s)["film_factor"] != "solved",
-        ("bearing.heat_factor", "bearing.inlet_shear_factor"),
-    ),
-    (lambda s: value_at(s, "bearing.contacts") == "solved", ("bearing.film_error",)),
-    (
-        lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) < SELDOM,
-        (
-            *("bearing.inner_contact_time_share", "bearing.outer_contact_time_share"),
-            *("bearing.clarke_time_share", "bearing.insulating_time_share", "bearing.asperity_share_range"),
-        ),
-    ),
-    (lambda s: value_at(s, "bearing.contact_model") == "clarke", ("bearing.clarke_time_share",)),
-    (
-        lambda s: not (value_at(s, "bearing.parallel_capacitance") or _coated(s)),
-        ("bearing.shaft_capacitance",),
-    ),
-    (
-        lambda s: not _coated(s),
-        (
-            *("bearing.film_voltage", "bearing.shaft_first_break", "bearing.shaft_through_breakdown"),
-            "bearing.film_time_constant",
-        ),
-    ),
-    (lambda s: _state(s) != "partial film", ("bearing.lubrication",)),
-    (
-        lambda s: value_at(s, "bearing.margin") is None,
-        (
-            *("margin.range", "margin.critical_speed", "margin.upper_critical_speed"),
-            *("margin.touching_speed", "margin.effects", "margin.left_out"),
-        ),
-    ),
-    (
-        lambda s: value_at(s, "bearing.shaft_time_constant") is None,
-        (
-            *("bearing.relaxation_time", "bearing.shaft_voltage_after_rise"),
-            "bearing.shaft_voltage_after_period",
-        ),
-    ),
-)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    return frozenset(key for holds, keys in _HIDDEN if holds(summary) for key in keys)
 
 
 def _alpha_star(summary: Summary) -> str:
@@ -206,29 +137,20 @@ def _alpha_star(summary: Summary) -> str:
     return f", reciprocal asymptotic; α = {ambient:.4g} 1/GPa at ambient pressure"
 
 
-def _strength(summary: Summary) -> Any:
-    """Dielectric strength, the scale of its Weibull law, or its range; that it is not given."""
+def _strength(summary: Summary) -> Noted:
+    """Dielectric strength, the scale of its Weibull law, or its range, with its note."""
     discharge = summary["inputs"].get("discharge", {})
     if "dielectric_strength" in discharge:
-        return discharge["dielectric_strength"]
+        return Noted(discharge["dielectric_strength"], ", as assumed")
     if "weibull" in discharge:
-        return discharge["weibull"]["scale"]
+        weibull = discharge["weibull"]
+        return Noted(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")
     if "strength_table" in discharge:
-        strengths = discharge["strength_table"]["strength"]
-        return " to ".join(f"{end / 1e6:.4g}" for end in (min(strengths), max(strengths))), "V/µm"
-    return "not given"
-
-
-def _strength_note(summary: Summary) -> str:
-    discharge = summary["inputs"].get("discharge", {})
-    if "dielectric_strength" in discharge:
-        return ", as assumed"
-    if "weibull" in discharge:
-        return f", Weibull scale, shape {discharge['weibull']['shape']:g}"
-    if "strength_table" in discharge:
-        over = "pressure" if "pressure" in discharge["strength_table"] else "temperature"
-        return f", table over {over}"
-    return ", no breakdown voltage is computed"
+        table = discharge["strength_table"]
+        ends = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
+        over = "pressure" if "pressure" in table else "temperature"
+        return Noted((" to ".join(ends), "V/µm"), f", table over {over}")
+    return Noted("not given", ", no breakdown voltage is computed")
 
 
 def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Callable[[Summary], Any]:
@@ -257,7 +179,7 @@ def film_factor_note(summary: Summary) -> str:
         return "(isothermal, fully flooded)"
     factor = _bearing(summary)["film_factor"]
     if supply == "flooded":
-        return f"({_HEAT.get(factor, 'given')})"
+        return f"({VALUES['heat'].get(factor, 'given')})"
     other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
     return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
 
@@ -322,44 +244,30 @@ def _searched(summary: Summary) -> bool:
     return not crossed and lowest is not None and highest is not None and bool(lowest < highest)
 
 
-def _critical_speed(summary: Summary) -> Any:
+def _critical_speed(summary: Summary) -> Noted:
     """Critical speed, or the end of the searched speeds beyond which it lies."""
     if not _searched(summary):
-        return _speed("critical_speed")(summary)
-    found, broken = summary["margin"], summary["bearing"]["margin"] < 1.0
-    end = found["highest_speed" if broken else "lowest_speed"]
-    return f"{'above' if broken else 'below'} {rpm_text(end)}", "rpm"
+        return Noted(_speed("critical_speed")(summary), ", breakdown below")
+    low, high = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
+    beyond = f"above {high}" if summary["bearing"]["margin"] < 1.0 else f"below {low}"
+    return Noted((beyond, "rpm"), f", none from {low} to {high} rpm")
 
 
-def _critical_note(summary: Summary) -> str:
-    if not _searched(summary):
-        return ", breakdown below"
-    ends = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
-    return f", none from {' to '.join(ends)} rpm"
-
-
-def _parallel(summary: Summary) -> Any:
+def _parallel(summary: Summary) -> Noted:
+    """Capacitance next to the bearing, or that it is not given and taken as 0."""
     found = value_at(summary, "bearing.parallel_capacitance")
-    return found if found or found is None or "parallel_capacitance" in _bearing(summary) else "not given"
+    if found or found is None or "parallel_capacitance" in _bearing(summary):
+        return Noted(found, ", cage, shields and wiring")
+    return Noted("not given", ", taken as 0 (cage, shields and wiring)")
 
 
-def _parallel_note(summary: Summary) -> str:
-    given = _parallel(summary) != "not given"
-    return ", cage, shields and wiring" if given else ", taken as 0 (cage, shields and wiring)"
-
-
-def _meter(summary: Summary) -> Any:
+def _meter(summary: Summary) -> Noted:
     """Capacitance that a meter reads; that it is not computed where asperities touch."""
-    found = value_at(summary, "bearing.meter_capacitance")
-    touching = _state(summary) in ("conducting", "partial film")
-    return "not computed" if found is None and touching else found
-
-
-def _meter_note(summary: Summary) -> str:
     totals = summary["bearing"]
-    if totals["meter_capacitance"] is None:
-        return ", asperities touch"
-    return "" if totals["roughness_factor"] is None else ", rough films"
+    if totals.get("meter_capacitance") is None:
+        touching = _state(summary) in ("conducting", "partial film")
+        return Noted("not computed" if touching else None, ", asperities touch")
+    return Noted(totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films")
 
 
 def _shaft_note(summary: Summary) -> str:
@@ -367,15 +275,14 @@ def _shaft_note(summary: Summary) -> str:
     return f", by the capacitive divider{'; upper bound: the oil discharges it' if leaks else ''}"
 
 
-def _first_break(summary: Summary) -> Any:
+def _first_break(summary: Summary) -> Noted:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
-    return "not computed" if _state(summary) == "conducting" else value_at(summary, "bearing.first_break")
-
-
-def _first_break_note(summary: Summary) -> str:
     if _state(summary) == "conducting":
-        return ", lambda below 1: contacts open and close and discharge at a low voltage"
-    return f", {summary['bearing']['first_break_at']}; {bearing_bound_words(summary)}"
+        return Noted(
+            "not computed", ", lambda below 1: contacts open and close and discharge at a low voltage"
+        )
+    found = summary["bearing"]
+    return Noted(found["first_break"], f", {found['first_break_at']}; {bearing_bound_words(summary)}")
 
 
 def _period(summary: Summary) -> str:
@@ -451,13 +358,10 @@ _WORDS = Words(
         "bearing.running_clearance": lambda s: (
             ", a preload" if s["bearing"]["running_clearance"] < 0.0 else ""
         ),
-        "inputs.discharge.dielectric_strength": _strength_note,
         "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
         "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
-        "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), f", {_state(s)}"),
+        "bearing.lambda_ratio": lambda s: f", {_TOUCH.get(_state(s), _state(s))}",
         "bearing.film_factor": film_factor_note,
-        "bearing.heat_factor": lambda _: "(solved)",
-        "bearing.inlet_shear_factor": lambda _: "(Wilson and Sheu)",
         "bearing.supply_factor": _supply_note,
         "bearing.rolling_power_loss": _rolling_note,
         "bearing.inner_contact_power_loss": _rolling_coefficient("inner"),
@@ -465,31 +369,15 @@ _WORDS = Words(
         "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
         "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
         "bearing.regime": _regime_note,
-        "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
-        "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
-        "bearing.asperity_share_range": lambda _: ", by the published laws",
-        "margin.capacitive_speed": lambda _: ", at this temperature",
-        "bearing.parallel_capacitance": _parallel_note,
-        "bearing.shaft_capacitance": lambda _: ", smooth films",
-        "bearing.meter_capacitance": _meter_note,
-        "bearing.bearing_voltage_ratio": lambda _: ", shaft / common-mode",
-        "bearing.shaft_voltage": _shaft_note,
-        "bearing.through_breakdown_mean": lambda _: ", of all cage positions",
-        "bearing.first_break_mean": lambda _: ", of all cage positions",
-        "bearing.first_break": _first_break_note,
-        "bearing.coating_share": lambda _: ", at high frequency",
-        "bearing.lubrication": lambda _: (
-            ", lambda below 3: discharges at a lower voltage as contacts open are not computed"
+        "bearing.inner_contact_time_share": lambda s: (
+            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
         ),
-        "bearing.margin": lambda _: ", breakdown below 1",
-        "bearing.breakdown_probability": lambda _: ", while the films insulate",
-        "margin.critical_speed": _critical_note,
-        "margin.upper_critical_speed": lambda _: ", breakdown above",
-        "margin.touching_speed": lambda _: ", contacts open and close, discharges are likely",
+        "bearing.outer_contact_time_share": lambda s: (
+            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
+        ),
+        "bearing.shaft_voltage": _shaft_note,
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,
-        "bearing.discharge_energy": lambda _: ", all that is connected to the shaft",
-        "bearing.pit_diameter": lambda _: ", hemisphere of the melted volume",
         "bearing.current_density": _limits,
     },
     values={
@@ -527,5 +415,23 @@ _WORDS = Words(
         "bearing.current_density": _over_limits,
     },
     rows={"margin.effects": _effects, "margin.left_out": _left_out},
-    hidden=_hidden,
+    holds={
+        "radial load": lambda s: bool(_bearing(s)["radial_load"]),
+        "axial load": lambda s: bool(_bearing(s)["axial_load"]),
+        "inner ring of another temperature": _ring_temperature("inner"),
+        "outer ring of another temperature": _ring_temperature("outer"),
+        "viscosity over temperature": _of_temperature,
+        "mounted": lambda s: value_at(s, "bearing.unmounted_clearance") is not None,
+        "starved": lambda s: bool(_supply(s) != "flooded"),
+        "solved heat": lambda s: bool(_bearing(s)["film_factor"] == "solved"),
+        "quick contacts": lambda s: value_at(s, "bearing.contacts") != "solved",
+        "touching": lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) >= SELDOM,
+        "law other than Clarke's": lambda s: value_at(s, "bearing.contact_model") != "clarke",
+        "further capacitance": lambda s: bool(value_at(s, "bearing.parallel_capacitance")) or _coated(s),
+        "coated": _coated,
+        "partial film": lambda s: bool(_state(s) == "partial film"),
+        "margin": lambda s: value_at(s, "bearing.margin") is not None,
+        "leakage": lambda s: value_at(s, "bearing.shaft_time_constant") is not None,
+    },
+    only=BEARING_ONLY,
 )

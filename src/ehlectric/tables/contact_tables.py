@@ -21,22 +21,15 @@ from ehlectric.film.film_error import UNRESOLVED
 from ehlectric.quantities.formats import amount, formatted, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
-from ehlectric.quantities.sheets import CHECK, CONTACT
+from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
+from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY, VALUES
+from ehlectric.tables.measured_tables import status_rows
 
 # Relative error of the field up to which the table does not repeat it for the breakdown voltage.
 _SMALL = 0.002
 
 # Error of the oil balance below which it is not stated.
 _LEAST_ERROR = 1e-4
-
-# Names of the laws between shear stress and shear rate.
-RHEOLOGIES = {
-    "newtonian": "Newtonian",
-    "eyring": "Ree-Eyring",
-    "carreau": "Carreau",
-    "limiting": "limiting shear stress",
-}
 
 
 def case_rows(case: Case, summary: Summary) -> list[Row]:
@@ -63,13 +56,7 @@ def result_rows(result: Result | PointResult) -> list[Row]:
     summary = result.summary()
     book = CONTACT_BOOK[result.conditions.geometry]
     rows = sheet_rows(CONTACT, book, summary, _WORDS | _of_arrays(result), contact_bounds(book, summary))
-    return [*_status(summary), *rows]
-
-
-def _status(summary: Summary) -> Iterator[Row]:
-    """Row that warns of a film that is not converged."""
-    if not summary["converged"]:
-        yield Row("NOT CONVERGED", note=f"{summary['status']}: do not use these numbers", alarm=True)
+    return [*status_rows(summary), *rows]
 
 
 def _of_arrays(result: Result | PointResult) -> Words:
@@ -100,34 +87,6 @@ def _geometry(summary: Summary) -> str:
 
 def _touches(summary: Summary) -> bool:
     return bool(value_at(summary, "asperities.spots"))
-
-
-# Of a film whose surfaces touch, not shown: what would be the breakdown of the boundary film, and errors of a
-# field that its thickness gives.
-_OF_FLOATING = frozenset(
-    f"{table}.{name}"
-    for table, names in (
-        ("field", ("max_strength_error", "max_dimensionless", "thin_gap_error")),
-        ("discharge", ("zone_position", "zone_size", "breakdown_energy", "dielectric_strength", "margin")),
-        ("discharge", ("breakdown_voltage", "breakdown_field_error", "breakdown_range", "probability")),
-    )
-    for name in names
-)
-
-# Not shown where the surfaces do not touch.
-_OF_SPOTS = frozenset(key for section in CONTACT for key in section.keys if key.startswith("asperities."))
-
-# Not shown where no film is left around the spots.
-_AROUND_SPOTS = frozenset(
-    f"asperities.{name}"
-    for name in ("mean_film", "rq_deformed", "lambda_undeformed", "lambda_deformed", "boundary_friction")
-)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    if not _touches(summary):
-        return _OF_SPOTS
-    return _OF_FLOATING | (_AROUND_SPOTS if summary["asperities"]["film_5"] is None else frozenset())
 
 
 def _axis_ratio(summary: Summary) -> float | None:
@@ -203,18 +162,6 @@ def _iterations(summary: Summary) -> str:
     return f"after {film['newton_iterations']} {'V-cycles' if film['solver'] == 'paper' else 'Newton steps'}"
 
 
-def _known(key: str, *, only: str) -> Callable[[Summary], Any]:
-    """Value of a key, or "unknown" where it is null, of a table ``film`` that has a key of this name."""
-
-    def value(summary: Summary) -> Any:
-        if value_at(summary, "film") is None or only not in summary["film"]:
-            return None
-        found = value_at(summary, key)
-        return "unknown" if found is None else found
-
-    return value
-
-
 def _meniscus(summary: Summary) -> str | None:
     """Where oil fills the gap; None without a supply of oil."""
     film = summary["film"]
@@ -237,16 +184,6 @@ def _change(name: str) -> Callable[[Summary], str]:
         return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"
 
     return note
-
-
-def _solved_heat(key: str) -> Callable[[Summary], Any]:
-    """Value of a film with heat or shear, or that it did not converge; None of another film."""
-
-    def value(summary: Summary) -> Any:
-        found = value_at(summary, key)
-        return "not converged" if found is None and "rheology" in summary["film"] else found
-
-    return value
 
 
 def _constants(case: object) -> str:
@@ -278,20 +215,16 @@ def _temperature_error(summary: Summary) -> str:
     return "" if error is None else f", error {error:.1g} K"
 
 
-def _load_share(summary: Summary) -> tuple[str, str] | None:
-    """Load share with no more digits than its change from a coarser grid leaves."""
-    found = summary.get("asperities")
-    return found and (share_text(found["load_share"], found["load_share_coarser"]), "%")
-
-
-def _coarser_share(summary: Summary) -> str:
+def _load_share(summary: Summary) -> Noted:
+    """Load share with no more digits than its change from a coarser grid leaves, and this change."""
     found = summary["asperities"]
-    before = found["load_share_coarser"]
-    if before is None:
-        return ", not known on a coarser grid"
-    error = formatted(100.0 * abs(found["load_share"] - before), ".2g")
-    half = share_text(before, found["load_share"])
-    return f", ± {error} percentage points by the grid: {half} % on half the nodes"
+    share, before = found["load_share"], found["load_share_coarser"]
+    note = ", not known on a coarser grid"
+    if before is not None:
+        error = formatted(100.0 * abs(share - before), ".2g")
+        half = share_text(before, share)
+        note = f", ± {error} percentage points by the grid: {half} % on half the nodes"
+    return Noted((share_text(share, before), "%"), note)
 
 
 def _area_error(summary: Summary) -> str:
@@ -302,10 +235,11 @@ def _area_error(summary: Summary) -> str:
     return f", of the Hertz {part}{within}"
 
 
-def _spots(summary: Summary) -> str:
-    single = summary["asperities"]["spots_of_one_node"]
+def _spots(summary: Summary) -> Noted:
+    found = summary["asperities"]
     strips = ", strips along the contact" if _geometry(summary) == "line" else ""
-    return strips + (f", {single} of a single node" if single else "")
+    single = f", {found['spots_of_one_node']} of a single node" if found["spots_of_one_node"] else ""
+    return Noted(str(found["spots"]), strips + single)
 
 
 def _oil_error(summary: Summary) -> Any:
@@ -313,14 +247,6 @@ def _oil_error(summary: Summary) -> Any:
     if error is None or error >= _LEAST_ERROR:
         return error
     return f"< {100.0 * _LEAST_ERROR:g}", "%"
-
-
-def _resistance(summary: Summary) -> Any:
-    """Resistance of the spots; that it is not known where an input for it is missing."""
-    if not _touches(summary):
-        return None
-    found = summary["asperities"]["resistance"]
-    return "not known" if found is None else found
 
 
 def _resistance_note(summary: Summary) -> str:
@@ -346,21 +272,14 @@ def _field_place(summary: Summary) -> str:
     return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
 
 
-def _strength(summary: Summary) -> Any:
-    """Dielectric strength; that it is not given where there is no law."""
+def _strength(summary: Summary) -> Noted | None:
+    """Dielectric strength and its law; that it is not given where there is no law."""
     found = summary.get("discharge")
     if found is None:
         return None
-    return "not given" if found["strength_law"] is None else found["dielectric_strength"]
-
-
-def _strength_note(summary: Summary) -> str:
-    found = summary["discharge"]
-    return (
-        ", no breakdown voltage is computed"
-        if found["strength_law"] is None
-        else f", {found['strength_law']}"
-    )
+    if found["strength_law"] is None:
+        return Noted("not given", ", no breakdown voltage is computed")
+    return Noted(found["dielectric_strength"], f", {found['strength_law']}")
 
 
 def _breakdown_note(summary: Summary) -> str:
@@ -383,11 +302,6 @@ def _breakdown_range(summary: Summary) -> Any:
 def _probability(summary: Summary) -> Any:
     weibull = value_at(summary, "discharge.strength_law") == "weibull"
     return summary["discharge"]["probability"] if weibull else None
-
-
-def _breaks_down(summary: Summary) -> bool:
-    margin = value_at(summary, "discharge.margin")
-    return margin is not None and margin < 1.0
 
 
 def _zone_place(summary: Summary) -> str | None:
@@ -459,16 +373,16 @@ def _beside(summary: Summary, key: str, value: float) -> str:
 
 
 def _formula_error(summary: Summary) -> Any:
-    return "none: surfaces touch" if _touches(summary) else ("up to 40", "%")
+    if _touches(summary):
+        return Noted("none: surfaces touch", ", formulas are of smooth ones")
+    return "up to 40", "%"
 
 
 _WORDS = Words(
     notes={
         "inputs.contact.slide_to_roll_ratio": _speeds,
         "lubricant.temperature": lambda s: f", {s['lubricant']['name']}" if s["lubricant"]["name"] else "",
-        "lubricant.alpha_star": lambda _: ", reciprocal asymptotic",
         "film.minimum_thickness": lambda s: f" at {_place(s, 'film.minimum_position')}{_in_spot(s)}",
-        "film.oil_layer": lambda _: ", on both surfaces together",
         "film.mean_thickness": lambda s: f", in the {_zone(s)}",
         "film.max_pressure": _pressure_error,
         "film.discretisation_error": _film_grid,
@@ -476,70 +390,33 @@ _WORDS = Words(
         "film.isothermal.minimum_thickness": _change("minimum"),
         "film.isothermal.central_thickness": _change("central"),
         "film.max_temperature_rise": _temperature_error,
-        "film.rolling_coefficient": lambda _: ", of each surface",
-        "roughness.rq_1": lambda _: ", in the Hertz zone",
-        "roughness.rq_2": lambda _: ", in the Hertz zone",
         "roughness.lambda_ratio": lambda s: (
             f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
         ),
-        "roughness.lambda_ratio_smooth": lambda _: ", smooth film / combined Rq",
         "asperities.behaviour": _behaviour,
-        "asperities.load_share": _coarser_share,
         "asperities.contact_area_share": _area_error,
-        "asperities.spots": _spots,
-        "asperities.mass_error": lambda _: ", of the mean flow",
-        "asperities.boundary_film": lambda _: ", gap at which the surfaces touch",
-        "asperities.mean_film": lambda _: ", in the Hertz zone",
-        "asperities.rq_deformed": lambda _: ", in the Hertz zone",
-        "asperities.boundary_friction": lambda _: ", of the asperities where they slide",
         "asperities.resistance": _resistance_note,
-        "asperities.corner_frequency": lambda _: ", above it the film takes more current than the spots",
-        "asperities.breakdown_voltage": lambda _: ", at a probability of 63.2 %",
-        "asperities.breakdown_probability": lambda _: ", at the applied voltage",
         "field.max_strength": _field_place,
-        "field.max_dimensionless": lambda _: "(parallel plates: V/h_min)",
-        "field.high_field_width": lambda _: ", above 95 % of maximum",
-        "field.high_field_area": lambda _: ", above 95 % of maximum",
         "discharge.zone_size": lambda _: (
             f", above 95 %; published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
         ),
         "discharge.capacitance": _beyond,
         "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
-        "discharge.capacitance_by_outlet": lambda _: ", assumption: layers to full",
-        "discharge.pit_diameter": lambda _: "; assumption: a hemisphere",
         "discharge.current_density": _limits,
-        "discharge.relaxation_time": lambda _: ", at ambient pressure",
-        "discharge.dielectric_strength": _strength_note,
         "discharge.breakdown_voltage": _breakdown_note,
-        "discharge.probability": lambda _: "at the applied voltage",
         "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
         "meter.capacitance_domain": _share("domain"),
         "meter.capacitance_hertz": _share("hertz"),
         "meter.capacitance_outside": _share("outside"),
-        "meter.parallel_capacitance": lambda _: ", from the case",
-        "meter.coating_voltage_share": lambda _: ", at the minimum film",
-        "meter.film_breakdown_voltage": lambda _: ", between the bodies",
-        "meter.coating_breakdown_voltage": lambda _: ", with the film bridged",
-        "meter.breakdown_voltage": lambda _: ", between the bodies",
-        "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
     },
     values={
         "hertz.axis_ratio": _axis_ratio,
-        "film.film_ratio": _known("film.film_ratio", only="oil_layer"),
-        "film.flooded.minimum_thickness": _known("film.flooded.minimum_thickness", only="oil_layer"),
-        "film.oil_layer": _known("film.oil_layer", only="oil_layer"),
         "film.meniscus": _meniscus,
-        "film.discretisation_error": _known("film.discretisation_error", only="residual"),
-        "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
+        "film.rheology": lambda s: VALUES["rheology"].get(value_at(s, "film.rheology")),
         "film.thermal": _temperature,
-        "film.isothermal.minimum_thickness": _solved_heat("film.isothermal.minimum_thickness"),
-        "film.isothermal.central_thickness": _solved_heat("film.isothermal.central_thickness"),
-        "film.traction_coefficient": _solved_heat("film.traction_coefficient"),
-        "field.max_strength_error": _known("field.max_strength_error", only="residual"),
         "asperities.load_share": _load_share,
-        "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
+        "asperities.spots": _spots,
         "asperities.mass_error": _oil_error,
-        "asperities.resistance": _resistance,
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
         "discharge.capacitance_by_outlet": _by_outlet,
@@ -551,7 +428,12 @@ _WORDS = Words(
         "formula_error": _formula_error,
         "seconds.both": lambda s: s["seconds"]["film"] + s["seconds"]["field"],
     },
-    alarms={"discharge.margin": _breaks_down},
-    hidden=_hidden,
+    alarms={"discharge.margin": lambda s: bool(s["discharge"]["margin"] < 1.0)},
+    holds={
+        "touching": _touches,
+        "not touching": lambda s: not _touches(s),
+        "film around the spots": lambda s: value_at(s, "asperities.film_5") is not None,
+    },
+    only=CONTACT_ONLY,
     rows={f"film_formulas.*.{key}": _formula_rows(key) for key in ("minimum_thickness", "central_thickness")},
 )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ehlectric.bearing.solution import percent
@@ -16,8 +17,7 @@ from ehlectric.quantities.result_bounds import ideal_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
-from ehlectric.tables.bearing_tables import status_rows
-from ehlectric.tables.measured_tables import columns_table
+from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -106,7 +106,8 @@ def worse_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Heads of the table of remedies, then the cells of each drive, of its bearing with more discharges."""
     keys = [key for key in REMEDIES[0].keys if not key.endswith("_range")]
     yield "remedy, worse bearing", *remedy_heads(keys)
-    for title, tables in _drives(summary):
+    drives = [("as it is", summary), *((one["title"], one) for one in summary["remedies"])]
+    for title, tables in drives:
         worse = max(ENDS, key=lambda end: (tables[end]["power"], tables[end]["peak_voltage"]))
         yield printable(title), *remedy_cells(tables, worse, keys)
 
@@ -122,12 +123,6 @@ def remedy_cells(tables: Mapping[str, Any], end: str, keys: Sequence[str]) -> It
     return (_cell(found.get(key)) for key in keys)
 
 
-def _drives(summary: Summary) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    yield "as it is", summary
-    for one in summary["remedies"]:
-        yield one["title"], one
-
-
 def _range(summary: Summary) -> tuple[str, str]:
     """Interval of the rate of discharges; an upper bound where there was none."""
     end = summary["end"]
@@ -140,15 +135,23 @@ def _edges(summary: Summary) -> float | None:
     return None if rate is None else rate * summary["drive"]["duration"]
 
 
-def _hidden(summary: Summary) -> set[str]:
-    """Voltages above the first one that no bearing reaches, and a current through asperities that is none."""
-    if "time_above" not in summary.get("end", {}):
-        return set()
-    ends = [summary[end] for end in ENDS]
-    names = [f"{limit:g}" for limit in LIMITS]
-    never = [name for name in names if not any(end["time_above"][name] for end in ends)]
-    none = set() if any(end["contact_current"] for end in ends) else {"end.contact_current"}
-    return none | {f"end.time_above.{name}" for name in never[1:]}
+def _time_above(name: str, before: str) -> Callable[[Summary], Any]:
+    """Share of time above a voltage; None where neither bearing reaches the voltage before."""
+
+    def value(summary: Summary) -> Any:
+        reached = any(summary[end]["time_above"][before] for end in ENDS)
+        return summary["end"]["time_above"][name] if reached else None
+
+    return value
+
+
+def _contact_current(summary: Summary) -> Any:
+    """Current through asperities; None where it is none in both bearings."""
+    either = any(summary[end]["contact_current"] for end in ENDS)
+    return summary["end"]["contact_current"] if either else None
+
+
+_LIMITS = [f"{limit:g}" for limit in LIMITS]
 
 
 _WORDS = Words(
@@ -163,6 +166,7 @@ _WORDS = Words(
         "source.edges": _edges,
         "end.films": lambda s: HOW.get(s["end"].get("films")),
         "end.events_per_second_range": _range,
+        "end.contact_current": _contact_current,
+        **{f"end.time_above.{name}": _time_above(name, before) for before, name in pairwise(_LIMITS)},
     },
-    hidden=_hidden,
 )

@@ -10,7 +10,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.film_factors import RAISED, SCATTER, FilmFactors, MeanFactor
 from ehlectric.errors import printable
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.rows import Row
+from ehlectric.quantities.rows import Row, Summary
 from ehlectric.quantities.units import rpm
 
 if TYPE_CHECKING:
@@ -41,6 +41,13 @@ def table_of(rows: Iterable[Row], title: str = "") -> Table:
             cells = Text(indent + printable(row.name)), Text(printable(row.text))
             table.add_row(*cells, style="red" if row.alarm else None)
     return table
+
+
+def status_rows(summary: Summary) -> Iterator[Row]:
+    """Row that warns of a film that is not converged."""
+    if not summary["converged"]:
+        status = summary.get("status", "the film of a contact")
+        yield Row("NOT CONVERGED", note=f"{status}: do not use these numbers", alarm=True)
 
 
 def columns_table(

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.touching import share_text
 from ehlectric.quantities.result_bounds import ideal_bounds
 from ehlectric.quantities.results import MOTION_BOOK
-from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, value_at
+from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.tables.contact_tables import condition_rows
 
@@ -47,14 +46,7 @@ def _meniscus(half_width: float, summary: Summary) -> str | None:
 
 def _touches(summary: Summary) -> bool:
     """Whether the surfaces touch at one time step."""
-    return bool(summary["asperities"]["load_share_largest"] > 0.0)
-
-
-def _hidden(summary: Summary) -> frozenset[str]:
-    """Keys of the asperities, where none touches."""
-    if "asperities" not in summary or _touches(summary):
-        return frozenset()
-    return frozenset(key for section in MOTION for key in section.keys if key.startswith("asperities."))
+    return (value_at(summary, "asperities.load_share_largest") or 0.0) > 0.0
 
 
 def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
@@ -81,43 +73,31 @@ def _speed(surface: int) -> Callable[[Summary], float | None]:
     return value
 
 
-def _load_share(summary: Summary) -> tuple[str, str]:
+def _load_share(summary: Summary) -> Noted:
     """Mean load share with no more digits than its change from a coarser grid leaves."""
     found = summary["asperities"]
-    return share_text(found["load_share_mean"], found["load_share_mean_coarser"]), "%"
-
-
-def _coarser_share(summary: Summary) -> str:
-    found = summary["asperities"]
-    coarser = found["load_share_mean_coarser"]
-    if coarser is None:
-        return ", not known on a coarser grid"
-    return f", {share_text(coarser, found['load_share_mean'])} % on half the nodes"
-
-
-def _halvings(summary: Summary) -> Any:
-    return summary["motion"]["halvings"] or None
+    share, coarser = found["load_share_mean"], found["load_share_mean_coarser"]
+    note = ", not known on a coarser grid"
+    if coarser is not None:
+        note = f", {share_text(coarser, share)} % on half the nodes"
+    return Noted((share_text(share, coarser), "%"), note)
 
 
 _WORDS = Words(
     notes={
         "motion.duration": lambda s: f", {s['motion']['steps']} time steps",
         "film.minimum_thickness": _time("film.minimum_time", boundary=True),
-        "film.oil_layer": lambda _: ", on both surfaces together",
         "field.max_strength": _time("field.max_strength_time", boundary=True),
-        "field.share_above_90": lambda _: " of the evaluated time",
         "field.local_maxima_quantiles.1": lambda s: f", {s['field']['local_maxima']} maxima",
         "discharge.breakdown_voltage": _time("discharge.breakdown_time", boundary=True),
-        "asperities.load_share_mean": _coarser_share,
         "asperities.load_share_largest": _time("asperities.load_share_largest_time"),
-        "asperities.contact_area_share_mean": lambda _: ", of the Hertz zone",
         "asperities.time_share": lambda s: f" of {s['asperities']['steps']} evaluated time steps",
     },
     values={
         "motion.speed_1": _speed(1),
         "motion.speed_2": _speed(2),
-        "motion.halvings": _halvings,
+        "motion.halvings": lambda s: s["motion"]["halvings"] or None,
         "asperities.load_share_mean": _load_share,
     },
-    hidden=_hidden,
+    holds={"touching": _touches},
 )

@@ -9,12 +9,12 @@ from types import MappingProxyType
 from typing import Any, BinaryIO
 
 from rich.table import Table
-from rich.text import Text
 
 from ehlectric.cases.case_oil import known_oil, named_oil
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing
 from ehlectric.cases.library.library_oils import KINDS, LibraryOil
 from ehlectric.cases.oil_report import OilReport, SurveyLine, celsius, depends_on_temperature, survey
+from ehlectric.quantities.sheets import OILS
 from ehlectric.runtime.files import column_head, csv_of
 from ehlectric.tables.measured_tables import columns_table
 
@@ -24,30 +24,8 @@ CSV_FILE = "oil.csv"
 LETTERS: Mapping[str, str] = MappingProxyType({kind: kind[0] for kind in KINDS})
 assert len(set(LETTERS.values())) == len(LETTERS)
 
-# Factor and shown unit of each SI unit at ambient pressure, and of the viscosity at pressure.
-_UNITS: Mapping[str, tuple[float, str]] = MappingProxyType(
-    {
-        "": (1.0, ""),
-        "Pa*s": (1e3, "mPa s"),
-        "m**2/s": (1e6, "mm²/s"),
-        "1/Pa": (1e9, "1/GPa"),
-        "kg/m**3": (1.0, "kg/m³"),
-        "S/m": (1.0, "S/m"),
-        "W/m/K": (1.0, "W/(m K)"),
-        "J/m**3/K": (1e-6, "MJ/(m³ K)"),
-    }
-)
-_AT_PRESSURE: Mapping[str, tuple[float, str]] = MappingProxyType({**_UNITS, "Pa*s": (1.0, "Pa s")})
-
-# Temperatures of the list [K], and its numbers: name, property, temperature [K], head.
+# Temperatures of the list [K].
 _LISTED = (313.15, 373.15)
-_COLUMNS = (
-    ("viscosity_40", "viscosity", _LISTED[0], "viscosity\n40 °C\n[mPa s]"),
-    ("viscosity_100", "viscosity", _LISTED[1], "\n100 °C\n[mPa s]"),
-    ("alpha_star_40", "alpha_star", _LISTED[0], "alpha*\n40 °C\n[1/GPa]"),
-    ("density_40", "density", _LISTED[0], "density\n40 °C\n[kg/m³]"),
-    ("relative_permittivity_40", "relative_permittivity", _LISTED[0], "permit-\ntivity\n40 °C"),
-)
 
 
 def listed_oil(oil: LibraryOil) -> dict[str, Any]:
@@ -64,7 +42,7 @@ def listed_oil(oil: LibraryOil) -> dict[str, Any]:
         kelvins = [at for at in _LISTED if ends is None or ends[0] <= at <= ends[1]]
     lines = {line.of.name: line for line in survey(named, [known_oil(table, at) for at in kelvins], ())}
     values: dict[str, Any] = {}
-    for key, name, kelvin, _ in _COLUMNS:
+    for key, name, kelvin, _ in OILS["columns"]:
         # An oil without temperature has one value, which stands in the first column.
         at = kelvin if kelvin in kelvins or kelvin != _LISTED[0] else None
         line = lines[name]
@@ -82,8 +60,10 @@ def listed_oil(oil: LibraryOil) -> dict[str, Any]:
 
 def listed_tables(listed: Sequence[Mapping[str, Any]]) -> Iterator[Table]:
     """Tables of the oils of the library: numbers with the letters of their kinds, and what each oil is."""
-    heads = ("\n\nname", "\nrange\n[°C]", *(head for *_, head in _COLUMNS))
-    numbers = ((oil["name"], _span(oil), *(_lettered(oil[key]) for key, *_ in _COLUMNS)) for oil in listed)
+    heads = ("\n\nname", "\nrange\n[°C]", *(head for *_, head in OILS["columns"]))
+    numbers = (
+        (oil["name"], _span(oil), *(_lettered(oil[key]) for key, *_ in OILS["columns"])) for oil in listed
+    )
     yield columns_table(heads, numbers)
     about = ((oil["name"], oil["title"], "\n".join(oil["needs"])) for oil in listed)
     yield columns_table(("name", "oil", "the case must give"), about, left=range(3), wrapped=(1,))
@@ -99,7 +79,7 @@ def _lettered(entry: Mapping[str, Any] | None) -> str:
     """Number in its shown unit with the letter of its kind; a dash without a number."""
     if entry is None:
         return "-  "
-    factor, _ = _UNITS[entry["unit"]]
+    factor, _ = OILS["units"][entry["unit"]]
     return f"{factor * entry['value']:.4g} {LETTERS.get(entry['kind'], ' ')}"
 
 
@@ -137,7 +117,10 @@ def _name(line: SurveyLine) -> str:
 
 def _unit(line: SurveyLine) -> tuple[float, str]:
     """Factor from the SI unit to the shown unit of a line, and this unit."""
-    return (_AT_PRESSURE if line.pressure > 0.0 else _UNITS)[line.of.unit]
+    if line.pressure > 0.0 and line.of.unit == "Pa*s":
+        return 1.0, "Pa s"
+    factor, unit = OILS["units"][line.of.unit]
+    return factor, unit
 
 
 def _cells(report: OilReport, line: SurveyLine) -> Iterator[str]:
@@ -196,8 +179,10 @@ def _csv_rows(report: OilReport) -> Iterator[list[Any]]:
 
 
 # Heads of the columns after the name.
-_HEADS = ("bore\n[mm]", "outer\n[mm]", "width\n[mm]", "elements\n[mm]", "pitch\n[mm]", "angle\n[deg]")
-_RATINGS = ("C\n[kN]", "C0\n[kN]")
+_HEADS = (
+    *("bore\n[mm]", "outer\n[mm]", "width\n[mm]", "elements\n[mm]", "pitch\n[mm]", "angle\n[deg]"),
+    *("C\n[kN]", "C0\n[kN]"),
+)
 
 
 def described(bearing: CatalogueBearing) -> dict[str, Any]:
@@ -218,19 +203,15 @@ def described(bearing: CatalogueBearing) -> dict[str, Any]:
 
 
 def catalogue_tables(bearings: Iterable[CatalogueBearing]) -> Iterator[Table]:
-    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources. Yields
-    table of one kind of bearing, at most 80 characters wide.
+    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources, at
+    most 80 characters wide.
     """
     ordered = sorted(bearings, key=lambda bearing: bearing.kind)
     for kind, group in groupby(ordered, key=lambda bearing: bearing.kind):
-        title = Text(f"{kind} bearings")
-        table = Table(title=title, title_justify="left", title_style="bold", box=None, padding=(0, 1, 0, 0))
-        table.add_column("name", no_wrap=True)
-        for head in (*_HEADS, *_RATINGS):
-            table.add_column(Text(head), justify="right", no_wrap=True)
-        table.add_column("elements\nare", no_wrap=True)
-        for bearing in group:
-            table.add_row(bearing.name, *_bearing_cells(bearing), bearing.internal_kind or "")
+        heads = ("name", *_HEADS, "elements\nare")
+        rows = ((one.name, *_bearing_cells(one), one.internal_kind or "") for one in group)
+        table = columns_table(heads, rows, f"{kind} bearings", left=(0, len(heads) - 1))
+        table.title_style = "bold"
         yield table
 
 

@@ -6,51 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import printable
+from ehlectric.quantities.sheets import SURFACES
 from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-# Columns of the statistics of a profile and of a map: head, key, factor to the shown unit, and format.
-# Heights from 1 µm on have no decimals.
-_PROFILE_COLUMNS = (
-    ("Rq\n[nm]", "rq", 1e9, ".1f"),
-    ("Ra\n[nm]", "ra", 1e9, ".1f"),
-    ("Rsk", "rsk", 1.0, ".2f"),
-    ("Rku", "rku", 1.0, ".1f"),
-    ("corr.\nlength\n[µm]", "correlation_length", 1e6, ".3g"),
-    ("max.\nslope", "largest_slope", 1.0, ".2g"),
-)
-_MAP_COLUMNS = (
-    ("Sq\n[nm]", "sq", 1e9, ".1f"),
-    ("Sa\n[nm]", "sa", 1e9, ".1f"),
-    ("Ssk", "ssk", 1.0, ".2f"),
-    ("Sku", "sku", 1.0, ".1f"),
-    ("corr.\nlength\nx [µm]", "correlation_length_x", 1e6, ".3g"),
-    ("corr.\nlength\ny [µm]", "correlation_length_y", 1e6, ".3g"),
-    ("max.\nslope", "largest_slope", 1.0, ".2g"),
-)
-
-# Columns of the summits: head, key, factor to the shown unit, and format.
-_SUMMIT_COLUMNS = (
-    ("interval\n[µm]", "interval", 1e6, ".3g"),
-    ("m0\n[nm²]", "m0", 1e18, ".3g"),
-    ("m2\n[1e-6]", "m2", 1e6, ".3g"),
-    ("m4\n[1/mm²]", "m4", 1e-6, ".3g"),
-    ("band-\nwidth", "bandwidth", 1.0, ".3g"),
-    ("summits\n[1/mm²]", "summit_density", 1e-6, ".3g"),
-    ("radius\n[µm]", "summit_radius", 1e6, ".3g"),
-    ("height dev.\n[nm]", "summit_deviation", 1e9, ".3g"),
-    ("slope\nx/y", "slope_ratio", 1.0, ".2f"),
-)
-
 # Title of the table of the summits, and sentences below it.
-SUMMITS_TITLE = "spectral moments and summits after the last step"
-SUMMITS_NOTE = (
-    "Bandwidth, density and radius belong to the sampling interval: name it with the numbers. They hold for "
-    "Gaussian heights (skewness 0, kurtosis 3). A dash stands where no isotropic Gaussian surface has the "
-    "bandwidth, below 1.5."
-)
+SUMMITS_TITLE, SUMMITS_NOTE = SURFACES["summits_title"], SURFACES["summits_note"]
 
 
 def surface_table(surface: dict[str, Any]) -> Table:
@@ -69,7 +32,7 @@ def summits_rows(
     summits: Sequence[Mapping[str, float | None]],
 ) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads of the moments and summits with their units, and a row for every sampling interval."""
-    columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
+    columns = [column for column in SURFACES["summits"] if column[1] in summits[0]]
     rows = [tuple(_number(row[key], factor, how) for _, key, factor, how in columns) for row in summits]
     return tuple(head for head, *_ in columns), rows
 
@@ -90,7 +53,7 @@ def size_text(surface: Mapping[str, Any]) -> str:
 def statistics_rows(surface: Mapping[str, Any]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads of the statistics of a profile or map with their units, and a row for every processing step."""
     of_map = "sq" in surface["steps"][0]
-    columns = _MAP_COLUMNS if of_map else _PROFILE_COLUMNS
+    columns = SURFACES["map" if of_map else "profile"]
     heads = ("step", "points", *(head for head, *_ in columns))
     rows = []
     for step in surface["steps"]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.quantities.quantity import Bound
 from ehlectric.quantities.rows import Row
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
@@ -67,7 +66,7 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     at_most = sensitivity.value in (breakdown.value, breakdown.margin)
     for name, value in values.items():
         # Real films break down at lower voltages; that says nothing about how much the voltages scatter.
-        bound: Bound = "≤" if at_most and name != "standard deviation" else ""
+        bound = label.bound if at_most and name != "standard deviation" else ""
         rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit, bound=bound))
     share = sensitivity.share_below_voltage
     if share is not None:

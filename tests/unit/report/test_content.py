@@ -14,8 +14,16 @@ from ehlectric.report.background import inputs_of, material_sources
 from ehlectric.report.build import report_of
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.report_content import Picture, Table, Text, Warnings
-from ehlectric.report.report_facts import UNCONVERGED, caption_of, row_tables
-from ehlectric.report.report_texts import LIMITS, REFERENCES, TEXTS, conditions_of, limits_of, references_of
+from ehlectric.report.report_facts import caption_of, row_tables
+from ehlectric.report.report_texts import (
+    LIMITS,
+    REFERENCES,
+    SENTENCES,
+    TEXTS,
+    conditions_of,
+    limits_of,
+    references_of,
+)
 from ehlectric.report.written_report import write_report
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
@@ -163,7 +171,7 @@ def test_every_figure_that_a_result_can_have_has_a_caption():
         figure_names.TEMPERATURE_FIGURE, figure_names.SHEAR_FIGURE,
     )  # fmt: skip
     assert {file.removesuffix(".png") for file in in_formats(files)} == set(TEXTS["captions"])
-    assert caption_of("film", converged=False).startswith(UNCONVERGED)
+    assert caption_of("film", converged=False).startswith(SENTENCES["unconverged_figure"])
 
 
 def test_a_film_with_heat_has_its_own_limits_and_references():
@@ -214,7 +222,7 @@ def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):
     pictures = [block for block in report.blocks() if isinstance(block, Picture)]
     assert pictures
     for picture in pictures:
-        assert picture.caption.startswith(UNCONVERGED)
+        assert picture.caption.startswith(SENTENCES["unconverged_figure"])
         assert "NOT CONVERGED" in picture.title
     (warnings,) = [block for block in report.blocks() if isinstance(block, Warnings)]
     assert warnings.lines[0].severity == "severe"

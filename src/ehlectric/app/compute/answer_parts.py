@@ -13,16 +13,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import Line, Number
+from ehlectric.app.answers import Judged, Line, Number
 from ehlectric.app.page_warnings import SEVERITIES, Told
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.input_keys import describe
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.rows import Row
+from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.rows import Row, row_of
+from ehlectric.report.light import light_of
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
+
+# Note of a number of films that are not converged.
+UNUSABLE = "not converged: do not use this value"
 
 
 def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number]:
@@ -54,6 +60,11 @@ def card(row: Row) -> Number:
     """
     label = f"{row.name[:1].upper()}{row.name[1:]}"
     return Number(row.key, label, row.shown, row.unit, row.note.strip(" ,;:"), row.bound)
+
+
+def unknown(key: str, about: Quantity, text: str, reason: str = "") -> Number:
+    """Number without a value, with the label of its quantity and a text in place of the value."""
+    return replace(card(row_of(key, about, text, reason)), known=False)
 
 
 def concerned(key: str) -> str:
@@ -179,6 +190,21 @@ def sentences_of(text: str) -> list[str]:
     return re.split(r"(?<=[.!?]) (?=[A-Z])", text)
 
 
+def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:
+    """Verdict in its parts, without what it means. ``assumed`` are beginnings of sentences on assumptions."""
+    first, *others = sentences_of(verdict.text)
+    lead, _, rest = first.partition(": ")
+    return Judged(
+        level=verdict.level,
+        lead=lead.rstrip("."),
+        meaning="",
+        numbers=rest[:1].upper() + rest[1:],
+        reasons=tuple(text for text in others if not text.startswith(assumed)),
+        assumptions=" ".join(text for text in others if text.startswith(assumed)),
+        bound=light_of(verdict.level, verdict.text).bound,
+    )
+
+
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
     """Lines of rows.
 
@@ -190,26 +216,18 @@ def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
     return tuple(Line(row.name, row.text, row.alarm) for row in rows)
 
 
-_LIKELY = "The margin is below 1: breakdown is likely."
-
-
 def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, ...]:
     """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
 
     Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
     says.
     """
-    meanings = {"breakdown-expected": _LIKELY} if level == "yellow" else {}
-    found = [
-        Told(
-            one.code,
-            one.severity,
-            one.text,
-            CODES[one.code].concerns,
-            meanings.get(one.code, CODES[one.code].meaning),
-        )
-        for one in dict.fromkeys(warnings)
-    ]
+    found = []
+    for one in dict.fromkeys(warnings):
+        about = CODES[one.code]
+        likely = level == "yellow" and one.code == "breakdown-expected"
+        meaning = "The margin is below 1: breakdown is likely." if likely else about.meaning
+        found.append(Told(one.code, one.severity, one.text, about.concerns, meaning))
     return tuple(sorted(found, key=lambda told: SEVERITIES.index(told.severity)))
 
 

@@ -30,7 +30,7 @@ from ehlectric.app.charts.bearing_charts import (
     load_figure,
     speed_rows,
 )
-from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, sentences_of, told_of
+from ehlectric.app.compute.answer_parts import UNUSABLE, cards, case_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
@@ -44,9 +44,10 @@ from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK
-from ehlectric.quantities.rows import Row, row_of, value_at
+from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.report.light import light_of
+from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
@@ -97,22 +98,16 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
     found = []
     for key in (key for key in BEARING_CARDS if key in known):
-        follows = RANGE_FOLLOWS if key == "bearing.margin" and not whole and _ranges(summary) else ""
+        follows = (
+            RANGE_FOLLOWS if key == "bearing.margin" and not whole and summary["inputs"].get("ranges") else ""
+        )
         note = "; ".join(filter(None, [follows, known[key].note]))
         near = tuple(one for one in beside(told, key) if known[key].known or one.code not in _BOUNDS)
-        found.append(replace(known[key], note=note, told=near))
-    return tuple(found) if summary["converged"] else tuple(map(_unusable, found))
-
-
-def _ranges(summary: Mapping[str, Any]) -> bool:
-    return bool(summary["inputs"].get("ranges"))
-
-
-def _unusable(number: Number) -> Number:
-    """Number of films that are not converged, with words that say so."""
-    if not number.known:
-        return number
-    return replace(number, bound="", note="not converged: do not use this value", known=False)
+        number = replace(known[key], note=note, told=near)
+        if number.known and not summary["converged"]:
+            number = replace(number, bound="", note=UNUSABLE, known=False)
+        found.append(number)
+    return tuple(found)
 
 
 def _missing(
@@ -126,20 +121,15 @@ def _missing(
         "bearing.shaft_voltage": shaft,
         "bearing.margin": broken if totals["first_break"] is None else shaft,
     }
-    found = {key: _none(key, "none", why) for key, why in reasons.items() if value_at(summary, key) is None}
+    texts = {key: ("none", why) for key, why in reasons.items() if value_at(summary, key) is None}
     if totals["margin"] is None:
-        found[speed] = _none(speed, "none", "there is no margin")
+        texts[speed] = ("none", "there is no margin")
     elif not whole:
-        found[speed] = _none(speed, PENDING, "being computed")
+        texts[speed] = (PENDING, "being computed")
     elif speed not in rows:
         other = "margin.upper_critical_speed" in rows
-        found[speed] = _none(speed, "none", "" if other else "no other speed could be computed")
-    return found
-
-
-def _none(key: str, text: str, reason: str) -> Number:
-    """Number without a value, with the label of its quantity."""
-    return replace(card(row_of(key, BEARING_BOOK[key], text, reason)), known=False)
+        texts[speed] = ("none", "" if other else "no other speed could be computed")
+    return {key: unknown(key, BEARING_BOOK[key], *text) for key, text in texts.items()}
 
 
 def _no_voltage(summary: Mapping[str, Any]) -> str:
@@ -192,18 +182,6 @@ def _difference(quick: Row | None, solved: Row | None, way: Contacts) -> Differe
     return Difference(either.name, texts[0], texts[1], change, way)
 
 
-# What the first words of a verdict mean for a bearing, in plain words: "expected" for red, "likely" and
-# "possible" for yellow.
-_MEANING: Mapping[str, str] = {
-    "No breakdown expected": "The ideal film holds; a real film may be thinner and break down earlier.",
-    "Breakdown possible": "The ideal film holds, but not beyond doubt. A real film may be thinner and break "
-    "down earlier.",
-    "Breakdown likely": "The ideal film breaks down, but by less than what is uncertain. Discharges are "
-    "likely, and can mark the raceways.",
-    "Breakdown expected": "Within what is assumed, discharges are expected, and can mark the raceways.",
-    "Discharges likely": "The surfaces touch, and current passes as they part: discharges are likely at any "
-    "voltage, and can mark the raceways.",
-}
 _NO_VERDICT = "This page cannot say whether the bearing sparks."
 
 _OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
@@ -220,19 +198,9 @@ def judged(verdict: Verdict) -> Judged:
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
-    first, *others = sentences_of(verdict.text)
-    lead, _, rest = first.partition(": ")
-    assumptions = [text for text in others if text.startswith("Upper bound")]
-    light = light_of(verdict.level, verdict.text)
-    return Judged(
-        level=verdict.level,
-        lead=light.words,
-        bound=light.bound,
-        meaning=_MEANING.get(lead, _NO_VERDICT),
-        numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(text for text in others if text not in assumptions),
-        assumptions=" ".join(assumptions),
-    )
+    parts, light = judged_of(verdict, ("Upper bound",)), light_of(verdict.level, verdict.text)
+    meaning = TEXTS["meanings"]["bearing"].get(parts.lead, _NO_VERDICT)
+    return replace(parts, lead=light.words, meaning=meaning)
 
 
 def quick_verdict(solution: BearingSolution) -> Verdict:
@@ -262,19 +230,21 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
-def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+def quick_answer(
+    table: Mapping[str, Any], session: Path | None = None, *, whole: bool = False
+) -> BearingAnswer:
     """Answer about a bearing without solving its contacts, and without what depends on other inputs.
 
     Contacts are by formula where the tables say so, and otherwise from the atlas of films.
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(_quick(table, session), whole=False)
+    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=whole)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``quick_answer`` has it, with critical speeds and effects of the inputs."""
-    return answer_of(_quick(table, session), whole=True)
+    return quick_answer(table, session, whole=True)
 
 
 def solve_contacts(
@@ -305,10 +275,6 @@ def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, 
     except InputError:
         return ()
     return differences(quick, solved)
-
-
-def _quick(table: Mapping[str, Any], session: Path | None) -> BearingResult:
-    return solved_quickly(bearing_case(table, session=session))
 
 
 def solved_quickly(case: BearingCase) -> BearingResult:
@@ -415,39 +381,33 @@ def _around(result: BearingResult) -> dict[str, Around]:
     found = {}
     for name in ("inner", "outer"):
         rings = [getattr(position, name) for position in positions]
-        load, film, loaded = (
-            np.concatenate(columns)[order].tolist()
-            for columns in (
-                [ring.load for ring in rings],
-                [ring.values.minimum_thickness for ring in rings],
-                [ring.solved for ring in rings],
-            )
+        columns = (
+            [ring.load for ring in rings],
+            [ring.values.minimum_thickness for ring in rings],
+            [ring.solved for ring in rings],
         )
-        found[name] = Around(angle[order].tolist(), load, film, loaded)
+        values = (np.concatenate(column)[order].tolist() for column in columns)
+        found[name] = Around(angle[order].tolist(), *values)
     return found
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     """Figures over the speed; voltages only where there is a breakdown or a shaft voltage at any speed."""
     how = ", scaled to the solved contacts" if _is_solved(over) else ""
-    caption = f"Bearing over its speed, {over.contacts}{how}"
-    table = Table(caption, SPEED_HEADS, tuple(speed_rows(over)))
-    drawn = {
-        name: key
-        for name, key in (("first breakdown", "first_break"), ("shaft voltage", "shaft_voltage"))
-        if np.any(np.isfinite(over.curves[key]))
-    }
+    table = Table(f"Bearing over its speed, {over.contacts}{how}", SPEED_HEADS, tuple(speed_rows(over)))
+    names = {"first_break": "first breakdown", "shaft_voltage": "shaft voltage"}
+    drawn = {name: key for key, name in names.items() if np.any(np.isfinite(over.curves[key]))}
     found = {}
     if drawn:
         breaks = "first breakdown" in drawn
-        names = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
+        label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         found["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
-            f"{names[0].upper()}{names[1:]} over the speed of the inner ring",
+            f"{label[0].upper()}{label[1:]} over the speed of the inner ring",
             breakdown_figure(over),
             table,
-            ("Breakdown voltages are upper bounds, with" if breaks else "With")
-            + f" {over.contacts}{_scaled(over, drawn)}.",
+            f"{'Breakdown voltages are upper bounds, with' if breaks else 'With'} "
+            f"{over.contacts}{_scaled(over, drawn)}.",
         )
     found["capacitance"] = Figure(
         "Capacitance over speed",

@@ -23,18 +23,17 @@ from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing_tables import check_rows
 
 
-def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
-    """Answer about one case, without what depends on further solutions. Raises InputError if the tables are
-    no valid case, or neither the atlas nor a formula describes its films.
+def side(table: Mapping[str, Any], folder: Path | None = None, *, whole: bool = False) -> Side:
+    """Answer about one case; that of a bearing is ``whole`` with what depends on further solutions. Raises
+    InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
     case = case_of(table, folder)
-    return _bearing(case, whole=False) if isinstance(case, BearingCase) else _contact(case)
+    return _bearing(case, whole=whole) if isinstance(case, BearingCase) else _contact(case)
 
 
 def whole_side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
     """Answer about one case, with the critical speed and the effects of the inputs of a bearing."""
-    case = case_of(table, folder)
-    return _bearing(case, whole=True) if isinstance(case, BearingCase) else _contact(case)
+    return side(table, folder, whole=True)
 
 
 def _bearing(case: BearingCase, *, whole: bool) -> Side:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
-from ehlectric.app.compute.answer_parts import card, drive_of, lines_of, sentences_of, told_of
+from ehlectric.app.compute.answer_parts import UNUSABLE, card, drive_of, judged_of, lines_of, told_of, unknown
 from ehlectric.app.page_warnings import Told, beside, within
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
@@ -24,7 +24,7 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
-from ehlectric.report.light import light_of
+from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
@@ -38,19 +38,6 @@ from ehlectric.tables.drive_tables import (
     worse_cells,
 )
 
-# Quantities that a card has in its note.
-_BESIDE: Mapping[str, tuple[str, ...]] = {
-    "source.peak": ("source.edges_per_second",),
-    "circuit.winding_rotor_capacitance": (
-        "circuit.rotor_frame_capacitance",
-        "circuit.winding_frame_capacitance",
-    ),
-    "end.events_per_second": ("end.events_per_second_range",),
-}
-
-# Why neither bearing has a value.
-_NONE = {"end.breakdown_voltage": "ceramic elements insulate"}
-
 
 def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tuple[Number, ...]:
     """Numbers of a drive that its page shows large, of those in a sheet, with warnings."""
@@ -59,8 +46,7 @@ def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tup
     keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
     found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
     if not summary.get("converged", True):
-        note = "not converged: do not use this value"
-        found = [replace(one, note=note, known=False) for one in found]
+        found = [replace(one, note=UNUSABLE, known=False) for one in found]
     return tuple(replace(one, told=beside(told, one.key)) for one in found)
 
 
@@ -96,22 +82,21 @@ def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
 
 
 def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
-    row = rows[key]
-    others = [rows[other] for other in _BESIDE.get(key, ()) if other in rows]
-    notes = [row.note.strip(" ,"), *(f"{other.name}: {other.amount}" for other in others)]
-    return replace(card(row), note="; ".join(filter(None, notes)))
+    others = [rows[other] for other in DRIVE_CARDS[key] if other in rows]
+    return replace(card(rows[key]), note="; ".join(_texts(rows[key], others)))
 
 
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
     """Number of both bearings: that of the drive end, and the other one in its note where it differs."""
     first, second = pairs.get(key, (None, None))
-    beside_it = [pairs[other] for other in _BESIDE.get(key, ()) if other in pairs]
+    beside_it = [pairs[other] for other in DRIVE_CARDS[key] if other in pairs]
     one, other = (
         "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
     )
-    number = card(first) if first is not None else _unknown(key)
     if first is None and second is None:
-        return number
+        reason = "ceramic elements insulate" if key == "end.breakdown_voltage" else ""
+        return unknown(key, DRIVE_BOOK[key], "none", reason)
+    number = card(first) if first is not None else unknown(key, DRIVE_BOOK[key], "none")
     if first is not None and second is not None and (first.text, one) == (second.text, other):
         return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
     place, further = NAMES_OF_ENDS.values()
@@ -127,25 +112,6 @@ def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
     yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
 
 
-def _unknown(key: str) -> Number:
-    """Number that a bearing does not have."""
-    label = DRIVE_BOOK[key].label
-    return Number(key, f"{label[:1].upper()}{label[1:]}", "none", note=_NONE.get(key, ""), known=False)
-
-
-# What a verdict before a simulation means, and one after it.
-_BEFORE: Mapping[str, str] = {
-    "green": "The voltage by the divider stays below what breaks the films down.",
-    "yellow": "The voltage is near the breakdown voltage, within what is uncertain.",
-    "red": "The voltage is above the breakdown voltage: the films break down at edges of the source.",
-    "grey": "The divider alone cannot say whether this drive discharges.",
-}
-_AFTER: Mapping[str, str] = {
-    "green": "No film broke down, and none is expected to.",
-    "yellow": "Discharges can mark the raceways and age the oil; they are not sure here.",
-    "red": "Discharges can mark the raceways and age the oil. Compare remedies.",
-    "grey": "These numbers must not be used.",
-}
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
 
 # Beginnings of sentences on what is assumed.
@@ -161,32 +127,14 @@ def judged_before(verdict: Verdict) -> Judged:
     >>> parts.lead, parts.numbers, parts.reasons
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
-    first, *others = sentences_of(verdict.text)
-    return _judged(verdict, _BEFORE, first, others, _NOT_SIMULATED)
+    meaning = TEXTS["meanings"]["drive_before"][verdict.level]
+    return replace(judged_of(verdict, ()), meaning=meaning, assumptions=_NOT_SIMULATED)
 
 
 def judged_after(verdict: Verdict) -> Judged:
     """Verdict on a simulated drive, which is that of its report."""
-    first, *others = sentences_of(verdict.text)
-    assumed = [text for text in others if text.startswith(_ASSUMED)]
-    reasons = [text for text in others if text not in assumed]
-    return _judged(verdict, _AFTER, first, reasons, " ".join(assumed))
-
-
-def _judged(
-    verdict: Verdict, meaning: Mapping[str, str], first: str, reasons: list[str], assumptions: str
-) -> Judged:
-    lead, _, rest = first.partition(": ")
-    light = light_of(verdict.level, verdict.text)
-    return Judged(
-        level=verdict.level,
-        lead=lead.rstrip("."),
-        meaning=meaning[verdict.level],
-        numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(reasons),
-        assumptions=assumptions,
-        bound=light.bound,
-    )
+    meaning = TEXTS["meanings"]["drive_after"][verdict.level]
+    return replace(judged_of(verdict, _ASSUMED), meaning=meaning)
 
 
 _SOLVING = "solving the contacts of both bearings, then simulating"

@@ -53,20 +53,17 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
     """
     _refuse_too_much(contents, folder)
     name, table = _main(contents)
+    missing = []
     if isinstance(table.get("case"), str):
         inner = _plain("case", table["case"])
-        if inner not in contents:
-            missing = [inner, *_missing(table, contents, folder)]
-            return Uploaded(name, "sweep", table, tuple(dict.fromkeys(missing)))
-        table["case"] = _tables(inner, contents[inner])
+        if inner in contents:
+            table["case"] = _tables(inner, contents[inner])
+        else:
+            missing.append(inner)
     kind = kind_of(table)
-    lacking = _with_bearings(table, contents)
-    if lacking:
-        missing = [*lacking, *_missing(table, contents, folder)]
+    missing += [*_with_bearings(table, contents), *_missing(table, contents, folder)]
+    if missing:
         return Uploaded(name, kind, table, tuple(dict.fromkeys(missing)))
-    others = _missing(table, contents, folder)
-    if others:
-        return Uploaded(name, kind, table, others)
     kept = [_keep(_plain(key, path), contents, folder) for key, path in names_in(table)]
     table = with_names(table, lambda key, path: f"{SURFACES}/{_plain(key, path)}")
     try:
@@ -86,14 +83,14 @@ def _with_bearings(table: dict[str, Any], contents: Mapping[str, bytes]) -> list
     """Put the tables of the bearing files that a drive names into its own, and return the missing files."""
     missing = []
     for end in ENDS:
-        own = table.get(end)
-        if not isinstance(own, Mapping) or not isinstance(own.get("file"), str):
+        file = _file_at(table, end)
+        if not isinstance(file, str):
             continue
-        name = _plain(f"{end}.file", own["file"])
+        name = _plain(f"{end}.file", file)
         if name not in contents:
             missing.append(name)
             continue
-        further = Inputs({key: value for key, value in own.items() if key != "file"}).flat()
+        further = Inputs({key: value for key, value in table[end].items() if key != "file"}).flat()
         table[end] = dict(changed(Inputs(_tables(name, contents[name])), further).table)
     return missing
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib import import_module
@@ -189,25 +189,20 @@ def _answer(
     if read is None:
         names[0] = "as made"
     rows = [(name, *row[1:]) for name, row in zip(names, rows, strict=True)]
-    lines = (
-        {}
-        if read is None or read.spacing_y is None
-        else dict(zip(("row", "column"), read.heights.shape, strict=True))
-    )
+    lines = {}
+    if read is not None and read.spacing_y is not None:
+        lines = dict(zip(("row", "column"), read.heights.shape, strict=True))
     of_map = isinstance(rough.steps[0][1], Map)
     figures = tuple(
         StepFigure(name, _figure(step, _voids(table, rough) if number == 0 else None), _label(name, row))
         for number, (name, (_, step), row) in enumerate(zip(names, rough.steps, rows, strict=True))
     )
     kind = "map" if of_map else "profile"
+    summit_heads, summit_rows = summits_rows(summits)
+    of_summits = SummitsTable(SUMMITS_TITLE, summit_heads, tuple(summit_rows), SUMMITS_NOTE)
     return SurfaceAnswer(
-        kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines, _summits(summits)
+        kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines, of_summits
     )
-
-
-def _summits(summits: Sequence[Mapping[str, Any]]) -> SummitsTable:
-    heads, rows = summits_rows(summits)
-    return SummitsTable(SUMMITS_TITLE, heads, tuple(rows), SUMMITS_NOTE)
 
 
 def _label(name: str, row: tuple[str, ...]) -> str:

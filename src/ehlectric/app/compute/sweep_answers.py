@@ -24,9 +24,11 @@ from ehlectric.app.answers import (
     Variable,
 )
 from ehlectric.app.charts.sweep_charts import figure_of
-from ehlectric.app.compute import answer_parts, swept_drives
+from ehlectric.app.compute import answer_parts
 from ehlectric.app.compute.answer_parts import run_case_of, told_of
 from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.field import Field
 from ehlectric.app.page_inputs import Inputs, number_of_text
 from ehlectric.app.page_warnings import Told
 from ehlectric.bearing.quick_contacts import is_quick
@@ -36,23 +38,24 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
-from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
-from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.engine import case_key, solve_point
-from ehlectric.sweep.points import Point, flat
+from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.run import planned_points
 from ehlectric.sweep.slices import known_values
 from ehlectric.sweep.store import NAME, read_sweep
-from ehlectric.sweep.sweep_inputs import Breakdown, Sweep, breakdown_of, ranked_value
+from ehlectric.sweep.sweep_inputs import Breakdown, Sweep, breakdown_of, check_varied, ranked_value
 from ehlectric.sweep.warnings import sweep_warnings
 
 # Number of points whose summaries say what may be shown.
@@ -131,24 +134,22 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     axes = [_axis(results, key) for key in results.varied[:2]]
     about, label = breakdown_of(results.case, shown), label_of(shown, results.case)
     name = named(shown, results.case)
-    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    rows = results.rows
     values = [row[shown] if is_number(row.get(shown)) else None for row in rows]
-    usable = [None if point.doubtful else value for point, value in zip(results.points, values, strict=True)]
-    scale = _scale(label.unit, [value for value in usable if value is not None])
-    margins = [_margin(row, about) for row in rows]
-    applied = [row.get(about.voltage) if shown == about.value else None for row in rows]
-    if shown == about.margin:
-        applied = [None if margin is None else 1.0 for margin in margins]
+    usable = [
+        value
+        for point, value in zip(results.points, values, strict=True)
+        if value is not None and not point.doubtful
+    ]
+    scale = _scale(label.unit, usable)
     points = tuple(
-        _point(results, point, name_of=(name, scale), value=value, margin=margin, voltage=voltage)
-        for point, value, margin, voltage in zip(results.points, values, margins, applied, strict=True)
+        _point(results, point, scale, shown, row) for point, row in zip(results.points, rows, strict=True)
     )
-    title = _titled(name, scale)
     critical = f"margin 1: {about.name} = {about.voltage_name}"
     some = any(point.margin is not None for point in points)
     second = axes[1] if len(axes) > 1 else None
     limit = critical if shown == about.margin else about.voltage_name
-    return Chart(axes[0], second, title, critical if some else "", limit, points)
+    return Chart(axes[0], second, _titled(name, scale), critical if some else "", limit, points)
 
 
 def _axis(results: SweepResults, key: str) -> Axis:
@@ -190,38 +191,31 @@ def _margin(row: Mapping[str, Any], about: Breakdown) -> float | None:
 
 
 def _point(
-    results: SweepResults,
-    point: Point,
-    *,
-    name_of: tuple[str, Scale],
-    value: float | None,
-    margin: float | None,
-    voltage: float | None,
+    results: SweepResults, point: Point, scale: Scale, shown: str, row: Mapping[str, Any]
 ) -> ChartPoint:
-    name, scale = name_of
+    """Point of a chart of a value, of which ``row`` has the numbers of its summary."""
+    about = breakdown_of(results.case, shown)
+    value, margin = row.get(shown) if is_number(row.get(shown)) else None, _margin(row, about)
     state = _state(point, value)
     texts = [
         f"{named(key, results.case)}: {_input_scale(results, key).text(item)}"
         for key, item in point.inputs.items()
     ]
-    if state == "solved" and value is not None:
-        texts.append(f"{name}: {scale.text(float(value))}")
+    if value is not None and state == "solved":
+        texts.append(f"{named(shown, results.case)}: {scale.text(float(value))}")
         texts += [] if margin is None else [f"Margin: {margin:.3g}"]
     else:
         texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
     told = [warning for warning in told_of(point.warnings) if warning.severity != "note"]
     texts += [f"{warning.severity}: {warning.text}" for warning in told[:_MOST_TOLD]]
     texts += [f"and {len(told) - _MOST_TOLD} more warnings"] if len(told) > _MOST_TOLD else []
-    if state != "solved":
+    if value is None or state != "solved":
         return ChartPoint(point.number, state, tuple(texts))
-    return ChartPoint(
-        point.number,
-        state,
-        tuple(texts),
-        value=None if value is None else float(scale.of(value)),
-        margin=margin,
-        voltage=None if voltage is None else float(scale.of(voltage)),
-    )
+    limit = row.get(about.voltage) if shown == about.value else None
+    if shown == about.margin and margin is not None:
+        limit = 1.0
+    voltage = None if limit is None else float(scale.of(limit))
+    return ChartPoint(point.number, state, tuple(texts), float(scale.of(value)), margin, voltage)
 
 
 def _state(point: Point, value: float | None) -> PointState:
@@ -259,45 +253,6 @@ MOST_POINTS = 2500
 # Tables whose numbers say how a case is computed, not what it is.
 _OF_SOLUTION = ("solver", "grid", "ranges", "title")
 
-# Inputs that are varied most often, in this order.
-_COMMON = (
-    "bearing.inner_speed",
-    "bearing.radial_load",
-    "bearing.temperature",
-    "bearing.axial_load",
-    "contact.entrainment_speed",
-    "contact.load_per_length",
-    "contact.load",
-    "contact.max_hertz_pressure",
-    "contact.temperature",
-    *swept_drives.COMMON,
-)
-
-# Results that are shown most often. The one by which inputs are ranked and the breakdown voltage of the case
-# stand before them.
-_RESULTS = {
-    "bearing": (
-        "bearing.margin",
-        "bearing.capacitance",
-        "bearing.shaft_voltage",
-        "bearing.lambda_ratio",
-        "bearing.contact_time_share",
-        "bearing.through_breakdown",
-        "bearing.max_strength",
-        "bearing.discharge_energy",
-        "bearing.through_margin",
-    ),
-    "contact": (
-        "discharge.margin",
-        "film.minimum_thickness",
-        "film.central_thickness",
-        "film.max_pressure",
-        "field.max_strength",
-        "discharge.capacitance",
-    ),
-    "drive": swept_drives.RESULTS,
-}
-
 
 def sweep_of(table: Mapping[str, Any]) -> Sweep:
     """Sweep of the tables of a sweep file with its base case inside. Raises InputError if the tables are no
@@ -323,7 +278,8 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
     """
     case = run_case_of(table)
     kind = _kind_of_case(case)
-    keys = dict.fromkeys(filter(None, (ranked_value(case), breakdown_of(case).value, *_RESULTS[kind])))
+    main = filter(None, (ranked_value(case), breakdown_of(case).value))
+    keys = dict.fromkeys((*main, *at_ends(SWEEPS[kind])))
     return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
 
 
@@ -339,19 +295,15 @@ def _kind_of_case(case: SweptCase) -> str:
 
 def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
     if isinstance(case, DriveCase):
-        written, resolved = swept_drives.texts_of(table, case), swept_drives.values_of(case)
-        fields = swept_drives.fields()
+        written, resolved = _by_key(table, case), _by_key(case.to_dict(), case)
+        fields = _drive_fields()
     else:
         written, resolved = Inputs(table).flat(), flattened(case.to_dict())
         fields = {field.key: field for group in BEARING_GROUPS for field in group.fields}
-    numbers = [
-        key
-        for key, value in resolved.items()
-        if is_number(value) and kind_of(key) is not None and key.partition(".")[0] not in _OF_SOLUTION
-    ]
+    numbers = [key for key, value in resolved.items() if is_number(value) and _may_vary(key, case)]
 
     def rank(key: str) -> tuple[int, int, int]:
-        common = _COMMON.index(key) if key in _COMMON else len(_COMMON)
+        common = SWEEPS["inputs"].index(key) if key in SWEEPS["inputs"] else len(SWEEPS["inputs"])
         return common, key not in written, input_at(key) is None
 
     for key in sorted(numbers, key=rank):
@@ -361,6 +313,40 @@ def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
         ends = _ends(text, resolved[key], key)
         if ends is not None:
             yield Variable(key, named(key, case), *ends, log=slider is not None and slider.log)
+
+
+def _may_vary(key: str, case: SweptCase) -> bool:
+    """Whether a sweep can vary a number of a case, which is none of how the case is computed."""
+    if kind_of(key) is None or key.partition(".")[0] in _OF_SOLUTION:
+        return False
+    try:
+        check_varied(key, case)
+    except InputError:
+        return False
+    return True
+
+
+def _by_key(table: Mapping[str, Any], case: DriveCase) -> dict[str, Any]:
+    """Values of the tables of a drive by the keys of a sweep; equal bearings have one key for both."""
+    rest = {key: value for key, value in table.items() if key not in (*ENDS, "remedies")}
+    same = case.drive_end == case.non_drive_end
+    ends = {BOTH: table[ENDS[0]]} if same else {end: table.get(end, {}) for end in ENDS}
+    return flattened({**Inputs(rest).table, **ends})
+
+
+def _drive_fields() -> dict[str, Field]:
+    """Fields of a drive by key, with those of both bearings."""
+    both = (replace(field, key=f"{BOTH}.{field.key}") for group in BEARING_GROUPS for field in group.fields)
+    fields = (field for group in DRIVE_GROUPS for field in group.fields)
+    return {field.key: field for field in (*fields, *both)}
+
+
+def _in_tables(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values by the keys of the tables of a drive: those of both bearings at each end."""
+    found: dict[str, Any] = {}
+    for key, value in values.items():
+        found |= {one: value for one in of_both_ends(key) if one == key or end_and_key(one)[0] in table}
+    return found
 
 
 def named(key: str, case: SweptCase) -> str:
@@ -507,7 +493,7 @@ def point_table(
     wanted = case.replace(inputs)
     changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
     texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
-    set_keys(changed, swept_drives.in_tables(table, texts) if isinstance(case, DriveCase) else texts)
+    set_keys(changed, _in_tables(table, texts) if isinstance(case, DriveCase) else texts)
     try:
         if case_key(swept_case_of_dict(changed, written=True)) == case_key(wanted):
             return changed

@@ -18,6 +18,7 @@ from ehlectric.app.page_warnings import Told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
 from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
+from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.report.light import Light, light_of
 
 if TYPE_CHECKING:
@@ -114,9 +115,8 @@ class ThemeButton(Element, component="../static/theme.js"):
     """Button for light, dark, or the colours of the system."""
 
 
-# Signs of the levels, and words of the bounds.
+# Signs of the levels.
 _SIGNS = {"green": "✓", "yellow": "!", "red": "✕", "grey": "?"}
-_BOUNDS = {"≤": "upper bound", "≥": "lower bound"}
 
 
 def heading(text: str, level: int) -> None:
@@ -171,7 +171,7 @@ class Strip:
                 ui.html("Answer", sanitize=False, tag="span")
 
     def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
-        """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""
+        """Show the level of a verdict, its word and bound, and a few numbers such as the margin."""
         self._box.classes(replace=f"strip {level}")
         self._word.text = f"{_SIGNS[level]} {word}"
         self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
@@ -199,7 +199,7 @@ def _number(one: Number) -> None:
             if one.unit:
                 ui.label(one.unit).classes("unit")
         if one.bound:
-            ui.label(_BOUNDS.get(one.bound, "bound")).classes("bound")
+            ui.label(BOUNDS[one.bound]).classes("bound")
         if one.note:
             ui.label(one.note).classes("remark")
         for told in one.told:
