@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import UNRESOLVED_LOAD, UNRESOLVED_SHARE, about_share
+from ehlectric.contact.touching import about_share, unresolved_share
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
@@ -98,17 +98,8 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
         "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
         "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
     )
-    if coarser is None:
-        grids = "is not known on every second node with twice the time step"
-    elif abs(found.share_change) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
-        grids = f"was {about_share(coarser, share)} on every second node with twice the time step"
-    else:
-        return
-    yield ResultWarning(
-        "load-share-unresolved",
-        f"the mean load share of the asperities depends on the grid: it {grids}; use more grid.nodes and "
-        "compare",
-    )
+    grid = "every second node with twice the time step"
+    yield from unresolved_share("the mean load share", share, coarser, found.share_change, (grid, grid))
 
 
 def _passed(contact: TransientContact, surface: int) -> float:
