@@ -24,9 +24,8 @@ from ehlectric.contact.contact_solution import (
 )
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import (
-    line_case_warnings,
+    case_warnings,
     line_result_warnings,
-    point_case_warnings,
     point_result_warnings,
 )
 from ehlectric.errors import ResultWarning
@@ -53,10 +52,6 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     """Functions of one kind of contact, line or point, for each step in which the kinds differ."""
 
     resolve: Callable[[Case], ConditionsT]  # case -> operating conditions
-    # domain and spacings: setup, conditions -> domain of the film [m]; setup, conditions -> node spacing
-    # along each axis [m].
-    domain: Callable[[Case | Setup, ConditionsT], Domain]
-    spacings: Callable[[Case | Setup, ConditionsT], tuple[float, ...]]
     # Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
     rough: Callable[[Sequence[Roughness], Domain], Sequence[RoughT]]
     # film_problem and solve_film: setup, conditions, rough surfaces -> film problem; film problem -> film.
@@ -137,14 +132,12 @@ def _whole_field(problem: PointFieldProblem) -> PointField:
 
 LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = Kind(
     resolve=resolve,
-    domain=problems.line_domain_of,
-    spacings=lambda setup, conditions: (problems.spacing(setup, conditions),),
     rough=rough_surfaces,
     film_problem=problems.film_problem,
     solve_film=solve_film,
     field_problem=problems.field_problem,
     solve_field=solve_field,
-    case_warnings=line_case_warnings,
+    case_warnings=case_warnings,
     surface_warnings=profile_surface_warnings,
     result_warnings=line_result_warnings,
     formulas=film_line.FORMULAS,
@@ -165,14 +158,12 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
 
 POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProblem, PointField] = Kind(
     resolve=resolve_point,
-    domain=problems.domain_of,
-    spacings=problems.spacings,
     rough=rough_maps,
     film_problem=problems.point_film_problem,
     solve_film=solve_point_film,
     field_problem=problems.point_field_problem,
     solve_field=_whole_field,
-    case_warnings=point_case_warnings,
+    case_warnings=case_warnings,
     surface_warnings=map_surface_warnings,
     result_warnings=point_result_warnings,
     formulas=film_point.FORMULAS,

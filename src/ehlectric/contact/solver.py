@@ -24,7 +24,7 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.contact_refinement import Refined, refined
 from ehlectric.contact.contact_solution import Smooth
-from ehlectric.contact.problems import Setup, heights_of
+from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, spot_warnings
@@ -159,7 +159,7 @@ def solve_contact(
         title=title,
     )
     check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
-    domain = kind.domain(setup, conditions)
+    domain = domain_of(setup, conditions)
     return solve_prepared(
         PreparedContact(
             setup, conditions, domain, kind.rough(setup.roughness, domain) if rough is None else rough

@@ -140,8 +140,8 @@ def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Ar
     return found
 
 
-# Shares of the area around the spots at which film thicknesses and breakdown voltages are given, by the number
-# in the name of the value [%].
+# Shares of the area around the spots at which film thicknesses and breakdown voltages are given, by the
+# number in the name of the value [%].
 _THIN_SHARES = {1: 0.01, 5: 0.05, 50: 0.5}
 
 

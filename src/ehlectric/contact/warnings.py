@@ -28,25 +28,30 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
 
-# Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
-LINE_PERMANENT = 4e9
+# Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
+_PERMANENT = {"line": 4e9, "point": 4.2e9}
 
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
 
-# Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
-POINT_PERMANENT = 4.2e9
 
-
-def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
-    """Warnings about the operating conditions of a line contact, known before it is solved."""
-    yield from unit_warnings("reduced_radius", conditions.reduced_radius, conditions.reduced_modulus)
+def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warnings about the operating conditions of a contact, known before it is solved."""
+    key = "radius_x" if isinstance(conditions, PointConditions) else "reduced_radius"
+    texts = radius_doubt(key, conditions.radius_along)
+    yield from (ResultWarning("radius-large", text) for text in texts)
+    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(conditions.reduced_modulus))
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
-    yield from regime_warnings(conditions)
-    width = setup.grid.length / (0.5 * np.pi)
-    yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
+    # Load that the Hertz pressure would carry on the whole domain, over the load of the contact.
+    if isinstance(conditions, PointConditions):
+        yield from point_regime_warnings(conditions)
+        domain = setup.grid.length * 2.0 * conditions.side / (2.0 * np.pi / 3.0)
+    else:
+        yield from regime_warnings(conditions)
+        domain = setup.grid.length / (0.5 * np.pi)
+    yield from pressure_warnings(setup.oil, conditions, domain)
     yield from hardness_warnings(conditions)
 
 
@@ -96,12 +101,6 @@ def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[Resu
         )
 
 
-def unit_warnings(key: str, radius: float, modulus: float) -> Iterator[ResultWarning]:
-    """Warnings about a reduced radius [m], with its key, or modulus [Pa] that no machine part has."""
-    yield from (ResultWarning("radius-large", text) for text in radius_doubt(key, radius))
-    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(modulus))
-
-
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     """Warning about a line contact in a regime for which the film formulas were not made."""
     regime = film_formulas.regime(conditions.contact)
@@ -130,14 +129,15 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
 
 
 def pressure_warnings(
-    oil: Oil, pressure: float, domain: float, kind: str, permanent: float
+    oil: Oil, conditions: Conditions | PointConditions, domain: float
 ) -> Iterator[ResultWarning]:
     """Warnings that follow from the Hertz pressure of a contact and from its oil.
 
-    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load that the Hertz pressure would
-    carry if it acted on the whole domain, divided by the load of the contact. ``permanent`` is the Hertz
-    pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
+    ``domain`` is the load that the Hertz pressure would carry if it acted on the whole domain, divided by
+    the load of the contact.
     """
+    pressure, kind = conditions.max_pressure, conditions.geometry
+    permanent = _PERMANENT[kind]
     ambient_load = oil.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
         yield ResultWarning(
@@ -152,18 +152,6 @@ def pressure_warnings(
             f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
         )
     yield from oil.warnings(pressure)
-
-
-def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
-    """Warnings about the operating conditions of a point contact, known before it is solved."""
-    yield from unit_warnings("radius_x", conditions.radius_x, conditions.reduced_modulus)
-    yield from temperature_warnings(setup)
-    yield from rheology_warnings(setup)
-    yield from point_regime_warnings(conditions)
-    area = setup.grid.length * 2.0 * conditions.side
-    domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
-    yield from hardness_warnings(conditions)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
@@ -298,7 +286,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
     has its own warning.
     """
-    limit = LINE_PERMANENT if film.thickness.ndim == 1 else POINT_PERMANENT
+    limit = _PERMANENT["line" if film.thickness.ndim == 1 else "point"]
     error = (film.max_pressure_error or 0.0) if rough else 0.0
     largest = film.max_pressure * (1.0 + error)
     likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)

@@ -27,7 +27,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import contact_kinds
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
-from ehlectric.contact.problems import film_problem, point_film_problem
+from ehlectric.contact.problems import domain_of, film_problem, point_film_problem
 from ehlectric.errors import InputError
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
@@ -364,7 +364,7 @@ class TransientContact:
         conditions = kind.contact.resolve(case)
         schedule = schedule_of(case, conditions)
         travelled = travelled_case(case, schedule)
-        domain = kind.contact.domain(travelled, conditions)
+        domain = domain_of(travelled, conditions)
         surfaces: list[Any] = [
             kind.contact.rough([table], domain)[0] if surface is None or table.file is None else surface
             for table, surface in zip_longest(travelled.roughness, rough)

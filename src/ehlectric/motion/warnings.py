@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import about_share, unresolved_share
@@ -36,7 +37,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     warnings that are known before the first time step.
     """
     kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
-    domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
+    domain, spacings = domain_of(travelled, conditions), spacings_of(contact.case, conditions)
     yield from kind.case_warnings(contact.case, conditions)
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
@@ -66,7 +67,7 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     """
     steps, motion, case = contact.schedule.steps, contact.case.motion, contact.case
     assert motion is not None
-    spacing = contact.kind.contact.spacings(case, contact.conditions)[0]
+    spacing = spacings_of(case, contact.conditions)[0]
     passages = []
     for number, table in enumerate(case.roughness):
         wave = shortest_wave(table, contact.roughness.surfaces[number])

@@ -20,6 +20,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
@@ -150,11 +151,11 @@ class _Contact:
     def __init__(self, case: Case, rough: Any = None) -> None:
         self.case, self.kind = case, KINDS[case.contact.geometry]
         self.conditions = self.kind.resolve(case)
-        self.domain: Domain = self.kind.domain(case, self.conditions)
+        self.domain: Domain = domain_of(case, self.conditions)
         self.rough = self.kind.rough(case.roughness, self.domain) if rough is None else [rough]
 
     def warnings(self) -> tuple[Told, ...]:
-        spacings = self.kind.spacings(self.case, self.conditions)
+        spacings = spacings_of(self.case, self.conditions)
         found = self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         thin = too_rough(
