@@ -330,15 +330,6 @@ def meter_warnings(case: Any, film: Film | PointFilm) -> Iterator[ResultWarning]
     if meter is None or not film.converged:
         return
     if meter.coating is not None:
-        yield ResultWarning(
-            "coating-in-series",
-            "field and discharge are those of the film alone, under the potentials of [electric]; the "
-            "voltage between the coated bodies is higher, by 1/meter.film_voltage_share",
-        )
+        yield ResultWarning.of("coating-in-series")
     elif meter.rq and (ratio := film.minimum_thickness / meter.rq) < LEAST_RATIO:
-        yield ResultWarning(
-            "roughness-factor-rough",
-            f"the minimum film is {ratio:.2g} times meter.rq: below {LEAST_RATIO:g} the surfaces touch, and "
-            "the roughness factor of the capacitance is an order of magnitude only; solve the rough contact "
-            "with [[roughness]]",
-        )
+        yield ResultWarning.of("roughness-factor-rough", ratio=ratio, least=LEAST_RATIO)

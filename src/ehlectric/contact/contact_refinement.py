@@ -187,13 +187,13 @@ class Reach:
         finest = self.grids[-1]
         if finest.error is None or finest.error <= self.target:
             return
-        yield ResultWarning(
+        yield ResultWarning.of(
             "error-out-of-reach",
-            f"grid.{self.key}: an error of {_percent(self.target)} is probably out of reach, because the "
-            f"film is thin for its contact; about {_percent(finest.error)} is expected on the finest grid, "
-            f"with {finest.nodes} nodes, after about {_duration(self.seconds(0, len(self.grids)))}; raise "
-            f"grid.{self.key}, end sooner with a smaller grid.most_nodes, or take the film of the atlas "
-            "(ehlectric film) or of formulas (ehlectric check)",
+            key=self.key,
+            target=_percent(self.target),
+            error=_percent(finest.error),
+            nodes=finest.nodes,
+            time=_duration(self.seconds(0, len(self.grids))),
         )
 
 

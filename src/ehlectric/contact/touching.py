@@ -723,11 +723,8 @@ def spot_warnings(
     if not film.converged:
         return
     if conditions.boundary_film > 0.0 and _edge_gap(film) <= (1.0 + _ROUNDING) * conditions.boundary_film:
-        yield ResultWarning(
-            "domain-too-small",
-            "the surfaces touch at the edge of the domain, where asperities carry nothing in this solution; "
-            "lower grid.inlet or raise grid.outlet" + (" or grid.side" if film.thickness.ndim == 2 else ""),
-        )
+        sides = " or grid.side" if film.thickness.ndim == 2 else ""
+        yield ResultWarning.of("domain-too-small", "touching", sides=sides)
     if case.roughness or np.any(film.contact):
         balance = oil_balance(case, conditions, film)
         if balance is not None and balance.mass_error > MASS_ERROR:
@@ -738,11 +735,8 @@ def spot_warnings(
     share = load_share_of(conditions, spots)
     before = None if coarser is None else coarser.load_share
     what = "spot, which carries" if spots.number == 1 else "spots, which carry"
-    yield ResultWarning(
-        "asperities-touch",
-        f"the surfaces touch in {spots.number} {what} {about_share(share, before)} of "
-        "the load: the film conducts there, and the minimum film, the maximum field, the capacitance and a "
-        "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
+    yield ResultWarning.of(
+        "asperities-touch", "stationary", spots=spots.number, carried=what, share=about_share(share, before)
     )
     change = math.nan if before is None else share - before
     grids = "a coarser grid", "a grid with half the nodes"
@@ -762,10 +756,7 @@ def unresolved_share(
         before = f"was {about_share(coarser, share)} on {grids[1]}"
     else:
         return
-    yield ResultWarning(
-        "load-share-unresolved",
-        f"{what} of the asperities depends on the grid: it {before}; use more grid.nodes and compare",
-    )
+    yield ResultWarning.of("load-share-unresolved", what=what, before=before)
 
 
 def _edge_gap(film: Film | PointFilm) -> float:
@@ -779,10 +770,4 @@ def _not_conserved(balance: OilBalance) -> ResultWarning:
         f"{formatted(100.0 * each, '.2g')} %" if each >= _LEAST_SHARE else "none"
         for each in (balance.oil_made, balance.oil_lost)
     )
-    return ResultWarning(
-        "oil-not-conserved",
-        f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
-        f"cavitated gaps fill again, and {lost} is lost in spots, since cavities count as full where a line "
-        "contact touches, or no film that carries its oil was found; the film is rather too thick and the "
-        "load share of the asperities too low; use more grid.nodes, or [motion]",
-    )
+    return ResultWarning.of("oil-not-conserved", made=made, lost=lost)

@@ -61,12 +61,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
         celsius = f"{setup.contact.temperature - CELSIUS:.4g} °C"
-        yield ResultWarning(
-            "temperature-unused",
-            f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
-            f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
-            "lubricant.atmospheric_law for a viscosity that follows the temperature",
-        )
+        yield ResultWarning.of("temperature-unused", viscosity=1e3 * setup.oil.viscosity, temperature=celsius)
 
 
 def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
@@ -82,10 +77,12 @@ def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
         given = [key for key in keys if getattr(oil, key) is not None and key not in base]
         if other != rheology and given:
             names = " and ".join(f"lubricant.{key}" for key in given)
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "shear-constant-unused",
-                f"{names} {'are' if len(given) > 1 else 'is'} not used: film.rheology is {rheology!r}, not "
-                f"{other!r}; change it or leave them out",
+                names=names,
+                are="are" if len(given) > 1 else "is",
+                rheology=rheology,
+                other=other,
             )
 
 
@@ -93,12 +90,7 @@ def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[Resu
     """Warning about a hardness below the Hertz pressure: bodies would yield, not only asperities."""
     hardness, pressure = conditions.hardness, conditions.max_pressure
     if hardness is not None and hardness < pressure:
-        yield ResultWarning(
-            "hardness-low",
-            f"contact.hardness is {hardness / 1e9:.3g} GPa, below the Hertz pressure of "
-            f"{pressure / 1e9:.3g} GPa: smooth surfaces alone would yield where they touch, and the film "
-            "will probably not converge; hardened bearing steel has about 7 GPa",
-        )
+        yield ResultWarning.of("hardness-low", hardness=hardness / 1e9, pressure=pressure / 1e9)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
@@ -107,11 +99,7 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     if regime == "isoviscous-rigid":
         yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
-        yield ResultWarning(
-            "regime",
-            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
-            "Moes; use the solved film",
-        )
+        yield ResultWarning.of("regime", "line", regime=regime)
 
 
 def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
@@ -120,12 +108,7 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
     The film builds up over ``reach`` half-widths or semi-axes; ``length`` and ``lengths`` are the name of
     this unit in singular and plural.
     """
-    return ResultWarning(
-        "regime",
-        f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
-        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: "
-        f"where grid.inlet is given it should be at most {-reach:.2g}",
-    )
+    return ResultWarning.of("regime", "rigid", length=length, reach=reach, lengths=lengths, inlet=-reach)
 
 
 def pressure_warnings(
@@ -140,16 +123,10 @@ def pressure_warnings(
     permanent = _PERMANENT[kind]
     ambient_load = oil.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
-        yield ResultWarning(
-            "ambient-pressure",
-            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load on this domain; set "
-            "lubricant.ambient_pressure to 0 to leave it out",
-        )
+        yield ResultWarning.of("ambient-pressure", percent=100 * ambient_load)
     if pressure > permanent:
-        yield ResultWarning(
-            "plastic-deformation",
-            f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
-            f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
+        yield ResultWarning.of(
+            "plastic-deformation", pressure=pressure / 1e9, limit=permanent / 1e9, kind=kind
         )
     yield from oil.warnings(pressure)
 
@@ -164,11 +141,7 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
         reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
         yield rigid_warning("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
-        yield ResultWarning(
-            "regime",
-            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
-            "Nijenbanning, Venner and Moes; use the solved film",
-        )
+        yield ResultWarning.of("regime", "point", regime=regime)
 
 
 # Estimated relative error of the maximum field above which there is a warning.
@@ -196,10 +169,8 @@ _DEFICIT = 0.01
 def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings about the film of a line or point contact."""
     if not film.converged:
-        yield ResultWarning(
-            "not-converged",
-            f"do not use this film: the iteration did not converge ({film.status} at a residual of "
-            f"{film.residual:.1e}); {_advice(setup, film)}",
+        yield ResultWarning.of(
+            "not-converged", status=film.status, residual=film.residual, advice=_advice(setup, film)
         )
     places = film.collapsed_positions / film.scales.length
     # A film with heat or shear has a warning of its own: its surfaces must not touch at all.
@@ -214,18 +185,12 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             + ": there is no full film there; lower the load or the roughness, or raise speed or viscosity",
         )
     if film.minimum_thickness < ATOM:
-        yield ResultWarning(
-            "thinner-than-atom",
-            "the film is thinner than an atom in places: there is no full film there, and the field is that "
-            "of a gap of 0.1 nm",
-        )
+        yield ResultWarning.of("thinner-than-atom")
     for check in setup.oil.film_checks:
         yield from check(film.max_pressure)
     yield from _local_pressure(film, rough=bool(setup.roughness))
     if not film.cavitates:
-        yield ResultWarning(
-            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
-        )
+        yield ResultWarning.of("outlet-too-short")
     # The minimum of a film whose surfaces touch is the boundary film, whatever the grid.
     if film.contact_pressure is None:
         yield from _discretisation(setup, film)
@@ -235,24 +200,13 @@ def _discretisation(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Res
     """Warnings about the discretisation error of a film."""
     error = film.discretisation_error
     if film.converged and error is None and setup.roughness:
-        yield ResultWarning(
-            "error-unknown",
-            "the discretisation error of the film is unknown, because the roughness was raised in steps; "
-            "solve again with more grid.nodes and compare",
-        )
+        yield ResultWarning.of("error-unknown", "stationary")
     elif film.converged and error is None:
-        yield ResultWarning(
-            "coarser-grid-unsolved",
-            "do not use this film: the next coarser grid was not solved"
-            + (", or not with the third-order wedge" if setup.grid.wedge == "first-order" else "")
-            + ", so the discretisation error is unknown and probably large; use more grid.nodes",
-        )
+        wedge = ", or not with the third-order wedge" if setup.grid.wedge == "first-order" else ""
+        yield ResultWarning.of("coarser-grid-unsolved", wedge=wedge)
     elif error is not None and error > max(0.01, setup.grid.target or 0.0):
-        code, advice = "grid-too-coarse", ""
-        if error > 0.1:
-            code, advice = "grid-far-too-coarse", "do not use this film, "
-        text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
-        yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
+        code = "grid-far-too-coarse" if error > 0.1 else "grid-too-coarse"
+        yield ResultWarning.of(code, "stationary", percent=100 * error)
 
 
 def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
@@ -299,11 +253,14 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     reach = f", or about {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
     if error > UNRESOLVED:
         reach = ", or several times more, as the grid does not resolve it,"
-    yield ResultWarning(
+    yield ResultWarning.of(
         "local-plastic-deformation",
-        f"{what} is {film.max_pressure / 1e9:.3g} GPa{reach} at a Hertz pressure of "
-        f"{film.scales.pressure / 1e9:.3g} GPa: bearing steel yields above about {limit / 1e9:g} GPa, but "
-        f"the model is elastic; {advice}",
+        what=what,
+        largest=film.max_pressure / 1e9,
+        reach=reach,
+        hertz=film.scales.pressure / 1e9,
+        limit=limit / 1e9,
+        advice=advice,
     )
 
 
@@ -312,20 +269,12 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
     deficit = film.domain_loss
     if deficit is not None and deficit > _DEFICIT:
         inlet, _ = setup.grid.ends
-        code, effect = "inlet-too-short", "the film is wrong by about as much"
-        if deficit > 0.2:
-            code, effect = "inlet-far-too-short", "do not use this film"
-        yield ResultWarning(
-            code,
-            f"the inlet is too short: {100 * deficit:.2g} % of the pressure, or of the load, is missing "
-            f"upstream of it; {effect}; lower grid.inlet from {inlet:g} to about "
-            f"{_longer_inlet(inlet, deficit):g}",
-        )
+        code = "inlet-far-too-short" if deficit > 0.2 else "inlet-too-short"
+        longer = _longer_inlet(inlet, deficit)
+        yield ResultWarning.of(code, percent=100 * deficit, inlet=inlet, longer=longer)
     yield from _few_columns(setup.grid, film, field)
     if not np.any(field.inner & (field.x == field.max_strength_position)):
-        yield ResultWarning(
-            "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
-        )
+        yield ResultWarning.of("field-range-too-narrow", "line")
 
 
 def _longer_inlet(inlet: float, deficit: float) -> float:
@@ -343,22 +292,12 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
     """Warnings about the domain of a point contact and about the grid and range of its field."""
     loss, upstream, sides = film.domain_loss, film.inlet_deficit, film.side_deficit
     if loss is not None and upstream is not None and sides is not None and loss > _LOSS:
-        code, effect = "domain-too-small", ""
-        if loss > 0.2:
-            code, effect = "domain-far-too-small", "do not use this film, "
-        yield ResultWarning(
-            code,
-            f"the domain is too small: {100 * upstream:.2g} % of the pressure would build up upstream of it "
-            f"and {100 * sides:.2g} % is cut off at its sides, so the film is too thin by about "
-            f"{100 * loss:.2g} %; {effect}lower grid.inlet and raise grid.side",
-        )
+        code = "domain-far-too-small" if loss > 0.2 else "domain-too-small"
+        yield ResultWarning.of(code, "point", upstream=100 * upstream, sides=100 * sides, loss=100 * loss)
     yield from _few_columns(setup.grid, film, field)
     x, y = field.max_strength_position
     if not field.inner[field.x == x][:, field.y == y].any():
-        yield ResultWarning(
-            "field-range-too-narrow",
-            "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
-        )
+        yield ResultWarning.of("field-range-too-narrow", "point")
 
 
 def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) -> Iterator[ResultWarning]:
@@ -367,11 +306,7 @@ def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) 
         inside = int(np.count_nonzero((nodes >= of_field[0]) & (nodes <= of_field[-1])))
         columns = getattr(grid, key)
         if columns is not None and columns < inside:
-            yield ResultWarning(
-                "field-grid-too-coarse",
-                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
-                f"zone and capacitance are less accurate; use at least {inside}",
-            )
+            yield ResultWarning.of("field-grid-too-coarse", key=key, columns=columns, nodes=inside)
 
 
 def accuracy_warnings(
@@ -386,12 +321,7 @@ def accuracy_warnings(
 
 def unknown_error(where: str = "") -> ResultWarning:
     """Warning about a maximum field whose error is not known, ``where`` of several fields."""
-    return ResultWarning(
-        "field-unresolved",
-        f"the error of the maximum field is not known{where}, because a finer solution near the maximum did "
-        "not converge; a breakdown voltage may be too high; check the slopes of the surfaces, or use more "
-        "grid.nodes and compare",
-    )
+    return ResultWarning.of("field-unresolved", "unknown", where=where)
 
 
 def inaccurate_field(
@@ -403,9 +333,4 @@ def inaccurate_field(
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
         if degree >= MOST_DEGREE:
             advice = "the waves are far shorter than the film is thick"
-    return ResultWarning(
-        "field-unresolved",
-        f"the error of the maximum field is estimated at {100 * error:.2g} %, because the grid of the field "
-        "does not resolve the waves of the surfaces; a breakdown voltage is off by as much, and probably "
-        f"too high; {advice}",
-    )
+    return ResultWarning.of("field-unresolved", "inaccurate", percent=100 * error, advice=advice)

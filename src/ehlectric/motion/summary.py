@@ -163,11 +163,7 @@ def _unreliable(run: MotionRun) -> Iterator[ResultWarning]:
 def _halved(run: MotionRun) -> Iterator[ResultWarning]:
     halvings = run.dataset["halvings"].values
     if np.any(halvings):
-        yield ResultWarning(
-            "steps-halved",
-            f"{np.count_nonzero(halvings)} time steps did not converge and were halved, "
-            f"{int(halvings.sum())} times in all; more motion.steps or more grid.nodes may help",
-        )
+        yield ResultWarning.of("steps-halved", steps=np.count_nonzero(halvings), times=int(halvings.sum()))
 
 
 def _inaccurate_film(run: MotionRun) -> Iterator[ResultWarning]:
@@ -176,23 +172,11 @@ def _inaccurate_film(run: MotionRun) -> Iterator[ResultWarning]:
         return  # a run of an earlier version, which has no estimate
     errors = run_errors(run)
     if errors is None:
-        yield ResultWarning(
-            "error-unknown",
-            "the discretisation error of the moving film is unknown, because the film on every second node "
-            "with twice the time step did not converge, or the run has less than two steps; it is probably "
-            "large: solve again with more grid.nodes and compare",
-        )
+        yield ResultWarning.of("error-unknown", "moving")
     elif errors.largest > FILM_ERROR:
-        code, advice = "grid-too-coarse", ""
-        if errors.largest > FAR_TOO_LARGE:
-            code, advice = "grid-far-too-coarse", "do not use this film, "
+        code = "grid-far-too-coarse" if errors.largest > FAR_TOO_LARGE else "grid-too-coarse"
         steps = " and more motion.steps" if run.case.motion and run.case.motion.steps else ""
-        yield ResultWarning(
-            code,
-            f"the discretisation error of the moving film, by its grid and its time steps together, is "
-            f"estimated at {100.0 * errors.largest:.2g} % and may be larger; {advice}use more "
-            f"grid.nodes{steps}",
-        )
+        yield ResultWarning.of(code, "moving", percent=100.0 * errors.largest, steps=steps)
 
 
 def _inaccurate(run: MotionRun) -> Iterator[ResultWarning]:

@@ -44,17 +44,9 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     yield from starvation_warnings(contact.case, conditions, still.film)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = (
-            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
-            "comparison with the moving roughness; try more grid.nodes"
-        )
-        yield ResultWarning("stationary-not-converged", text)
+        yield ResultWarning.of("stationary-not-converged", status=still.film.status)
     elif (error := still.film_error) is not None and error > 0.01:
-        text = (
-            f"the discretisation error of the film with stationary roughness is estimated at "
-            f"{100.0 * error:.2g} %; use more grid.nodes"
-        )
-        yield ResultWarning("stationary-error", text)
+        yield ResultWarning.of("stationary-error", percent=100.0 * error)
 
 
 def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
@@ -77,12 +69,7 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     fewest, surface = min(passages, default=(math.inf, 0))
     if fewest < LEAST_STEPS:
         enough = math.ceil(steps * SUFFICIENT_STEPS / fewest)
-        yield ResultWarning(
-            "steps-too-long",
-            f"the {steps} time steps are too long: the shortest waves of surface {surface} move past the oil "
-            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 % or more; use "
-            f"at least {enough} motion.steps",
-        )
+        yield ResultWarning.of("steps-too-long", steps=steps, surface=surface, fewest=fewest, enough=enough)
 
 
 def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
@@ -91,13 +78,12 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
     one.
     """
     share, coarser = found.mean_share, found.coarser
-    short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "
-    yield ResultWarning(
+    yield ResultWarning.of(
         "asperities-touch",
-        f"the surfaces touch at {100.0 * found.time_share:.3g} % of {found.steps} time steps, and asperities "
-        f"carry {about_share(share, coarser)} of the load on average: the film conducts there, and the "
-        "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
-        "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
+        "moving" if found.filled else "short run",
+        percent=100.0 * found.time_share,
+        steps=found.steps,
+        share=about_share(share, coarser),
     )
     grid = "every second node with twice the time step"
     yield from unresolved_share("the mean load share", share, coarser, found.share_change, (grid, grid))
@@ -119,11 +105,7 @@ def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[
     away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
     if part > _ALIKE:
-        yield ResultWarning(
-            "stationary-differs",
-            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
-            f"height: {'; '.join(_causes(contact))}",
-        )
+        yield ResultWarning.of("stationary-differs", percent=100.0 * part, causes="; ".join(_causes(contact)))
 
 
 def _causes(contact: TransientContact) -> Iterator[str]:

@@ -135,19 +135,14 @@ def step_warnings(
         whose, how = "line", "linear"
         if isinstance(steps[0][1], Map):
             whose, how = "map", "harmonic"
-        yield ResultWarning(
-            "voids-filled",
-            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} has no data; these voids were "
-            f"filled by {how} interpolation",
+        yield ResultWarning.of(
+            "voids-filled", percent=100 * voids, part=whose, surface=table.surface, method=how
         )
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:
-            yield ResultWarning(
-                "heights-cut",
-                f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq was "
-                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before: the truncated surface differs from the "
-                "measured one; raise truncate",
+            yield ResultWarning.of(
+                "heights-cut", percent=100 * share, surface=table.surface, rq=rms(steps[-2][1].heights) * 1e9
             )
 
 

@@ -435,12 +435,8 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
-        text = (
-            f"{path}: {np.count_nonzero(long)} of the {steps.size} distances between positions are twice the "
-            f"others, the first after point {where}: positions are rounded, or samples are missing; all "
-            "points are treated as equally spaced, check the file"
-        )
-        return spacing, (ResultWarning("spacing-irregular", text),)
+        numbers = {"long": np.count_nonzero(long), "distances": steps.size, "point": where}
+        return spacing, (ResultWarning.of("spacing-irregular", file=path, **numbers),)
     return spacing, ()
 
 

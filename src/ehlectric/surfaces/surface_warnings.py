@@ -110,14 +110,16 @@ def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[
     short = [k for k in (0, 1) if surface.extent[k] < needed[k]]
     if short:
         axis = short[0]
-        yield ResultWarning(
+        yield ResultWarning.of(
             "roughness-continued",
-            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]}, but "
-            f"the domain needs {needed[axis] * 1e6:.4g} µm, since the map is centred"
-            + (" (it is too short along y, too)" if len(short) == 2 else "")
-            + f": it was continued by extend = {table.extend!r}; to avoid this, use a larger map, "
-            + ("change roughness.shift or raise" if axis == 0 else "change roughness.shift_y or lower")
-            + (" grid.inlet" if axis == 0 else " grid.side"),
+            "map",
+            surface=surface.surface,
+            length=surface.extent[axis] * 1e6,
+            axis="xy"[axis],
+            needed=needed[axis] * 1e6,
+            both=" (it is too short along y, too)" if len(short) == 2 else "",
+            extend=table.extend,
+            change=("shift or raise grid.inlet", "shift_y or lower grid.side")[axis],
         )
 
 
@@ -160,11 +162,12 @@ def _map_warnings(
 def _variance_missed(surface: int, missed: float, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
     """Warning about the part of the variance of a surface that a grid with these spacings [m] misses."""
     if missed > MOST_MISSED:
-        yield ResultWarning(
+        yield ResultWarning.of(
             "variance-missed",
-            f"the grid spacing of {' x '.join(f'{each * 1e6:.3g}' for each in spacings)} µm misses "
-            f"{100 * missed:.2g} % of the variance of surface {surface}, in waves shorter than two "
-            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * max(spacings):.3g} µm",
+            spacings=" x ".join(f"{each * 1e6:.3g}" for each in spacings),
+            percent=100 * missed,
+            surface=surface,
+            cutoff=4e6 * max(spacings),
         )
 
 
@@ -254,12 +257,13 @@ def profile_surface_warnings(
         ends = domain.inlet - table.shift, domain.outlet - table.shift
         reach = 2.0 * max(map(abs, ends))
         if surface.extent < reach:
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "roughness-continued",
-                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long, but the "
-                f"domain needs {reach * 1e6:.4g} µm, since the profile is centred and must reach the farther "
-                f"end: it was continued by extend = {table.extend!r}; to avoid this, use a longer profile, "
-                "change roughness.shift or raise grid.inlet",
+                "profile",
+                surface=surface.surface,
+                length=surface.extent * 1e6,
+                needed=reach * 1e6,
+                extend=table.extend,
             )
         if surface.steps:
             yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)
@@ -272,20 +276,12 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
     """Warnings about generated surfaces that share a seed and so are not independent of each other."""
     for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
         if times > 1:
-            yield ResultWarning(
-                "seed-repeated",
-                f"{times} rough surfaces have the seed {seed}: their random numbers are the same, so they "
-                "are not independent; give each surface its own seed",
-            )
+            yield ResultWarning.of("seed-repeated", times=times, seed=seed)
 
 
 def unresolved(dx: float, what: str, length: float) -> ResultWarning:
     """Warning that a grid with the spacing ``dx`` does not resolve a ``length`` of the roughness [m]."""
-    return ResultWarning(
-        "roughness-unresolved",
-        f"the grid spacing of {dx * 1e6:.3g} µm does not resolve {what} is {length * 1e6:.3g} µm: the error "
-        "estimate is not meaningful; use more grid.nodes",
-    )
+    return ResultWarning.of("roughness-unresolved", spacing=dx * 1e6, what=what, length=length * 1e6)
 
 
 def _profile_shape_warnings(
