@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, within
 from ehlectric.film.problem import velocity_parameter
 from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact
@@ -434,10 +434,8 @@ def resolve_point(case: Case) -> PointConditions:
         side=case.grid.side,
         **shared,
     )
-    try:
+    with within("grid"):
         case.grid.check_across(conditions.side)
-    except InputError as error:
-        raise error.under("grid") from None
     return conditions
 
 

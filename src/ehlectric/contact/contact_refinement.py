@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.film.film_error import MINIMUM_ORDER, expected_error, expected_nodes
 from ehlectric.film.film_solver import UNKNOWN
 from ehlectric.film.hot_oil import Physics
@@ -112,10 +112,8 @@ def _doubled(grid: Grid) -> Grid:
     """
     table = grid.model_dump(mode="json", exclude_none=True)
     table |= {key: 2 * table[key] - 1 for key in ("nodes", "nodes_y") if key in table}
-    try:
+    with within("grid"):
         return Grid.from_dict(table)
-    except InputError as error:
-        raise error.under("grid") from None
 
 
 # Time that a film takes for each node that is solved for [s], on one core of a workstation, until the

@@ -16,7 +16,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
 from ehlectric.errors import InputError
-from ehlectric.motion.moving_contact import KINDS, AnyKind, Schedule, schedule_of
+from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import SCHEMA, solved_part
 from ehlectric.runtime.drafts import redo_file
 from ehlectric.runtime.file_rules import check_format, refusing
@@ -232,7 +232,7 @@ class MotionRun(Values):
         return cls(selected, case, KINDS[case.contact.geometry].contact.resolve(case))
 
     @property
-    def kind(self) -> AnyKind:
+    def kind(self) -> Kind:
         """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 
