@@ -251,7 +251,7 @@ _ATTRIBUTES: Mapping[str, str] = {
 }
 _NUMBERS = ("t", "h00")
 
-# Variable over the mesh that a file has from the first instant on whose surfaces touch. It follows the others.
+# Variable over the mesh that a file has from the first instant on whose surfaces touch, after the others.
 _TOUCHING = "contact_pressure"
 
 # Number of places that are written alternately.

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, ResultWarning, shown, within
 from ehlectric.quantities.units import length_unit, to_si
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
@@ -36,7 +36,7 @@ from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.surfaces.maps import Map, filled, without_void_borders
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 
-# Exceptions of Python's ZIP reader and of its decompressors for invalid content.
+# Exceptions of Python's readers of ZIP archives and XML, and of its decompressors, for invalid content.
 BROKEN = (
     zipfile.BadZipFile,
     zlib.error,
@@ -49,6 +49,7 @@ BROKEN = (
     OSError,
     EOFError,
     OverflowError,
+    ElementTree.ParseError,
 )
 
 # Largest number of members of an archive. A surface has fewer than ten.
@@ -400,10 +401,8 @@ def _unit_in(field: str) -> str | None:
 
 def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> str:
     if given is not None:
-        try:
+        with within(name):
             length_unit(given)
-        except InputError as error:
-            raise error.under(name) from None
     if given is not None and stated is not None and to_si(f"1 {given}", "m") != to_si(f"1 {stated}", "m"):
         raise InputError(name, got=f"{given!r}, but {path} states {stated!r}")
     unit = stated if given is None else given
@@ -448,9 +447,6 @@ _MOST_XML = 2_000_000
 # distance between rows [m], None for a single row.
 HeightMap: TypeAlias = tuple[Array, float, float | None]
 
-# Exceptions of the readers of archives and of XML for invalid content.
-_BROKEN = (*BROKEN, ElementTree.ParseError)
-
 # Memory of each point while a map is read [bytes]: its height, and whether it is valid.
 _POINT = 10
 
@@ -474,7 +470,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         root = ElementTree.fromstring(member(archive, content, "main.xml", _MOST_XML))
     except InputError as error:
         raise error.under(str(path)) from None
-    except _BROKEN:
+    except BROKEN:
         raise InputError(path, "is not a complete X3P file") from None
     _check_axes(path, root)
     columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
@@ -534,16 +530,15 @@ def _check_axes(path: Path, root: ElementTree.Element) -> None:
 
 
 def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
+    text = _text(root, place)
     try:
-        number = int(_text(root, place))
-        if not 1 <= number <= MOST_POINTS:
-            raise ValueError
+        number = int(text)
     except ValueError:
+        number = 0
+    if not 1 <= number <= MOST_POINTS:
         raise InputError(
-            path,
-            f"its {place} is {shown(_text(root, place))}",
-            takes=f"a whole number from 1 to {MOST_POINTS}",
-        ) from None
+            path, f"its {place} is {shown(text)}", takes=f"a whole number from 1 to {MOST_POINTS}"
+        )
     return number
 
 
@@ -554,10 +549,10 @@ def _number(path: Path, root: ElementTree.Element, place: str, default: float | 
         return default
     try:
         number = float(text)
-        if not np.isfinite(number):
-            raise ValueError
     except ValueError:
-        raise InputError(path, f"its {place} is {shown(text)}", takes="a number") from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(path, f"its {place} is {shown(text)}", takes="a number")
     return number
 
 
@@ -573,7 +568,7 @@ def _binary_block(
         data = member(archive, content, name, size) if held == size else b""
     except InputError as error:
         raise InputError(path, f"{shown(name)} {error.text}") from None
-    except _BROKEN:
+    except BROKEN:
         raise InputError(path, f"its {link} is {shown(name)}, which cannot be read from it") from None
     if held != size:
         raise InputError(path, f"{shown(name)} has {held} bytes", takes=f"{size} for the size of the map")
@@ -795,14 +790,24 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
+    surface = None
     if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
-        surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
+        heights = read_x3p(path, content)
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
-        surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
+        heights = read_al3d(path, content)
     elif is_text(content):
-        surface = _of_text(path, content, x_unit, z_unit)
+        try:
+            text = read_text(path, content, x_unit, z_unit)
+            surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
+        except NoProfileError as error:
+            heights = _read_other(path, error.text)
     else:
-        surface = _of_map(path, _read_other(path), x_unit, z_unit)
+        heights = _read_other(path)
+    if surface is None:
+        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
+            if unit is not None:
+                raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
+        surface = Surface(*heights, str(path))
     _check_scale(surface)
     return surface
 
@@ -813,22 +818,6 @@ def _content(path: Path) -> bytes:
         text = is_text(file.read(4096))
     most, copies = (MOST_TEXT, _TEXT_COPIES) if text else (MOST_BINARY, 1.0)
     return read_bytes(path, most=most, copies=copies)
-
-
-def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
-    """Surface of a text: a profile, or another format that the package SurfaceTopography reads."""
-    try:
-        text = read_text(path, content, x_unit, z_unit)
-    except NoProfileError as error:
-        return _of_map(path, _read_other(path, error.text), x_unit, z_unit)
-    return Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
-
-
-def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
-    for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-        if unit is not None:
-            raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
-    return Surface(*heights, str(path))
 
 
 def _check_scale(surface: Surface) -> None:
