@@ -29,6 +29,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.python_laws import OF_STRENGTH, Laws
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
+from ehlectric.surfaces.surface_warnings import surface_warnings
 
 # Places along each axis of a line and a point contact at which the heights in the Hertz zone are taken.
 _ZONE_NODES = {1: 4001, 2: 401}
@@ -88,7 +89,7 @@ class PreparedContact:
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
         """Warnings about the rough surfaces on the grid of a setup."""
         spacings = spacings_of(setup, self.conditions)
-        yield from self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        yield from surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
 
 
 def check_case(case: Case) -> PreparedContact:

@@ -40,7 +40,6 @@ from ehlectric.formulas.film_line import LineContact, Thickness
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
-from ehlectric.surfaces.surface_warnings import map_surface_warnings, profile_surface_warnings
 
 RoughT = TypeVar("RoughT", RoughSurface, RoughMap)
 ContactT = TypeVar("ContactT", LineContact, PointContact)
@@ -61,10 +60,8 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     # field over the whole range.
     field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
     solve_field: Callable[[ProblemT], FieldT]
-    # case_warnings and surface_warnings: functions that yield warnings before the solution: about the
-    # operating conditions, and about the rough surfaces.
+    # Function that yields warnings about the operating conditions, before the solution.
     case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
-    surface_warnings: Callable[..., Iterator[ResultWarning]]
     # Setup, film, field -> warnings about the solution.
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
     # formulas and regime: published film-thickness formulas by name, and the function that names the
@@ -138,7 +135,6 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
     field_problem=problems.field_problem,
     solve_field=solve_field,
     case_warnings=case_warnings,
-    surface_warnings=profile_surface_warnings,
     result_warnings=line_result_warnings,
     formulas=film_line.FORMULAS,
     regime=film_line.regime,
@@ -164,7 +160,6 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     field_problem=problems.point_field_problem,
     solve_field=_whole_field,
     case_warnings=case_warnings,
-    surface_warnings=map_surface_warnings,
     result_warnings=point_result_warnings,
     formulas=film_point.FORMULAS,
     regime=film_point.regime,

@@ -15,7 +15,7 @@ from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave
+from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, surface_warnings
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
@@ -39,7 +39,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
     domain, spacings = domain_of(travelled, conditions), spacings_of(contact.case, conditions)
     yield from kind.case_warnings(contact.case, conditions)
-    yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
+    yield from surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
     yield from starvation_warnings(contact.case, conditions, still.film)
     yield from _unlike(contact, still)

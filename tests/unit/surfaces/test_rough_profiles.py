@@ -8,8 +8,8 @@ from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import measured, rough_surfaces
-from ehlectric.surfaces.surface_warnings import profile_surface_warnings
 from ehlectric.surfaces.surface_warnings import profile_variance_beyond as variance_beyond
+from ehlectric.surfaces.surface_warnings import surface_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d
@@ -42,9 +42,7 @@ def texts_of(*tables, **changes):
     conditions = resolve(case)
     domain = domain_of(case, conditions)
     rough = rough_surfaces(case.roughness, domain)
-    return list(
-        map(str, profile_surface_warnings(case.roughness, rough, domain, *spacings_of(case, conditions)))
-    )
+    return list(map(str, surface_warnings(case.roughness, rough, domain, *spacings_of(case, conditions))))
 
 
 @each("table", [GAUSSIAN, SELF_AFFINE])

@@ -31,7 +31,7 @@ from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, without_void_borders
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, measured, measured_map
-from ehlectric.surfaces.surface_warnings import summit_statistics
+from ehlectric.surfaces.surface_warnings import summit_statistics, surface_warnings
 from ehlectric.tables.surface_tables import (
     SUMMITS_NOTE,
     SUMMITS_TITLE,
@@ -156,7 +156,7 @@ class _Contact:
 
     def warnings(self) -> tuple[Told, ...]:
         spacings = spacings_of(self.case, self.conditions)
-        found = self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         thin = too_rough(
             table, rough, formulas_of(self.conditions)[FORMULA_BY_GEOMETRY[self.case.contact.geometry]]
