@@ -317,8 +317,9 @@ def point_conditions(
 
 def default_side(ratio: float) -> float:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
-    ``ratio``, ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment,
-    dimensionless. Returns half of the domain's width, in semi-axes across, dimensionless.
+
+    The ``ratio`` k = a/b is that of the semi-axes of the dry contact, a across and b along entrainment,
+    dimensionless. The result is half of the domain's width, in semi-axes across, dimensionless.
 
     Examples
     --------

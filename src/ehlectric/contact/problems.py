@@ -76,9 +76,10 @@ class Setup:
 
 
 def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) -> OilSupply | None:
-    """Supply of oil of a film problem; None where the inlet is flooded. ``conditions``, operating conditions,
-    whose scales make the layer dimensionless. Returns layer over Y = y/b in units of b^2/R, or the ratio of
-    films; beyond the ends of a table its first and last thickness hold.
+    """Supply of oil of a film problem; None where the inlet is flooded.
+
+    The supply is the layer over Y = y/b in units of b^2/R, by the scales of the operating conditions, or the
+    ratio of films. Beyond the ends of a table its first and last thickness hold.
 
     Examples
     --------
@@ -197,9 +198,10 @@ def point_field_problem(
     setup: Case | Setup, conditions: PointConditions, film: PointFilm, roughness: Array
 ) -> PointFieldProblem:
     """Field problem of a point contact with a known film; cavitated regions count as full of oil.
-    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx, ny). Returns Poisson
-    problem on the columns that the grid defines; it covers only the half y >= 0 if film and surfaces are
-    symmetric about y = 0.
+
+    The ``roughness`` has the heights of both surfaces at the film's nodes [m], shape (2, nx, ny). The Poisson
+    problem is posed on the columns that the grid defines. It covers only the half y >= 0 if film and surfaces
+    are symmetric about y = 0.
     """
     grid = setup.grid
     assert grid.field_side is not None
@@ -369,8 +371,9 @@ def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array)
 
 def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
     """Field problem of a line contact with a known film; cavitated regions count as full of oil.
-    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx). Returns Poisson problem on
-    the columns that the grid defines.
+
+    The ``roughness`` has the heights of both surfaces at the film's nodes [m], shape (2, nx). The Poisson
+    problem is posed on the columns that the grid defines.
     """
     x = _columns(setup, conditions, film, refine=bool(np.any(roughness)))
     return FieldProblem(

@@ -175,15 +175,12 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
     places = film.collapsed_positions / film.scales.length
     # A film with heat or shear has a warning of its own: its surfaces must not touch at all.
     if len(places) and film.heated is None:
-        where = "x/b" if places.ndim == 1 else "(x/b, y/b)"
-        named = (", ".join(f"{place:.3f}" for place in np.atleast_1d(p)) for p in places[:_NAMED])
-        yield ResultWarning(
-            "surfaces-touch",
-            f"the surfaces would touch at {where} = "
-            + ", ".join(name if places.ndim == 1 else f"({name})" for name in named)
-            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else "")
-            + ": there is no full film there; lower the load or the roughness, or raise speed or viscosity",
-        )
+        if places.ndim == 1:
+            axes, named = "x/b", [f"{x:.3f}" for x in places[:_NAMED]]
+        else:
+            axes, named = "(x/b, y/b)", [f"({x:.3f}, {y:.3f})" for x, y in places[:_NAMED]]
+        more = f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else ""
+        yield ResultWarning.of("surfaces-touch", "nodes", axes=axes, places=", ".join(named), more=more)
     if film.minimum_thickness < ATOM:
         yield ResultWarning.of("thinner-than-atom")
     for check in setup.oil.film_checks:
@@ -283,7 +280,7 @@ def _longer_inlet(inlet: float, deficit: float) -> float:
     Far upstream the gap is a parabola, the gradient of the reduced pressure falls with the fourth power of
     the distance, and so the missing pressure falls with its cube.
 
-    ``inlet``, inlet of the case in half-widths, negative.
+    The ``inlet`` of the case is negative, in half-widths.
     """
     return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
 

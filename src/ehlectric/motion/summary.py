@@ -73,9 +73,8 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum: float) -> RunErrors:
     """Errors of a run from its film thicknesses and those of its companion at the same instants.
 
-    ``lowest`` and ``central``, minimum film thickness between the nodes and central film thickness over time,
-    of the run and of its companion, in any unit, shape (n,). Returns relative errors of the minimum and of
-    the central film thickness.
+    ``lowest`` and ``central`` are the minimum film thickness between the nodes and the central film thickness
+    over time, of the run and of its companion, in any unit, shape (n,).
 
     Two minima over time may agree by chance. Their change is therefore the largest one of all instants at
     which the minimum of either film is within 5 % of its lowest value over time. The distance of the lowest
@@ -298,9 +297,10 @@ def _position(run: MotionRun, name: str, index: int) -> float | list[float]:
 
 
 def local_maxima(run: MotionRun, within: Mask) -> Array:
-    """Local maxima of the field strength over position, within the Hertz zone. ``within``, recorded instants
-    to use, shape (frames,). Returns field strengths at nodes where the field is larger than at all
-    neighbouring nodes, from all these instants together [V/m], shape (n,).
+    """Local maxima of the field strength over position, within the Hertz zone [V/m], shape (n,).
+
+    They are the field strengths at nodes where the field is larger than at all neighbouring nodes, from all
+    recorded instants of the mask ``within``, shape (frames,).
     """
     strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
     axes = zip(run.kind.axes, run.conditions.semi_axes, strict=True)

@@ -33,8 +33,9 @@ LEAST_STEPS, SUFFICIENT_STEPS = 8.0, 20.0
 
 
 def motion_warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warnings about the case, its surfaces, its time steps and the film with stationary roughness. Yields
-    warnings that are known before the first time step.
+    """Warnings that are known before the first time step.
+
+    They concern the case, its surfaces, its time steps and the film with stationary roughness.
     """
     kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
     domain, spacings = domain_of(travelled, conditions), spacings_of(contact.case, conditions)
@@ -73,9 +74,10 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
 
 
 def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
-    """Warnings about a run whose surfaces touch: what it means, and a load share not resolved. Yields that
-    the surfaces touch, and where so that their load share depends on the grid or is not known on a coarser
-    one.
+    """Warnings about a run whose surfaces touch.
+
+    The first says what touching means. The second is given where the load share depends on the grid, or is
+    not known on a coarser one.
     """
     share, coarser = found.mean_share, found.coarser
     yield ResultWarning.of(

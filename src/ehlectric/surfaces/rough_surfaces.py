@@ -408,36 +408,28 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
 
 def _random_map(table: Roughness, domain: Domain) -> Map:
     """Random map that covers the domain after its ends have been trimmed."""
-    assert table.rq is not None and table.seed is not None
-    reach = [length + _trim(table) for length in domain.reach(table)]
-    shorter = "the shorter side of the domain", domain.shorter
-    with within("roughness"):
-        if table.generator == "gaussian":
-            assert table.correlation_length is not None
-            lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
-            _check_waves("correlation_length", min(lengths), shorter)
-            beyond = [_MAP_MARGIN * length / map_generators.POINTS_IN_CORRELATION for length in lengths]
-            return map_generators.gaussian(
-                rq=table.rq,
-                correlation_length=lengths[0],
-                correlation_length_y=lengths[1],
-                reach_x=reach[0] + beyond[0],
-                reach_y=reach[1] + beyond[1],
-                seed=table.seed,
-            )
-        assert table.hurst is not None and table.rolloff_wavelength is not None
-        _check_waves("rolloff_wavelength", table.rolloff_wavelength, shorter)
-        shortest = table.shortest_wavelength or table.rolloff_wavelength / map_generators.SHORTEST_PART
-        margin = _MAP_MARGIN * shortest / map_generators.POINTS_IN_SHORTEST
-        return map_generators.self_affine(
-            rq=table.rq,
-            hurst=table.hurst,
-            rolloff_wavelength=table.rolloff_wavelength,
-            reach_x=reach[0] + margin,
-            reach_y=reach[1] + margin,
-            seed=table.seed,
-            shortest=shortest,
+    make: Callable[..., Map]
+    if table.generator == "gaussian":
+        assert table.correlation_length is not None
+        lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
+        key, longest = "correlation_length", min(lengths)
+        spacings = [length / map_generators.POINTS_IN_CORRELATION for length in lengths]
+        make = partial(
+            map_generators.gaussian, correlation_length=lengths[0], correlation_length_y=lengths[1]
         )
+    else:
+        assert table.hurst is not None and table.rolloff_wavelength is not None
+        key, longest = "rolloff_wavelength", table.rolloff_wavelength
+        shortest = table.shortest_wavelength or longest / map_generators.SHORTEST_PART
+        spacings = [shortest / map_generators.POINTS_IN_SHORTEST] * 2
+        make = partial(
+            map_generators.self_affine, hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest
+        )
+    needed = zip(domain.reach(table), spacings, strict=True)
+    reach_x, reach_y = (reach + _trim(table) + _MAP_MARGIN * spacing for reach, spacing in needed)
+    with within("roughness"):
+        _check_waves(key, longest, ("the shorter side of the domain", domain.shorter))
+        return make(rq=table.rq, seed=table.seed, reach_x=reach_x, reach_y=reach_y)
 
 
 def _trim(table: Roughness) -> float:

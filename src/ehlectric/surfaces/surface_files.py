@@ -689,8 +689,9 @@ class Surface:
         return float(np.median(np.diff(levels)))
 
     def line(self, index: int = 0, *, along: str = "row") -> Profile:
-        """One line of the surface as a profile, with voids filled by linear interpolation. Raises InputError
-        if the surface has no such line, or too much of the line is void.
+        """One line of the surface as a profile, with voids filled by linear interpolation.
+
+        Raises an InputError if the surface has no such line, or too much of the line is void.
         """
         lines, spacing = self.heights, self.spacing_x
         if along == "column":
@@ -714,9 +715,10 @@ class Surface:
         return _checked(Profile(spacing, whole), self.source)
 
     def map(self, *, along: str = "row") -> Map:
-        """Whole surface as a map, with voids filled by a harmonic function. Returns map without the outer
-        rows and columns that have no data at all. Raises InputError if the surface is a profile, has too many
-        points, or too much of it is void.
+        """Whole surface as a map, with voids filled by a harmonic function.
+
+        Outer rows and columns that have no data at all are left out. Raises an InputError if the surface is a
+        profile, has too many points, or too much of it is void.
         """
         if self.spacing_y is None:
             raise InputError(self.source, "is a profile", takes="a map of several rows")
@@ -782,8 +784,9 @@ def _check_range(name: str, length: float, heights: Array, source: str, units: s
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
-    """Read a measured surface from a file. Returns heights [m], spacings [m] and warnings. Raises InputError
-    if the file cannot be read, or its data are not credible for a surface.
+    """Read a measured surface from a file: heights [m], spacings [m] and warnings.
+
+    Raises an InputError if the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
     content = _content(path)
