@@ -82,7 +82,7 @@ MOST_MISSED = 0.01
 
 def surface_warnings(
     tables: Sequence[Roughness],
-    rough: Sequence[RoughSurface] | Sequence[RoughMap],
+    rough: Sequence[RoughSurface | RoughMap],
     domain: Domain,
     *spacings: float,
 ) -> Iterator[ResultWarning]:
