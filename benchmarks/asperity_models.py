@@ -26,7 +26,6 @@ from benchmarks.moving_asperities import POSED, Posed, Solved, solved, store, st
 from ehlectric.arrays import Array
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import PointConditions
-from ehlectric.contact.touching import load_of
 from ehlectric.formulas.asperities import (
     LOAD_SHARE,
     AsperityContact,
@@ -96,7 +95,7 @@ class Surface:
             undeformed=undeformed,
             pressed=surface_moments(Map(band.spacing_x, band.spacing_y, pressed)),
             modulus=point.reduced_modulus,
-            pressure=load_of(conditions) / zone,
+            pressure=conditions.total_load / zone,
             zone=zone,
             masjedi_khonsari=share.asperity_share,
         )

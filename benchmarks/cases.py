@@ -31,7 +31,7 @@ def rough_film_problem(nodes: int) -> FilmProblem:
     case = Case.from_toml(EXAMPLE.with_name("rough_contact.toml")).replace({"grid.nodes": nodes})
     conditions = resolve(case)
     return problems.film_problem(
-        case, conditions, rough_surfaces(case.roughness, problems.line_domain_of(case, conditions))
+        case, conditions, rough_surfaces(case.roughness, problems.domain_of(case, conditions))
     )
 
 

@@ -24,6 +24,7 @@ from tests.helpers.mixed_films import MixedFilm, at_film, mixed_film, rough_line
 from benchmarks.measure import ROOT, processor
 from ehlectric import Case
 from ehlectric.contact.check import check_case
+from ehlectric.contact.problems import spacings_of
 from ehlectric.contact.touching import weighted_percentiles
 
 DATA = Path(__file__).parent / "data" / "mixed.jsonl"
@@ -151,7 +152,7 @@ def solved(contact: Contact, limit: float) -> Record:
     """Record of a contact, with the time of its film and of the smooth one on the same grid."""
     case, rq = contact.case()
     prepared = check_case(case)
-    spacing = max(prepared.kind.spacings(prepared.case, prepared.conditions))
+    spacing = max(spacings_of(prepared.case, prepared.conditions))
     wave = contact.shortest_wave
     film, seconds = timed(case, limit)
     _, smooth = timed(case.replace({"roughness": ()}), limit)

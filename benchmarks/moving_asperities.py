@@ -22,7 +22,7 @@ from tests.helpers.mixed_films import at_film, gaussian, rough_point
 from ehlectric import Case
 from ehlectric.arrays import Array
 from ehlectric.contact.check import check_case
-from ehlectric.contact.touching import hertz_weights, load_of, spots_of, weighted_rms
+from ehlectric.contact.touching import hertz_weights, load_share_of, spots_of, weighted_rms
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.isothermal_film import PointFilm
 from ehlectric.motion.moving_contact import TransientContact
@@ -200,7 +200,7 @@ def _instant(contact: TransientContact, film: PointFilm, smooth: Array) -> tuple
     return (
         float(np.vdot(zone, film.thickness)) / whole,
         weighted_rms(film.thickness - smooth, zone),
-        float(np.sum(spots.loads)) / load_of(contact.conditions),
+        load_share_of(contact.conditions, spots),
         float(np.sum(zone[film.contact])) / whole,
         float(spots.number),
     )

@@ -8,6 +8,7 @@ import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, Self
@@ -273,11 +274,20 @@ class Cause:
     less_accurate: bool = False
 
 
+def _data(name: str) -> dict[str, Any]:
+    """Content of a TOML file about warnings."""
+    return tomllib.loads(Path(__file__).parent.joinpath("quantities", name).read_text("utf-8"))
+
+
+@cache
+def _texts() -> dict[str, Any]:
+    """Texts by code, or by code and situation."""
+    return _data("warning_texts.toml")
+
+
 def _codes() -> Iterator[tuple[str, Cause]]:
     """Causes by code, from ``warning_codes.toml``; groups of quantities may contain others."""
-    read = tomllib.loads(
-        Path(__file__).parent.joinpath("quantities", "warning_codes.toml").read_text("utf-8")
-    )
+    read = _data("warning_codes.toml")
 
     def keys(names: list[str]) -> Iterator[str]:
         for name in names:
@@ -324,6 +334,20 @@ class ResultWarning:
     def __post_init__(self) -> None:
         if self.code not in CODES:
             raise ValueError(f"{self.code!r} is no code of a warning; expected one of {', '.join(CODES)}")
+
+    @classmethod
+    def of(cls, code: str, situation: str = "", /, **values: object) -> Self:
+        """Warning with the text of its code in ``warning_texts.toml``, in which values stand for their names.
+
+        A code with several texts has one for each situation in which it is given.
+
+        Examples
+        --------
+        >>> print(ResultWarning.of("seed-repeated", times=2, seed=5).text[:36])
+        2 rough surfaces have the seed 5: th
+        """
+        text = _texts()[code]
+        return cls(code, (text[situation] if situation else text).format_map(values))
 
     def __str__(self) -> str:
         return self.text

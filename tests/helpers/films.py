@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.problems import film_problem, line_domain_of
+from ehlectric.contact.problems import domain_of, film_problem
 from ehlectric.film.deflection import LINE
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.surfaces.rough_surfaces import rough_surfaces
@@ -17,5 +17,5 @@ RIGID_LINE = replace(LINE, influence=lambda nodes, _dx, _dy: np.zeros((nodes[0],
 def film_alone(case):
     """Film of a case, equal to that of ``solve`` without ``refine``."""
     conditions = resolve(case)
-    rough = rough_surfaces(case.roughness, line_domain_of(case, conditions))
+    rough = rough_surfaces(case.roughness, domain_of(case, conditions))
     return solve_film(film_problem(case, conditions, rough))

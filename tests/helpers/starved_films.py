@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.problems import domain_of
 from ehlectric.film.film_solver import starved_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
@@ -16,7 +17,7 @@ def posed(case):
     """Film problem of a case without a supply of oil, on the grid of its nodes."""
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)
-    return kind.film_problem(case, conditions, kind.rough(case.roughness, kind.domain(case, conditions)))
+    return kind.film_problem(case, conditions, kind.rough(case.roughness, domain_of(case, conditions)))
 
 
 def flooded_flow(problem):

@@ -304,10 +304,10 @@ def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Arra
     conditions = replace(kind_of(ring).contact(ring, friction.load).conditions, film_factor=1.0)
     loads = np.array([friction.load, *np.ravel(load)])
     if isinstance(conditions, PointConditions):
-        by_formula = point_rolling_force(conditions.formulas, loads)
+        by_formula = point_rolling_force(conditions.contact, loads)
     else:
         per_length = loads * (conditions.load_per_length / friction.load)
-        by_formula = line_rolling_force(conditions.formulas, per_length)
+        by_formula = line_rolling_force(conditions.contact, per_length)
     solved = friction.rolling_coefficient * friction.load
     return np.reshape(solved * by_formula[1:] / by_formula[0], np.shape(load))
 

@@ -29,7 +29,7 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid
 from ehlectric.contact.conditions import default_side
 from ehlectric.contact.problems import Setup
-from ehlectric.contact.warnings import line_case_warnings, point_case_warnings
+from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.field.zones import areas
 from ehlectric.film.atlas.atlas_films import ContactFilm, contact_film
@@ -240,10 +240,7 @@ def _solution(quick: QuickContact, around: tuple[float, float]) -> ContactSoluti
     contact, (least, central) = quick.contact, quick.films
     oil = contact.ring.oil
     setup = Setup(oil=oil, grid=quick.grid)
-    if isinstance(contact, BallContact):
-        warnings = point_case_warnings(setup, contact.conditions)
-    else:
-        warnings = line_case_warnings(setup, contact.conditions)
+    warnings = case_warnings(setup, contact.conditions)
     return solution_of(
         contact,
         quick.films,

@@ -28,12 +28,6 @@ Ring = tuple[float, float]
 _EVERYWHERE: Ring = (0.0, np.inf)
 
 
-def bodies_of(contact: Contact) -> Bodies:
-    """Bodies of a contact; if the case gives reduced radii only, a body with these radii on a plane."""
-    first, second = (Body(1.0 / along, 1.0 / across) for along, across in body_radii(contact))
-    return Bodies.of(first, second)
-
-
 def body_text(contact: Contact) -> str:
     """Words for the two bodies that face each other outside the film.
 
@@ -56,33 +50,6 @@ def _words(along: float, across: float) -> str:
     if along == across > 0.0:
         return f"ball of {along * 1e3:.4g} mm"
     return f"body of {along * 1e3:.4g} mm along and {across * 1e3:.4g} mm across entrainment"
-
-
-def gap_around(
-    contact: Contact,
-    conditions: Conditions | PointConditions,
-    film: Film | PointFilm,
-    meter: Meter,
-    length: float | None,
-    ring: Ring = _EVERYWHERE,
-) -> tuple[Outside, float]:
-    """Gap between the bodies outside the domain of a film.
-
-    ``length`` is that of a line contact across entrainment, and ``ring`` the smallest and the largest
-    distance from the contact [m]. The second result is the largest relative difference between gap and film
-    at the edge of the domain, zero for a line contact.
-    """
-    bodies = bodies_of(contact)
-    if isinstance(film, PointFilm):
-        assert isinstance(conditions, PointConditions)
-        radii, modulus = (conditions.radius_x, conditions.radius_y), conditions.reduced_modulus
-        dry = dry_contact(conditions.load, *radii, modulus)
-        nodes: tuple[Array, Array, Array] = (film.x, film.y, film.thickness)
-        return around_point(bodies, dry, modulus, nodes, width=meter.length, ring=ring)
-    assert isinstance(conditions, Conditions) and length is not None
-    ends = film.x, film.thickness
-    half_width, radius = conditions.half_width, conditions.reduced_radius
-    return around_line(bodies, half_width, radius, ends, length=length, ring=ring), 0.0
 
 
 @dataclass(frozen=True)
@@ -232,9 +199,30 @@ class Metered:
         # The solved field, and gas in the outlet, change the sum by little; the places keep their shares.
         return at.ravel(), thin.ravel() * (sum(self.domain(self.layers).values()) / float(np.sum(thin)))
 
+    def gap(self, ring: Ring = _EVERYWHERE) -> tuple[Outside, float]:
+        """Gap between the bodies outside the domain of the film, and its mismatch with the film.
+
+        If the case gives reduced radii only, a body with these radii lies on a plane. ``ring`` is the
+        smallest and the largest distance from the contact [m]. The mismatch is the largest relative
+        difference between gap and film at the edge of the domain, zero for a line contact.
+        """
+        conditions, film = self.conditions, self.film
+        bodies = Bodies.of(
+            *(Body(1.0 / along, 1.0 / across) for along, across in body_radii(self.case.contact))
+        )
+        if isinstance(film, PointFilm):
+            assert isinstance(conditions, PointConditions)
+            radii, modulus = (conditions.radius_x, conditions.radius_y), conditions.reduced_modulus
+            dry = dry_contact(conditions.load, *radii, modulus)
+            nodes: tuple[Array, Array, Array] = (film.x, film.y, film.thickness)
+            return around_point(bodies, dry, modulus, nodes, width=self.meter.length, ring=ring)
+        assert isinstance(conditions, Conditions) and self.length is not None
+        ends, size = (film.x, film.thickness), (conditions.half_width, conditions.reduced_radius)
+        return around_line(bodies, *size, ends, length=self.length, ring=ring), 0.0
+
     def outside(self, permittivity: float, coating: float, ring: Ring = _EVERYWHERE) -> tuple[Array, Array]:
         """Distance from the contact [m] and capacitance [F] of nodes outside the domain, in one medium."""
-        gap, _ = gap_around(self.case.contact, self.conditions, self.film, self.meter, self.length, ring)
+        gap, _ = self.gap(ring)
         return gap.radius, gap.capacitances(permittivity, coating)
 
     def filled(self, coating: float) -> tuple[Array, Array]:
@@ -277,7 +265,7 @@ def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReadin
     parallel, domain = meter.parallel_capacitance or 0.0, parts["capacitance_domain"]
     whole = domain + parts["capacitance_outside"] + parallel
     smooth = sum(contact.domain(Layers(coating=layers.coating)).values())
-    _, mismatch = gap_around(contact.case.contact, contact.conditions, contact.film, meter, contact.length)
+    _, mismatch = contact.gap()
     return MeterReading(
         capacitance=whole,
         capacitance_air=domain + parts["capacitance_outside_air"] + parallel,
@@ -330,15 +318,6 @@ def meter_warnings(case: Any, film: Film | PointFilm) -> Iterator[ResultWarning]
     if meter is None or not film.converged:
         return
     if meter.coating is not None:
-        yield ResultWarning(
-            "coating-in-series",
-            "field and discharge are those of the film alone, under the potentials of [electric]; the "
-            "voltage between the coated bodies is higher, by 1/meter.film_voltage_share",
-        )
+        yield ResultWarning.of("coating-in-series")
     elif meter.rq and (ratio := film.minimum_thickness / meter.rq) < LEAST_RATIO:
-        yield ResultWarning(
-            "roughness-factor-rough",
-            f"the minimum film is {ratio:.2g} times meter.rq: below {LEAST_RATIO:g} the surfaces touch, and "
-            "the roughness factor of the capacitance is an order of magnitude only; solve the rough contact "
-            "with [[roughness]]",
-        )
+        yield ResultWarning.of("roughness-factor-rough", ratio=ratio, least=LEAST_RATIO)

@@ -21,7 +21,7 @@ from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, reach_of
-from ehlectric.contact.problems import Setup, check_tolerance, heights_of
+from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
@@ -29,6 +29,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.python_laws import OF_STRENGTH, Laws
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
+from ehlectric.surfaces.surface_warnings import surface_warnings
 
 # Places along each axis of a line and a point contact at which the heights in the Hertz zone are taken.
 _ZONE_NODES = {1: 4001, 2: 401}
@@ -87,8 +88,8 @@ class PreparedContact:
 
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
         """Warnings about the rough surfaces on the grid of a setup."""
-        spacings = self.kind.spacings(setup, self.conditions)
-        yield from self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        spacings = spacings_of(setup, self.conditions)
+        yield from surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
 
 
 def check_case(case: Case) -> PreparedContact:
@@ -101,7 +102,7 @@ def check_case(case: Case) -> PreparedContact:
     conditions = kind.resolve(case)
     check_tolerance(case.solver)
     check_memory(case)
-    domain = kind.domain(case, conditions)
+    domain = domain_of(case, conditions)
     # Its film is refused here where it cannot be heated.
     physics_of(case, conditions)
     return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))
@@ -166,7 +167,7 @@ def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact
     case = replace(case, grid=grid) if isinstance(case, Setup) else case.model_copy(update={"grid": grid})
     if isinstance(conditions, PointConditions):
         conditions = replace(conditions, side=side)
-    return PreparedContact(case, conditions, contact.kind.domain(case, conditions), ())
+    return PreparedContact(case, conditions, domain_of(case, conditions), ())
 
 
 def _larger(

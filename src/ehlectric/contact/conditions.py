@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -10,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, within
 from ehlectric.film.problem import velocity_parameter
 from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact
@@ -88,34 +89,25 @@ def check_pressure(pressure: float, oil: Oil) -> None:
 # hardly matter; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short across.
 _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
-# Exponents of the entrainment speed in the film thickness of hard contacts: lines (Pan and Hamrock), points
-# (Hamrock and Dowson). They convert a film factor to a factor of the entrainment speed.
-LINE_FILM_EXPONENT, POINT_FILM_EXPONENT = 0.69, 0.67
-
 
 @dataclass(frozen=True, kw_only=True)
-class Conditions:
-    """Operating conditions of a line contact, SI units."""
+class SharedConditions(ABC):
+    """Operating conditions that line and point contacts have in common, SI units."""
 
-    geometry: ClassVar[str] = "line"
+    geometry: ClassVar[str]
+    # Exponent of the entrainment speed in the film thickness of hard contacts. It converts a film factor to a
+    # factor of the entrainment speed.
+    film_exponent: ClassVar[float]
 
-    # reduced_radius, reduced_modulus and load_per_length: R [m], E' [Pa] with 2/E' = (1 - nu1^2)/E1 + (1 -
-    # nu2^2)/E2, and w [N/m].
-    reduced_radius: float
-    reduced_modulus: float
-    load_per_length: float
+    reduced_modulus: float  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
     entrainment_speed: float  # (u1 + u2)/2 [m/s]
     slide_to_roll_ratio: float = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
     # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
     # asymptotic coefficient alpha* [1/Pa].
     viscosity: float
     pressure_viscosity_coefficient: float
-    # half_width and max_pressure: half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
-    half_width: float
-    max_pressure: float
-    # curvature_share and compliance_share: surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only
-    # the reduced values are known.
-    curvature_share: float = 0.5
+    max_pressure: float  # Hertz pressure p_h of the dry contact [Pa]
+    # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     compliance_share: float = 0.5
     # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     boundary_film: float = 0.0
@@ -125,35 +117,63 @@ class Conditions:
     film_factor: float = 1.0
 
     @property
-    def contact(self) -> LineContact:
-        """Inputs of the film-thickness formulas and of the Reynolds equation.
+    def _speed_and_oil(self) -> tuple[float, float, float]:
+        """Speed at which a flooded film is thinner by the film factor [m/s], viscosity [Pa s], alpha* [1/Pa].
 
-        ``film_factor`` acts only here. It reduces the entrainment speed to u film_factor^(1/0.69), at which
-        an isothermal, fully flooded film is thinner by that factor.
+        An isothermal, fully flooded film is thinner by ``film_factor`` at the entrainment speed
+        u film_factor^(1/exponent).
         """
-        return LineContact(
-            self.reduced_radius,
-            self.reduced_modulus,
-            self.load_per_length,
-            self.entrainment_speed * self.film_factor ** (1.0 / LINE_FILM_EXPONENT),
-            self.viscosity,
-            self.pressure_viscosity_coefficient,
-        )
+        speed = self.entrainment_speed * self.film_factor ** (1.0 / self.film_exponent)
+        return speed, self.viscosity, self.pressure_viscosity_coefficient
 
     @property
-    def formulas(self) -> LineContact:
-        """Alias of ``contact``."""
-        return self.contact
+    @abstractmethod
+    def semi_axes(self) -> tuple[float, ...]:
+        """Half-width of a line contact, or semi-axes along and across entrainment [m]."""
+
+    @property
+    @abstractmethod
+    def radius_along(self) -> float:
+        """Reduced radius along entrainment [m]."""
 
     @property
     def velocity_parameter(self) -> float:
         """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
-            entrainment_speed=self.contact.entrainment_speed,
-            radius=self.reduced_radius,
-            half_width=self.half_width,
+            entrainment_speed=self._speed_and_oil[0],
+            radius=self.radius_along,
+            half_width=self.semi_axes[0],
             max_pressure=self.max_pressure,
+        )
+
+    @property
+    def thickness_scale(self) -> float:
+        """Film thickness that corresponds to H = 1, b^2/R [m], with the radius R along entrainment."""
+        return self.semi_axes[0] ** 2 / self.radius_along
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conditions(SharedConditions):
+    """Operating conditions of a line contact, SI units."""
+
+    geometry: ClassVar[str] = "line"
+    film_exponent: ClassVar[float] = 0.69  # Pan and Hamrock
+
+    reduced_radius: float  # R [m]
+    load_per_length: float  # w [N/m]
+    half_width: float  # half-width b of the dry contact [m]
+    # Surface 1's share of 1/R, dimensionless; 0.5 if only the reduced radius is known.
+    curvature_share: float = 0.5
+
+    @property
+    def contact(self) -> LineContact:
+        """Inputs of the film-thickness formulas and of the Reynolds equation.
+
+        ``film_factor`` acts only here, as a lower entrainment speed.
+        """
+        return LineContact(
+            self.reduced_radius, self.reduced_modulus, self.load_per_length, *self._speed_and_oil
         )
 
     @property
@@ -162,9 +182,66 @@ class Conditions:
         return (self.half_width,)
 
     @property
-    def thickness_scale(self) -> float:
-        """Film thickness that corresponds to H = 1, b^2/R [m]."""
-        return self.half_width**2 / self.reduced_radius
+    def radius_along(self) -> float:
+        """Reduced radius [m]."""
+        return self.reduced_radius
+
+    @property
+    def total_load(self) -> float:
+        """Load per length [N/m]."""
+        return self.load_per_length
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointConditions(SharedConditions):
+    """Operating conditions of a point contact, SI units; x runs along entrainment, y across it."""
+
+    geometry: ClassVar[str] = "point"
+    film_exponent: ClassVar[float] = 0.67  # Hamrock and Dowson
+
+    # radius_x and radius_y: reduced radii along and across entrainment [m].
+    radius_x: float
+    radius_y: float
+    load: float  # F [N]
+    # semi_axis_x and semi_axis_y: semi-axes b along and a across entrainment of the dry contact [m].
+    semi_axis_x: float
+    semi_axis_y: float
+    side: float  # half of the domain's width across entrainment, in semi-axes across
+
+    @property
+    def contact(self) -> PointContact:
+        """Inputs of the film-thickness formulas and of the Reynolds equation.
+
+        ``film_factor`` acts only here, as a lower entrainment speed.
+        """
+        return PointContact(
+            self.radius_x, self.radius_y, self.reduced_modulus, self.load, *self._speed_and_oil
+        )
+
+    @property
+    def half_width(self) -> float:
+        """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
+        return self.semi_axis_x
+
+    @property
+    def semi_axes(self) -> tuple[float, ...]:
+        """Semi-axes of the dry contact along and across entrainment [m]."""
+        return self.semi_axis_x, self.semi_axis_y
+
+    @property
+    def radius_along(self) -> float:
+        """Reduced radius along entrainment [m]."""
+        return self.radius_x
+
+    @property
+    def total_load(self) -> float:
+        """Load [N]."""
+        return self.load
+
+    @property
+    def ratio(self) -> float:
+        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
+        return self.semi_axis_y / self.semi_axis_x
 
 
 def line_conditions(oil: Oil, *, bodies: Sequence[float] = (), **inputs: Any) -> Conditions:
@@ -194,92 +271,6 @@ def line_conditions(oil: Oil, *, bodies: Sequence[float] = (), **inputs: Any) ->
         half_width=half_width,
         max_pressure=max_pressure,
     )
-
-
-@dataclass(frozen=True, kw_only=True)
-class PointConditions:
-    """Operating conditions of a point contact, SI units; x runs along entrainment, y across it."""
-
-    geometry: ClassVar[str] = "point"
-
-    # radius_x and radius_y: reduced radii along and across entrainment [m].
-    radius_x: float
-    radius_y: float
-    reduced_modulus: float  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
-    load: float  # F [N]
-    entrainment_speed: float  # (u1 + u2)/2 [m/s]
-    slide_to_roll_ratio: float = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
-    # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
-    # asymptotic coefficient alpha* [1/Pa].
-    viscosity: float
-    pressure_viscosity_coefficient: float
-    # semi_axis_x, semi_axis_y and max_pressure: semi-axes b along and a across entrainment [m], and Hertz
-    # pressure p_h [Pa] of the dry contact.
-    semi_axis_x: float
-    semi_axis_y: float
-    max_pressure: float
-    side: float  # half of the domain's width across entrainment, in semi-axes across
-    # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
-    compliance_share: float = 0.5
-    # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
-    boundary_film: float = 0.0
-    # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
-    hardness: float | None = None
-    # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
-    film_factor: float = 1.0
-
-    @property
-    def contact(self) -> PointContact:
-        """Inputs of the film-thickness formulas and of the Reynolds equation.
-
-        ``film_factor`` acts only here. It reduces the entrainment speed to u film_factor^(1/0.67), at which
-        an isothermal, fully flooded film is thinner by that factor.
-        """
-        return PointContact(
-            self.radius_x,
-            self.radius_y,
-            self.reduced_modulus,
-            self.load,
-            self.entrainment_speed * self.film_factor ** (1.0 / POINT_FILM_EXPONENT),
-            self.viscosity,
-            self.pressure_viscosity_coefficient,
-        )
-
-    @property
-    def formulas(self) -> PointContact:
-        """Alias of ``contact``."""
-        return self.contact
-
-    @property
-    def velocity_parameter(self) -> float:
-        """Dimensionless velocity parameter Lambda = 6 eta0 u_s Rx^2/(b^3 p_h), where u_s = u1 + u2."""
-        return velocity_parameter(
-            viscosity=self.viscosity,
-            entrainment_speed=self.contact.entrainment_speed,
-            radius=self.radius_x,
-            half_width=self.semi_axis_x,
-            max_pressure=self.max_pressure,
-        )
-
-    @property
-    def half_width(self) -> float:
-        """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
-        return self.semi_axis_x
-
-    @property
-    def semi_axes(self) -> tuple[float, ...]:
-        """Semi-axes of the dry contact along and across entrainment [m]."""
-        return self.semi_axis_x, self.semi_axis_y
-
-    @property
-    def ratio(self) -> float:
-        """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
-        return self.semi_axis_y / self.semi_axis_x
-
-    @property
-    def thickness_scale(self) -> float:
-        """Film thickness that corresponds to H = 1, b^2/Rx [m]."""
-        return self.semi_axis_x**2 / self.radius_x
 
 
 def point_conditions(
@@ -326,8 +317,9 @@ def point_conditions(
 
 def default_side(ratio: float) -> float:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
-    ``ratio``, ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment,
-    dimensionless. Returns half of the domain's width, in semi-axes across, dimensionless.
+
+    The ``ratio`` k = a/b is that of the semi-axes of the dry contact, a across and b along entrainment,
+    dimensionless. The result is half of the domain's width, in semi-axes across, dimensionless.
 
     Examples
     --------
@@ -443,10 +435,8 @@ def resolve_point(case: Case) -> PointConditions:
         side=case.grid.side,
         **shared,
     )
-    try:
+    with within("grid"):
         case.grid.check_across(conditions.side)
-    except InputError as error:
-        raise error.under("grid") from None
     return conditions
 
 

@@ -143,11 +143,7 @@ def heat_warnings(
         simple = heated.isothermal_minimum_thickness
         thinnest = film.minimum_thickness if simple is None else min(simple, film.minimum_thickness)
         if film.status == "film collapsed" or thinnest < _TOUCHING * conditions.boundary_film:
-            yield ResultWarning(
-                "surfaces-touch",
-                "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
-                "only; leave it out, lower the roughness, or raise speed or viscosity",
-            )
+            yield ResultWarning.of("surfaces-touch", "heated")
         elif physics.thermal is not None:
             thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
             if thicker is not None:
@@ -155,12 +151,7 @@ def heat_warnings(
                 yield ResultWarning("film-temperature-range", f"{text}; give other laws of the lubricant")
         return
     if heated.isothermal_minimum_thickness is None:
-        yield ResultWarning(
-            "isothermal-unsolved",
-            "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
-            "shear on the film is not known; the film itself may be used; try more solver.max_iterations "
-            "or grid.nodes",
-        )
+        yield ResultWarning.of("isothermal-unsolved")
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
         yield from _temperatures(case, heated, physics.thermal.oil, conditions.max_pressure)
@@ -194,21 +185,14 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
     if heated.rheology not in UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
         return
     assert heated.traction_coefficient is not None
-    traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
-    numbers = f"the traction coefficient of {traction}"
+    numbers = f"the traction coefficient of {abs(heated.traction_coefficient):.3g}"
     numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
-    if heated.rheology == "carreau" and heated.thermal:
-        # Heat and Carreau's law keep the stress within the size of measured ones, but not below their limit.
-        text = (
-            f"{numbers} may be too large: above {above} the shear stress of oils has a limit, which the law "
-            "of Carreau does not have; compare with film.rheology 'limiting'"
-        )
-    else:
-        text = (
-            f"do not use {numbers}: above {above} the stress of a {heated.rheology.capitalize()} film is "
-            "several times too large, as it has no limit; give film.rheology 'eyring' or 'limiting'"
-        )
-    yield ResultWarning("newtonian-traction", text)
+    # Heat and Carreau's law keep the stress within the size of measured ones, but not below their limit.
+    law = "carreau" if heated.rheology == "carreau" and heated.thermal else "unbounded"
+    rheology = heated.rheology.capitalize()
+    yield ResultWarning.of(
+        "newtonian-traction", law, numbers=numbers, above=_NEWTONIAN / 1e9, rheology=rheology
+    )
 
 
 def _thicker_from(oil: HotOil, pressure: float) -> float | None:
@@ -251,11 +235,7 @@ def _temperatures(
         yield ResultWarning("film-temperature-range", text)
     rise = heated.max_temperature_rise or 0.0
     if rise > _LARGE_RISE:
-        yield ResultWarning(
-            "film-very-hot",
-            f"the film is up to {rise:.3g} K hotter at its middle than the oil in the inlet: oil and its "
-            "additives do not stand this for long, and its laws are hardly known; check speeds and load",
-        )
+        yield ResultWarning.of("film-very-hot", rise=rise)
 
 
 def _celsius(low: float, high: float) -> str:
@@ -268,20 +248,10 @@ def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarn
     if rise is None or rise < _SMALL_RISE:
         return
     if error is not None and error > max(_SMALL_ERROR, _RISE_ERROR * rise):
-        text = f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %"
-        if _at_spike(film, heated):
-            text += (
-                ": it is that at the pressure spike, whose height depends on the grid; use more grid.nodes, "
-                "or the temperature elsewhere in the film"
-            )
-        else:
-            text += "; use more grid.nodes"
-        yield ResultWarning("heat-unresolved", text)
+        where = "spike" if _at_spike(film, heated) else "rise"
+        yield ResultWarning.of("heat-unresolved", where, rise=rise, percent=100 * error / rise)
     elif lost is not None and abs(lost) > _IMBALANCE:
-        yield ResultWarning(
-            "heat-unresolved",
-            f"the balance of heat in the film is {100 * abs(lost):.2g} % off; use more grid.nodes",
-        )
+        yield ResultWarning.of("heat-unresolved", "balance", percent=100 * abs(lost))
 
 
 def _at_spike(film: Film | PointFilm, heated: HeatedFilm) -> bool:
@@ -300,12 +270,14 @@ def _slow(
     """Warning about a surface that moves so slowly that its temperature is not that of the model."""
     peclet = speed * conditions.semi_axes[0] / (2.0 * body.diffusivity)
     if peclet < _SLOW[conditions.geometry]:
-        along = "sideways" if conditions.geometry == "point" else "without a steady state"
-        yield ResultWarning(
+        spread = "sideways" if conditions.geometry == "point" else "without a steady state"
+        yield ResultWarning.of(
             "slow-body",
-            f"surface {number} moves at {speed:.3g} m/s, a Peclet number of {peclet:.2g} below "
-            f"{_SLOW[conditions.geometry]:g}: heat spreads in it {along}, which is left out, so that its "
-            "temperature is an estimate",
+            surface=number,
+            speed=speed,
+            peclet=peclet,
+            least=_SLOW[conditions.geometry],
+            spread=spread,
         )
 
 

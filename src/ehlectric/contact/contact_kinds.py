@@ -24,9 +24,8 @@ from ehlectric.contact.contact_solution import (
 )
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import (
-    line_case_warnings,
+    case_warnings,
     line_result_warnings,
-    point_case_warnings,
     point_result_warnings,
 )
 from ehlectric.errors import ResultWarning
@@ -41,7 +40,6 @@ from ehlectric.formulas.film_line import LineContact, Thickness
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
-from ehlectric.surfaces.surface_warnings import map_surface_warnings, profile_surface_warnings
 
 RoughT = TypeVar("RoughT", RoughSurface, RoughMap)
 ContactT = TypeVar("ContactT", LineContact, PointContact)
@@ -53,10 +51,6 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     """Functions of one kind of contact, line or point, for each step in which the kinds differ."""
 
     resolve: Callable[[Case], ConditionsT]  # case -> operating conditions
-    # domain and spacings: setup, conditions -> domain of the film [m]; setup, conditions -> node spacing
-    # along each axis [m].
-    domain: Callable[[Case | Setup, ConditionsT], Domain]
-    spacings: Callable[[Case | Setup, ConditionsT], tuple[float, ...]]
     # Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
     rough: Callable[[Sequence[Roughness], Domain], Sequence[RoughT]]
     # film_problem and solve_film: setup, conditions, rough surfaces -> film problem; film problem -> film.
@@ -66,10 +60,8 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     # field over the whole range.
     field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
     solve_field: Callable[[ProblemT], FieldT]
-    # case_warnings and surface_warnings: functions that yield warnings before the solution: about the
-    # operating conditions, and about the rough surfaces.
+    # Function that yields warnings about the operating conditions, before the solution.
     case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
-    surface_warnings: Callable[..., Iterator[ResultWarning]]
     # Setup, film, field -> warnings about the solution.
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
     # formulas and regime: published film-thickness formulas by name, and the function that names the
@@ -137,15 +129,12 @@ def _whole_field(problem: PointFieldProblem) -> PointField:
 
 LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = Kind(
     resolve=resolve,
-    domain=problems.line_domain_of,
-    spacings=lambda setup, conditions: (problems.spacing(setup, conditions),),
     rough=rough_surfaces,
     film_problem=problems.film_problem,
     solve_film=solve_film,
     field_problem=problems.field_problem,
     solve_field=solve_field,
-    case_warnings=line_case_warnings,
-    surface_warnings=profile_surface_warnings,
+    case_warnings=case_warnings,
     result_warnings=line_result_warnings,
     formulas=film_line.FORMULAS,
     regime=film_line.regime,
@@ -165,15 +154,12 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
 
 POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProblem, PointField] = Kind(
     resolve=resolve_point,
-    domain=problems.domain_of,
-    spacings=problems.spacings,
     rough=rough_maps,
     film_problem=problems.point_film_problem,
     solve_film=solve_point_film,
     field_problem=problems.point_field_problem,
     solve_field=_whole_field,
-    case_warnings=point_case_warnings,
-    surface_warnings=map_surface_warnings,
+    case_warnings=case_warnings,
     result_warnings=point_result_warnings,
     formulas=film_point.FORMULAS,
     regime=film_point.regime,

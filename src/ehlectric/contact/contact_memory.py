@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid_inputs import Grid, Motion
@@ -41,19 +40,28 @@ def check_memory(case: Case) -> None:
     """Raise a MemoryLimitError if film and field of a case, or the recorded instants of its motion, do not
     fit into the available memory.
     """
+    geometry, grid = case.contact.geometry, case.first_grid
     if case.motion is not None:
-        _check_record(case.motion, case.first_grid, _NODES[case.contact.geometry](case.first_grid))
+        _check_record(case.motion, grid, math.prod(_film_nodes(geometry, grid)))
     heat = None if case.film is None else "thermal" if case.film.thermal else "sheared"
-    check_grid(case.contact.geometry, case.first_grid, rough=bool(case.roughness), heat=heat)
+    check_grid(geometry, grid, rough=bool(case.roughness), heat=heat)
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool, heat: str | None = None) -> None:
     """Raise a MemoryLimitError if film and field on a grid do not fit into the available memory."""
-    sizes = _SIZES[geometry](grid)
-    film, field = _NEEDED[geometry](grid, rough=rough)
+    available = available_memory()
+    film, field = line_memory(grid) if geometry == "line" else point_memory(grid, rough=rough)
     if heat is not None:
         film += heated_memory(geometry, grid, heat, rough=rough)
-    _refuse_beyond(grid, (film, field), sizes)
+    if film + field > available:
+        of_film = grid.field_nodes is None or film > field
+        key, size = ("nodes", _film_nodes) if of_film else ("field_nodes", _field_columns)
+        raise MemoryLimitError(
+            f"grid.{key}",
+            got=f"{' x '.join(map(str, size(geometry, grid)))} with field_degree {grid.field_degree}, about "
+            f"{(film + field) / 1e9:.0f} GB;",
+            takes=f"a grid that fits into {in_bytes(available)}, {least_limit()}",
+        )
 
 
 def heated_memory(geometry: str, grid: Grid, heat: str, *, rough: bool) -> float:
@@ -90,33 +98,27 @@ def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
         )
 
 
-def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, str]) -> None:
-    """Raise a MemoryLimitError if the memory needed by film and field exceeds the available memory.
-
-    ``needed`` is the memory of the film and of the field [bytes]; ``sizes`` are their grids as text.
-    """
-    available, (film, field) = available_memory(), needed
-    if film + field > available:
-        of_film = grid.field_nodes is None or film > field
-        key, size = ("nodes", sizes[0]) if of_film else ("field_nodes", sizes[1])
-        raise MemoryLimitError(
-            f"grid.{key}",
-            got=f"{size} with field_degree {grid.field_degree}, about {(film + field) / 1e9:.0f} GB;",
-            takes=f"a grid that fits into {in_bytes(available)}, {least_limit()}",
-        )
+def _film_nodes(geometry: str, grid: Grid) -> tuple[int, ...]:
+    """Numbers of nodes of the film along each axis."""
+    return (grid.nodes_along,) if geometry == "line" else (grid.nodes_along, grid.nodes_across)
 
 
-def _columns_along(grid: Grid) -> int:
-    """Number of columns of the field along entrainment."""
+def _field_columns(geometry: str, grid: Grid) -> tuple[int, ...]:
+    """Numbers of columns of the field along each axis, in a whole contact."""
     start, stop = grid.field_range
-    return grid.field_nodes or int(grid.nodes_along * (stop - start) / grid.length)
+    along = grid.field_nodes or int(grid.nodes_along * (stop - start) / grid.length)
+    if geometry == "line":
+        return (along,)
+    assert grid.field_side is not None
+    # 1.6 is the narrowest default domain. It has the largest share of its columns in the field range.
+    side = 1.6 if grid.side is None else grid.side
+    return along, grid.field_nodes_y or int(grid.nodes_across * min(1.0, grid.field_side / side))
 
 
-def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
-    """Largest memory of the film and of the field of a line contact [bytes], rough or smooth."""
-    del rough
-    film = FILM_BYTES * grid.nodes_along
-    return film, FIELD_BYTES * _columns_along(grid) * (grid.field_degree + 1) ** 2
+def line_memory(grid: Grid) -> tuple[float, float]:
+    """Largest memory of the film and of the field of a line contact [bytes]."""
+    (columns,) = _field_columns("line", grid)
+    return FILM_BYTES * grid.nodes_along, FIELD_BYTES * columns * (grid.field_degree + 1) ** 2
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
@@ -131,37 +133,9 @@ def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
     >>> round(film / 1e9, 1)
     0.4
     """
-    _, columns, columns_y = _point_sizes(grid)
+    columns, columns_y = _field_columns("point", grid)
     lines = _solved_lines(grid, rough=rough)
     film = (POINT_FILM_BYTES + 8 * KRYLOV_VECTORS) * grid.nodes_along * lines
     if lines < grid.nodes_across and (grid.field_nodes_y is None or grid.field_nodes_y % 2 == 1):
         columns_y = columns_y // 2 + 1
     return film, POINT_FIELD_BYTES * columns * columns_y * (grid.field_degree + 1)
-
-
-def _point_sizes(grid: Grid) -> tuple[int, int, int]:
-    """Numbers of film nodes across, and of field columns along and across, in a whole point contact."""
-    assert grid.field_side is not None
-    # 1.6 is the narrowest default domain. It has the largest share of its columns in the field range.
-    side = 1.6 if grid.side is None else grid.side
-    nodes_y = grid.nodes_across
-    columns_y = grid.field_nodes_y or int(nodes_y * min(1.0, grid.field_side / side))
-    return nodes_y, _columns_along(grid), columns_y
-
-
-def _point_size(grid: Grid) -> tuple[str, str]:
-    nodes_y, columns, columns_y = _point_sizes(grid)
-    return f"{grid.nodes_along} x {nodes_y}", f"{columns} x {columns_y}"
-
-
-# Functions of a grid by the geometry of the contact: memory of film and field, their grids as text, and
-# number of film nodes.
-_NEEDED = {"line": line_memory, "point": point_memory}
-_SIZES: dict[str, Callable[[Grid], tuple[str, str]]] = {
-    "line": lambda grid: (f"{grid.nodes_along}", f"{_columns_along(grid)}"),
-    "point": _point_size,
-}
-_NODES: dict[str, Callable[[Grid], int]] = {
-    "line": lambda grid: grid.nodes_along,
-    "point": lambda grid: grid.nodes_along * grid.nodes_across,
-}

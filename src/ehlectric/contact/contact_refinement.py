@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.film.film_error import MINIMUM_ORDER, expected_error, expected_nodes
 from ehlectric.film.film_solver import UNKNOWN
 from ehlectric.film.hot_oil import Physics
@@ -112,10 +112,8 @@ def _doubled(grid: Grid) -> Grid:
     """
     table = grid.model_dump(mode="json", exclude_none=True)
     table |= {key: 2 * table[key] - 1 for key in ("nodes", "nodes_y") if key in table}
-    try:
+    with within("grid"):
         return Grid.from_dict(table)
-    except InputError as error:
-        raise error.under("grid") from None
 
 
 # Time that a film takes for each node that is solved for [s], on one core of a workstation, until the
@@ -187,13 +185,13 @@ class Reach:
         finest = self.grids[-1]
         if finest.error is None or finest.error <= self.target:
             return
-        yield ResultWarning(
+        yield ResultWarning.of(
             "error-out-of-reach",
-            f"grid.{self.key}: an error of {_percent(self.target)} is probably out of reach, because the "
-            f"film is thin for its contact; about {_percent(finest.error)} is expected on the finest grid, "
-            f"with {finest.nodes} nodes, after about {_duration(self.seconds(0, len(self.grids)))}; raise "
-            f"grid.{self.key}, end sooner with a smaller grid.most_nodes, or take the film of the atlas "
-            "(ehlectric film) or of formulas (ehlectric check)",
+            key=self.key,
+            target=_percent(self.target),
+            error=_percent(finest.error),
+            nodes=finest.nodes,
+            time=_duration(self.seconds(0, len(self.grids))),
         )
 
 

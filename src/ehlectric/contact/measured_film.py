@@ -44,23 +44,13 @@ MOST_POINTS = 5000
 
 
 @dataclass(frozen=True, eq=False)
-class _Table:
-    """Solved over formula film thickness, over the film by formula, in logarithms."""
+class _Films:
+    """Computed central films of the rows of a measurement."""
 
-    logs: Array
-    ratios: Array
-    solves: int = 0
+    thickness: Array  # [m], shape (n,)
+    error: float | None = None  # relative error; None for solved films
+    solves: int = 0  # number of solved contacts
     warnings: tuple[ResultWarning, ...] = ()
-
-    def films(self, formula: Array) -> Array:
-        """Solved films [m] from those by formula; beyond the table the ratio is that of its end."""
-        if not self.logs.size:
-            return formula
-        if self.logs.size == 1:
-            return formula * math.exp(float(self.ratios[0]))
-        at = np.clip(np.log(formula), self.logs[0], self.logs[-1])
-        films: Array = formula * np.exp(PchipInterpolator(self.logs, self.ratios)(at))
-        return films
 
 
 def contact_factors(
@@ -95,13 +85,14 @@ def contact_factors(
     smooth = case.model_copy(update={"roughness": ()})
     rows = _changes(smooth, measured)
     formula = _formula_films(smooth, rows, measured)
-    table = _Table(np.zeros(0), np.zeros(0))
     if contacts == "solved":
-        table = _solved(smooth, rows, formula, progress)
-    computed, error = table.films(formula), _FORMULA_ERROR if contacts == "formula" else None
-    if contacts == "atlas":
-        computed, error = _atlas_films(smooth, rows, formula)
-    return _result(case, measured, (contacts, error, uncertainty), (rows, formula, computed), table)
+        films = _solved(smooth, rows, formula, progress)
+    elif contacts == "atlas":
+        films = _atlas_films(smooth, rows, formula)
+    else:
+        name = FORMULA[case.contact.geometry].replace("_", " ")
+        films = _Films(formula, _FORMULA_ERROR, warnings=(ResultWarning.of("formula-films", formula=name),))
+    return _result(case, measured, contacts, uncertainty, rows, formula, films)
 
 
 def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
@@ -152,8 +143,8 @@ def _once_each(rows: Sequence[Mapping[str, Any]], compute: Callable[[int], T]) -
     return [known[tuple(row.values())] for row in rows]
 
 
-def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> tuple[Array, float]:
-    """Central film of each row from the atlas [m], shape (n,), or by formula, and the largest error."""
+def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> _Films:
+    """Central films of the rows from the atlas, or by formula where it has none, and their largest error."""
     kind = KINDS[case.contact.geometry]
 
     def film(number: int) -> tuple[float, float]:
@@ -167,11 +158,17 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
         return found.central_thickness, found.errors["central"]
 
     films, errors = zip(*_once_each(rows, film), strict=True)
-    return np.array(films), max(errors)
+    error = max(errors)
+    warning = ResultWarning.of("atlas-contacts", "film factors", percent=100.0 * error)
+    return _Films(np.array(films), error, warnings=(warning,))
 
 
-def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Table:
-    """Films solved at rows that are spread over the film thickness."""
+def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Films:
+    """Films solved at rows that are spread over the film thickness, and interpolated to the others.
+
+    The ratio of solved films to those by formula is interpolated over the film by formula, in logarithms.
+    Beyond the solved rows the ratio is that of the nearest one.
+    """
     logs, ratios = [], []
     warnings: dict[str, ResultWarning] = {}
     places = _spread(formula)
@@ -186,7 +183,11 @@ def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progr
         for warning in result.warnings:
             warnings.setdefault(warning.code, warning)
     progress(len(places), len(places), "films at the measured speeds")
-    return _Table(np.array(logs), np.array(ratios), len(places), tuple(warnings.values()))
+    log_ratio: Array = np.full(formula.shape, ratios[0])
+    if len(logs) > 1:
+        log_ratio = PchipInterpolator(logs, ratios)(np.clip(np.log(formula), logs[0], logs[-1]))
+    thickness = formula * np.exp(log_ratio)
+    return _Films(thickness, solves=len(places), warnings=tuple(warnings.values()))
 
 
 def _spread(formula: Array) -> list[int]:
@@ -201,15 +202,16 @@ def _spread(formula: Array) -> list[int]:
 def _result(
     case: Case,
     measured: Measurement,
-    how: tuple[Contacts, float | None, float | None],
-    films: tuple[Sequence[Mapping[str, Any]], Array, Array],
-    table: _Table,
+    contacts: Contacts,
+    relative: float | None,
+    rows: Sequence[Mapping[str, Any]],
+    formula: Array,
+    films: _Films,
 ) -> FilmFactors:
-    """Film factors with their mean and warnings."""
-    (contacts, error, relative), (rows, formula, computed) = how, films
+    """Film factors with their mean and warnings, where the measurement has a ``relative`` uncertainty."""
     film = measured.values["film"]
     uncertainty = measured.uncertainties.get("film", None if relative is None else relative * film)
-    factors, stated = film / computed, None if uncertainty is None else uncertainty / film
+    factors, stated = film / films.thickness, None if uncertainty is None else uncertainty / film
     speeds = np.array([row["contact.entrainment_speed"] for row in rows])
     mean, trend = mean_factor(factors, stated), slope_of(speeds, factors, stated)
     given = {
@@ -219,7 +221,7 @@ def _result(
         "temperature": measured.values.get("temperature"),
         "film": film,
         "film_uncertainty": uncertainty,
-        "computed": computed,
+        "computed": films.thickness,
         "formula": formula,
         "film_factor": factors,
         "factor_uncertainty": None if stated is None else stated * factors,
@@ -232,35 +234,16 @@ def _result(
         source=measured.source,
         quantity="film",
         contacts=contacts,
-        solves=table.solves,
-        formula_error=error,
+        solves=films.solves,
+        formula_error=films.error,
         background=None,
         columns=columns,
         reasons=reasons,
         mean=mean,
         slope=trend,
         warnings=(
-            *(
-                one
-                for one in _film_warnings(case, (contacts, error), table)
-                if one.code != "temperature-unused"
-            ),
+            *(one for one in films.warnings if one.code != "temperature-unused"),
             *temperature_warnings(measured, case.lubricant),
             *measurement_warnings(measured, reasons, mean, trend, "entrainment speed"),
         ),
     )
-
-
-def _film_warnings(
-    case: Case, how: tuple[Contacts, float | None], table: _Table
-) -> tuple[ResultWarning, ...]:
-    """Warnings about the computed films."""
-    contacts, error = how
-    if contacts == "solved":
-        return table.warnings
-    if contacts == "atlas":
-        off = f"{100.0 * (error or 0.0):.2g} %"
-        text = f"films from the atlas may be {off} off, and so may film factors"
-        return (ResultWarning("atlas-contacts", text),)
-    text = f"films by formula ({FORMULA[case.contact.geometry].replace('_', ' ')})"
-    return (ResultWarning("formula-films", f"{text} may be 40 % off, and so may film factors; solve them"),)

@@ -76,9 +76,10 @@ class Setup:
 
 
 def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) -> OilSupply | None:
-    """Supply of oil of a film problem; None where the inlet is flooded. ``conditions``, operating conditions,
-    whose scales make the layer dimensionless. Returns layer over Y = y/b in units of b^2/R, or the ratio of
-    films; beyond the ends of a table its first and last thickness hold.
+    """Supply of oil of a film problem; None where the inlet is flooded.
+
+    The supply is the layer over Y = y/b in units of b^2/R, by the scales of the operating conditions, or the
+    ratio of films. Beyond the ends of a table its first and last thickness hold.
 
     Examples
     --------
@@ -134,17 +135,21 @@ SCHEMES = {
 LARGEST_TOLERANCE = 1e-6
 
 
-def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
-    """Domain in which the film of a point contact is solved [m]."""
-    b, (inlet, outlet) = conditions.semi_axis_x, setup.grid.ends
-    return Domain(b * inlet, b * outlet, conditions.side * conditions.semi_axis_y)
+def domain_of(setup: Case | Setup, conditions: Conditions | PointConditions) -> Domain:
+    """Domain in which the film of a contact is solved [m]."""
+    b, (inlet, outlet) = conditions.half_width, setup.grid.ends
+    if isinstance(conditions, PointConditions):
+        return Domain(b * inlet, b * outlet, conditions.side * conditions.semi_axis_y)
+    return Domain(b * inlet, b * outlet)
 
 
-def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, float]:
-    """Node spacings of the film of a point contact, along and across entrainment [m]."""
+def spacings_of(setup: Case | Setup, conditions: Conditions | PointConditions) -> tuple[float, ...]:
+    """Node spacings of the film along each axis of a contact [m]."""
     domain, grid = domain_of(setup, conditions), setup.first_grid
-    along, across = domain.outlet - domain.inlet, 2.0 * domain.side
-    return along / (grid.nodes_along - 1), across / (grid.nodes_across - 1)
+    if isinstance(conditions, PointConditions):
+        along, across = domain.length, 2.0 * domain.side
+        return along / (grid.nodes_along - 1), across / (grid.nodes_across - 1)
+    return (conditions.half_width * setup.grid.length / (grid.nodes_along - 1),)
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
@@ -165,12 +170,6 @@ def point_film_problem(
     The film equations depend on the sum of both surfaces' heights only. If film and surfaces are symmetric
     about y = 0, only half of the contact is solved.
     """
-    b, scale = conditions.semi_axis_x, conditions.thickness_scale
-
-    def added_gap(x: Array, y: Array) -> Array:
-        gap: Array = -heights_of(rough, b * x, b * y).sum(axis=0) / scale
-        return gap
-
     return replace(
         smooth_problem(setup, conditions, nijenbanning_venner_moes(conditions.contact)),
         geometry=geometry_of(conditions),
@@ -179,7 +178,7 @@ def point_film_problem(
             side=conditions.side * conditions.ratio,
             symmetric=_symmetric(setup, conditions, rough),
         ),
-        added_gap=added_gap if rough else None,
+        added_gap=_added_gap(conditions, rough),
     )
 
 
@@ -199,9 +198,10 @@ def point_field_problem(
     setup: Case | Setup, conditions: PointConditions, film: PointFilm, roughness: Array
 ) -> PointFieldProblem:
     """Field problem of a point contact with a known film; cavitated regions count as full of oil.
-    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx, ny). Returns Poisson
-    problem on the columns that the grid defines; it covers only the half y >= 0 if film and surfaces are
-    symmetric about y = 0.
+
+    The ``roughness`` has the heights of both surfaces at the film's nodes [m], shape (2, nx, ny). The Poisson
+    problem is posed on the columns that the grid defines. It covers only the half y >= 0 if film and surfaces
+    are symmetric about y = 0.
     """
     grid = setup.grid
     assert grid.field_side is not None
@@ -215,21 +215,37 @@ def point_field_problem(
     if halves_alike(film, roughness) and y.size % 2 == 1:
         y = y[y.size // 2 :]
         y[0] = 0.0
-    lower, upper = point_surfaces(conditions, film, roughness)
-    # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.
-    middle = _resampled(film, 0.5 * (lower + upper), x, y)
-    gap = np.clip(_resampled(film, film.thickness, x, y), ATOM, WIDEST * np.ptp(x))
+    walls = point_surfaces(conditions, film, roughness)
     return PointFieldProblem(
         x=x,
         y=y,
-        lower=middle - 0.5 * gap,
-        upper=middle + 0.5 * gap,
-        permittivity=_resampled(film, setup.oil.permittivity(film.pressure, film.density), x, y),
-        potential_1=setup.electric.potential_1,
-        potential_2=setup.electric.potential_2,
-        degree=grid.field_degree,
+        **_on_columns(setup, film, walls, x, y),
         most_degree=max(grid.field_degree, _most_degree(POINT_FIELD_BYTES * x.size * y.size, 1)),
     )
+
+
+def _on_columns(
+    setup: Case | Setup, film: Film | PointFilm, walls: tuple[Array, Array], *axes: Array
+) -> dict[str, Any]:
+    """Part of a field problem that lines and points share: walls [m] and permittivity at the columns."""
+
+    def resampled(values: Array) -> Array:
+        # Monotone cubic interpolation is exact at the nodes, and makes the film nowhere thinner.
+        for k, (nodes, columns) in enumerate(zip(film.axes, axes, strict=True)):
+            values = PchipInterpolator(nodes, values, axis=k)(columns)
+        return values
+
+    # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.
+    middle = resampled(0.5 * (walls[0] + walls[1]))
+    gap = np.clip(resampled(film.thickness), ATOM, WIDEST * np.ptp(axes[0]))
+    return {
+        "lower": middle - 0.5 * gap,
+        "upper": middle + 0.5 * gap,
+        "permittivity": resampled(setup.oil.permittivity(film.pressure, film.density)),
+        "potential_1": setup.electric.potential_1,
+        "potential_2": setup.electric.potential_2,
+        "degree": setup.grid.field_degree,
+    }
 
 
 def halves_alike(film: PointFilm, roughness: Array) -> bool:
@@ -238,11 +254,6 @@ def halves_alike(film: PointFilm, roughness: Array) -> bool:
         np.array_equal(film.thickness, film.thickness[:, ::-1])
         and np.allclose(roughness, roughness[:, :, ::-1], rtol=0.0, atol=_ROUNDING * film.scales.thickness)
     )
-
-
-def _resampled(film: PointFilm, values: Array, x: Array, y: Array) -> Array:
-    """Interpolate values at the film's nodes to the positions x and y [m], along x first, then along y."""
-    return resampled(film.y, resampled(film.x, values, x), y, axis=1)
 
 
 def point_surfaces(conditions: PointConditions, film: PointFilm, roughness: Array) -> tuple[Array, Array]:
@@ -279,17 +290,6 @@ def fluid_of(oil: Oil, max_pressure: float, velocity_parameter: float) -> Fluid:
     )
 
 
-def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
-    """Domain in which the film of a line contact is solved [m]."""
-    b, (inlet, outlet) = conditions.half_width, setup.grid.ends
-    return Domain(b * inlet, b * outlet)
-
-
-def spacing(setup: Case | Setup, conditions: Conditions) -> float:
-    """Node spacing of the film of a line contact [m]."""
-    return conditions.half_width * setup.grid.length / (setup.first_grid.nodes_along - 1)
-
-
 def check_tolerance(solver: Solver) -> None:
     """Raise an InputError if the tolerance of the film solver is too large for a film to be right.
 
@@ -311,7 +311,7 @@ def film_problem(
     The film equations depend on the sum of both surfaces' heights only.
     """
     smooth = smooth_problem(setup, conditions, moes(conditions.contact))
-    return replace(smooth, added_gap=_added_gap(conditions, rough) if rough else None)
+    return replace(smooth, added_gap=_added_gap(conditions, rough))
 
 
 def smooth_problem(
@@ -342,12 +342,20 @@ def smooth_problem(
     )
 
 
-def _added_gap(conditions: Conditions, rough: Sequence[RoughSurface]) -> Callable[[Array, Array], Array]:
-    """Dimensionless gap that the roughness of both surfaces adds at X; it is negative at asperities."""
-    b, scale = conditions.half_width, conditions.thickness_scale
+def _added_gap(
+    conditions: Conditions | PointConditions, rough: Sequence[RoughSurface] | Sequence[RoughMap]
+) -> Callable[[Array, Array], Array] | None:
+    """Dimensionless gap that the roughness of both surfaces adds at X and Y, negative at asperities.
 
-    def added_gap(x: Array, _y: Array) -> Array:
-        gap: Array = -heights_of(rough, b * x).sum(axis=0)[:, np.newaxis] / scale
+    None for smooth surfaces.
+    """
+    if not rough:
+        return None
+    b, scale, dims = conditions.half_width, conditions.thickness_scale, len(conditions.semi_axes)
+
+    def added_gap(x: Array, y: Array) -> Array:
+        heights = heights_of(rough, *(b * axis for axis in (x, y)[:dims])).sum(axis=0)
+        gap: Array = -heights.reshape(x.size, -1) / scale
         return gap
 
     return added_gap
@@ -363,22 +371,14 @@ def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array)
 
 def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
     """Field problem of a line contact with a known film; cavitated regions count as full of oil.
-    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx). Returns Poisson problem on
-    the columns that the grid defines.
+
+    The ``roughness`` has the heights of both surfaces at the film's nodes [m], shape (2, nx). The Poisson
+    problem is posed on the columns that the grid defines.
     """
     x = _columns(setup, conditions, film, refine=bool(np.any(roughness)))
-    lower, upper = surfaces(conditions, film, roughness)
-    # Middle and gap are interpolated, because separately interpolated walls could cross between nodes.
-    middle = resampled(film.x, 0.5 * (lower + upper), x)
-    gap = np.clip(resampled(film.x, film.thickness, x), ATOM, WIDEST * np.ptp(x))
     return FieldProblem(
         x=x,
-        lower=middle - 0.5 * gap,
-        upper=middle + 0.5 * gap,
-        permittivity=resampled(film.x, setup.oil.permittivity(film.pressure, film.density), x),
-        potential_1=setup.electric.potential_1,
-        potential_2=setup.electric.potential_2,
-        degree=setup.grid.field_degree,
+        **_on_columns(setup, film, surfaces(conditions, film, roughness), x),
         most_degree=max(setup.grid.field_degree, _most_degree(FIELD_BYTES * x.size, 2)),
     )
 
@@ -409,15 +409,6 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
     fractions = np.arange(parts) / parts
     parted = (nodes[:-1, np.newaxis] + np.diff(nodes)[:, np.newaxis] * fractions).ravel()
     return np.append(parted, nodes[-1])
-
-
-def resampled(x: Array, values: Array, at: Array, *, axis: int = 0) -> Array:
-    """Interpolate nodal values to new positions by monotone cubic interpolation.
-
-    It is exact at the nodes, and an interpolated film is nowhere thinner than the computed film.
-    """
-    resampled: Array = PchipInterpolator(x, values, axis=axis)(at)
-    return resampled
 
 
 def surfaces(conditions: Conditions, film: Film, roughness: Array) -> tuple[Array, Array]:

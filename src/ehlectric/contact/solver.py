@@ -24,10 +24,10 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.contact_refinement import Refined, refined
 from ehlectric.contact.contact_solution import Smooth
-from ehlectric.contact.problems import Setup, heights_of
+from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import Coarser, hertz_weights, load_of, spot_warnings, spots_of
+from ehlectric.contact.touching import Coarser, spot_warnings
 from ehlectric.contact.warnings import accuracy_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_warnings
@@ -159,7 +159,7 @@ def solve_contact(
         title=title,
     )
     check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
-    domain = kind.domain(setup, conditions)
+    domain = domain_of(setup, conditions)
     return solve_prepared(
         PreparedContact(
             setup, conditions, domain, kind.rough(setup.roughness, domain) if rough is None else rough
@@ -333,11 +333,7 @@ def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coar
     film = solvers.film[conditions.geometry](replace(problem, nodes=nodes, width=width))
     if not film.converged:
         return None
-    zone = hertz_weights(film, conditions.semi_axes)
-    return Coarser(
-        float(np.sum(spots_of(film).loads)) / load_of(conditions),
-        float(np.sum(zone[film.contact]) / np.sum(zone)),
-    )
+    return Coarser.of(conditions, film)
 
 
 def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Array:

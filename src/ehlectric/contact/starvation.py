@@ -40,37 +40,32 @@ def starvation_warnings(
     if not film.converged:
         return
     if film.minimum_thickness < conditions.boundary_film:
-        yield ResultWarning(
+        yield ResultWarning.of(
             "surfaces-touch",
-            f"the starved film is {1e9 * film.minimum_thickness:.2g} nm thick in places, thinner than the "
-            f"boundary film of {1e9 * conditions.boundary_film:.3g} nm: the surfaces would touch there, "
-            "which is not solved with [inlet]",
+            "starved",
+            thinnest=1e9 * film.minimum_thickness,
+            boundary=1e9 * conditions.boundary_film,
         )
     table = inlet.layer_table
     if table is not None and isinstance(film, PointFilm):
         side = film.semi_axis_y
         if table.y[0] > -side or table.y[-1] < side:
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "layer-table-short",
-                f"inlet.layer_table has the layer from y = {1e6 * table.y[0]:.3g} to {1e6 * table.y[-1]:.3g} "
-                f"µm, and the Hertz zone reaches from {-1e6 * side:.3g} to {1e6 * side:.3g} µm: its ends "
-                "are taken beyond",
+                first=1e6 * table.y[0],
+                last=1e6 * table.y[-1],
+                lower=-1e6 * side,
+                upper=1e6 * side,
             )
     asked, ratio = inlet.film_ratio, found.film_ratio
     if asked is not None and ratio is not None and abs(ratio / asked - 1.0) > _MISSED:
-        yield ResultWarning(
-            "film-ratio-missed",
-            f"the film is {ratio:.3g} of the flooded one, not {asked:.3g} as inlet.film_ratio "
-            "asks for; give inlet.oil_layer",
-        )
+        yield ResultWarning.of("film-ratio-missed", ratio=ratio, wanted=asked)
     nearly = ratio is not None and ratio > _FLOODED
     if asked is None and (film.film_fraction is None or nearly):
         flooded = "the film is flooded"
         if film.film_fraction is not None:
             flooded = f"the central film is {100.0 * (found.film_ratio or 1.0):.4g} % of the flooded one"
-        yield ResultWarning(
-            "oil-layer-thick", f"{_layer(inlet)} is thicker than what the contact takes: {flooded}"
-        )
+        yield ResultWarning.of("oil-layer-thick", layer=_layer(inlet), flooded=flooded)
     if film.film_fraction is not None:
         yield from _of_meniscus(setup, film, found, nearly=nearly)
 
@@ -90,24 +85,16 @@ def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iter
     """
     upstream, sides = found.flooded_inlet_deficit, found.flooded_side_deficit
     if upstream is None or found.flooded_central_thickness is None:
-        what = "there is no film_ratio"
-        if inlet.film_ratio is not None:
-            what = "there is no part of it, as inlet.film_ratio asks for"
-        yield ResultWarning(
-            "flooded-film-wrong", f"the flooded film beside did not converge: {what}; try more grid.nodes"
-        )
+        supply = "layer" if inlet.film_ratio is None else "ratio"
+        yield ResultWarning.of("flooded-film-wrong", supply)
     elif inlet.film_ratio is None and film.film_fraction is not None:
         lost = upstream
         if sides is not None:
             flooded = found.flooded_central_thickness / film.scales.thickness
             lost = lost_film(flooded, upstream, sides)
         if lost > _LOST:
-            yield ResultWarning(
-                "flooded-film-wrong",
-                f"the domain is too small for the flooded film beside, which is too thin by about "
-                f"{100.0 * lost:.2g} %, and film_ratio too large; the starved film is not; lower grid.inlet"
-                + ("" if sides is None else " and raise grid.side"),
-            )
+            sideways = "" if sides is None else " and raise grid.side"
+            yield ResultWarning.of("flooded-film-wrong", "domain", percent=100.0 * lost, sideways=sideways)
 
 
 def _of_meniscus(
@@ -119,15 +106,7 @@ def _of_meniscus(
     """
     b, place = film.scales.length, found.meniscus
     if place is not None and place > -(1.0 + _AT_HERTZ) * b - float(film.x[1] - film.x[0]):
-        yield ResultWarning(
-            "meniscus-at-edge",
-            f"the oil fills the gap only from x/b = {place / b:.3g}, at the edge of the Hertz zone: the film "
-            "is about as thick as the layer of oil, whatever speed and viscosity are",
-        )
+        yield ResultWarning.of("meniscus-at-edge", "hertz", place=place / b)
     elif not nearly and (place is None or place < (1.0 - _AT_EDGE) * film.x[0] - _AT_EDGE * b):
         where = "on y = 0 already" if place is None else f"from x/b = {place / b:.3g},"
-        yield ResultWarning(
-            "meniscus-at-edge",
-            f"the oil fills the gap {where} at the edge of the domain; lower grid.inlet from "
-            f"{setup.grid.ends[0]:g}",
-        )
+        yield ResultWarning.of("meniscus-at-edge", "domain", where=where, inlet=setup.grid.ends[0])

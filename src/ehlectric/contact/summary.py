@@ -33,10 +33,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "status": film.status,
         **texts_and_codes(solution.warnings),
         **({} if solution.verdict is None else {"verdict": solution.verdict.text}),
-        "inputs": inputs_of(solution.case, conditions),
-        "lubricant": oil_of(solution.case),
-        "groups": groups_of(conditions),
-        "hertz": hertz_of(conditions),
+        **_known_before(solution.case, conditions),
         "film": _film(solution) | kind.film_summary(solution),
         "field": _field(solution),
         "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
@@ -99,13 +96,21 @@ def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -
     return {
         "schema": SCHEMA.replace("summary", "check"),
         "title": case.title,
-        "inputs": inputs_of(case, conditions),
-        "lubricant": oil_of(case),
-        "groups": groups_of(conditions),
-        "hertz": hertz_of(conditions),
+        **_known_before(case, conditions),
         "velocity_parameter": conditions.velocity_parameter,
         "regime": KINDS[conditions.geometry].regime(conditions.contact),
         "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
+    }
+
+
+def _known_before(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
+    """Inputs, oil, dimensionless groups and dry contact, which are known before a contact is solved."""
+    contact, hertz_keys = conditions.contact, KINDS[conditions.geometry].hertz_keys
+    return {
+        "inputs": inputs_of(case, conditions),
+        "lubricant": oil_of(case),
+        "groups": {"moes_m": contact.moes_m, "moes_l": contact.moes_l},
+        "hertz": {name: getattr(conditions, name) for name in hertz_keys},
     }
 
 
@@ -125,17 +130,6 @@ def oil_of(case: Case | Setup) -> dict[str, Any]:
     """Oil at the temperature of the contact; a conductivity of ``[discharge]`` replaces that of the oil."""
     oil = case.oil
     return oil.summary() | {"conductivity": conductivity_of(case.discharge, oil)}
-
-
-def groups_of(conditions: Conditions | PointConditions) -> dict[str, float]:
-    """Moes' dimensionless groups M and L."""
-    contact = conditions.contact
-    return {"moes_m": contact.moes_m, "moes_l": contact.moes_l}
-
-
-def hertz_of(conditions: Conditions | PointConditions) -> dict[str, float]:
-    """Half-width or semi-axes [m] and Hertz pressure [Pa] of the dry contact."""
-    return {name: getattr(conditions, name) for name in KINDS[conditions.geometry].hertz_keys}
 
 
 def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickness]:

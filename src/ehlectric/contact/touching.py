@@ -8,6 +8,7 @@ Reynolds equation at these nodes is that oil.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
@@ -139,15 +140,18 @@ def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Ar
     return found
 
 
-# Shares of the area around the spots at which film thicknesses and breakdown voltages are given.
-THIN_SHARES = (0.01, 0.05, 0.5)
+# Shares of the area around the spots at which film thicknesses and breakdown voltages are given, by the
+# number in the name of the value [%].
+_THIN_SHARES = {1: 0.01, 5: 0.05, 50: 0.5}
 
 
-def _percentiles(values: Array, weights: Array) -> tuple[float, ...] | tuple[None, ...]:
-    """Values at the ``THIN_SHARES`` of the weight; None without values."""
+def _percentiles(name: str, values: Array, weights: Array) -> dict[str, float | None]:
+    """Values at the thin shares of the weight, with the keys ``name_1`` and so on; None without values."""
+    keys = [f"{name}_{percent}" for percent in _THIN_SHARES]
     if not values.size:
-        return (None,) * len(THIN_SHARES)
-    return tuple(float(value) for value in weighted_percentiles(values, weights, THIN_SHARES))
+        return dict.fromkeys(keys)
+    found = weighted_percentiles(values, weights, list(_THIN_SHARES.values()))
+    return dict(zip(keys, found.tolist(), strict=True))
 
 
 @dataclass(frozen=True)
@@ -157,6 +161,12 @@ class Coarser:
     load_share: float = field(metadata=number("not negative"))  # part of the load that asperities carry
     # Part of the area of the dry smooth contact in which the surfaces touch.
     contact_area_share: float = field(metadata=number("not negative"))
+
+    @classmethod
+    def of(cls, conditions: Conditions | PointConditions, film: Film | PointFilm) -> Coarser:
+        """Asperities of the film on the coarser grid."""
+        zone = hertz_weights(film, conditions.semi_axes)
+        return cls(load_share_of(conditions, spots_of(film)), touched_share(film, zone))
 
 
 @dataclass(frozen=True)
@@ -214,11 +224,14 @@ def hertz_weights(film: Film | PointFilm, semi_axes: tuple[float, ...]) -> Array
     return areas_by_zone(film.axes, semi_axes)["hertz"]
 
 
-def load_of(conditions: Conditions | PointConditions) -> float:
-    """Load of a point contact [N], or load per length of a line contact [N/m]."""
-    if isinstance(conditions, PointConditions):
-        return conditions.load
-    return conditions.load_per_length
+def touched_share(film: Film | PointFilm, zone: Array) -> float:
+    """Part of the Hertz zone in which the surfaces touch, from the weights of its nodes."""
+    return float(np.sum(zone[film.contact]) / np.sum(zone))
+
+
+def load_share_of(conditions: Conditions | PointConditions, spots: Spots) -> float:
+    """Part of the load that the spots of a contact carry."""
+    return float(np.sum(spots.loads)) / conditions.total_load
 
 
 def touching(
@@ -238,14 +251,11 @@ def touching(
     the friction coefficient of asperities.
     """
     zone = hertz_weights(film, conditions.semi_axes)
-    touched = film.contact
-    around = ~touched & (zone > 0.0)
+    around = ~film.contact & (zone > 0.0)
     thickness, weights = film.thickness[around], zone[around]
-    thin = _percentiles(thickness, weights)
     deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
     mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
-    share = float(np.sum(zone[touched]) / np.sum(zone))
-    load_share = float(np.sum(spots.loads)) / load_of(conditions)
+    share, load_share = touched_share(film, zone), load_share_of(conditions, spots)
     return Touching(
         boundary_film=conditions.boundary_film,
         load_share=load_share,
@@ -258,9 +268,7 @@ def touching(
         largest_spot=float(np.max(spots.areas)) if spots.number else None,
         mean_film=float(np.average(thickness, weights=weights)) if thickness.size else None,
         least_film=float(np.min(thickness)) if thickness.size else None,
-        film_1=thin[0],
-        film_5=thin[1],
-        film_50=thin[2],
+        **_percentiles("film", thickness, weights),
         rq_deformed=deformed,
         lambda_undeformed=mean / rq if rq >= FLAT else None,
         lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,
@@ -317,14 +325,18 @@ def oil_balance(
         return None
     order, law = SCHEMES[case.grid.wedge]
     fluid = fluid_of(case.oil, conditions.max_pressure, conditions.velocity_parameter)
-    mesh = _mesh(conditions, film)
+    x, *across = (axis / conditions.half_width for axis in film.axes)
+    mesh = Mesh(x, across[0] if across else np.zeros(1))
+    # Width of the Hertz zone across entrainment, in half-widths; of a line contact one.
+    width = 2.0 * conditions.semi_axes[1] / conditions.half_width if across else 1.0
+    zone = mesh.x[:, np.newaxis] ** 2 + (mesh.y / width * 2.0) ** 2 < 1.0
+    contact = film.contact.reshape(mesh.shape)
     touching = 0.0 if film.contact_pressure is None else film.contact_pressure
     oil = ((film.pressure - touching) / conditions.max_pressure).reshape(mesh.shape)
     gap = np.where(film.contact, np.maximum(film.thickness, conditions.boundary_film), film.thickness)
     thickness = (gap / conditions.thickness_scale).reshape(mesh.shape)
     at_faces = flow(replace(fluid, flow=law), oil, thickness, mesh)
     r = residual(at_faces, wedge_stencil(mesh.shape, mesh.dx, order=order), thickness, mesh)
-    zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
     full = oil - fluid.ambient_pressure > _ROUNDING
     # Nodes on whose line oil fills the gap of a node further downstream, or their own.
     refilled = np.logical_or.accumulate((full & zone)[::-1], axis=0)[::-1]
@@ -333,29 +345,9 @@ def oil_balance(
         # The viscosity of a hot or sheared film is not that of the oil at rest; a cavity has no such flow.
         made &= ~full
     lost = contact & (r < 0.0)
-    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
+    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * width
     parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]
     return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
-
-
-def _mesh(conditions: Conditions | PointConditions, film: Film | PointFilm) -> Mesh:
-    """Nodes of a film, in half-widths."""
-    x, *y = (axis / conditions.half_width for axis in film.axes)
-    return Mesh(x, y[0] if y else np.zeros(1))
-
-
-def _in_zone(conditions: Conditions | PointConditions, mesh: Mesh) -> Mask:
-    """Nodes (nx, ny) within the Hertz zone."""
-    across = mesh.y / _width(conditions) * 2.0
-    inside: Mask = mesh.x[:, np.newaxis] ** 2 + across**2 < 1.0
-    return inside
-
-
-def _width(conditions: Conditions | PointConditions) -> float:
-    """Width of the Hertz zone across entrainment [half-widths]; of a line contact one."""
-    if isinstance(conditions, PointConditions):
-        return 2.0 * conditions.semi_axis_y / conditions.half_width
-    return 1.0
 
 
 # Answer of a contact in one word.
@@ -519,8 +511,12 @@ def electrical(
         corner = 1.0 / (2.0 * np.pi * resistance * capacitance * length)
         ratio = corner / PWM_FREQUENCY
     zone = hertz_weights(film, semi_axes)
-    always = time_share(spots.number, float(np.sum(zone[film.contact]) / np.sum(zone)))
-    thin = _thin_breakdown(film, zone, discharge)
+    always = time_share(spots.number, touched_share(film, zone))
+    # Voltages at which nodes of the Hertz zone outside of the spots reach the dielectric strength [V].
+    around = ~film.contact & (zone > 0.0)
+    voltages = np.zeros(0)
+    if discharge is not None and discharge.has_strength:
+        voltages = (film.thickness * dielectric_strength(discharge, film.pressure))[around]
     weakest = _weakest(film, outside, electric.voltage, discharge)
     return Electrical(
         behaviour=behaviour_of(spots.number, always, ratio, area_error),
@@ -531,23 +527,10 @@ def electrical(
         capacitance_outside=capacitance,
         impedance_ratio=ratio,
         corner_frequency=corner,
-        breakdown_1=thin[0],
-        breakdown_5=thin[1],
-        breakdown_50=thin[2],
+        **_percentiles("breakdown", voltages, zone[around]),
         breakdown_voltage=None if weakest is None else weakest.characteristic_voltage,
         breakdown_probability=None if weakest is None else weakest.probability(electric.voltage),
     )
-
-
-def _thin_breakdown(
-    film: Film | PointFilm, zone: Array, discharge: Discharge | None
-) -> tuple[float, ...] | tuple[None, ...]:
-    """Voltages at which shares of the Hertz zone outside of the spots reach the dielectric strength [V]."""
-    if discharge is None or not discharge.has_strength:
-        return (None,) * len(THIN_SHARES)
-    inside = ~film.contact & (zone > 0.0)
-    voltage = film.thickness * dielectric_strength(discharge, film.pressure)
-    return _percentiles(voltage[inside], zone[inside])
 
 
 def _weakest(
@@ -571,7 +554,7 @@ def _weakest(
 
 # Change of the load share from a grid with half the nodes, of the share itself or of the whole load, above
 # which the share is not resolved.
-UNRESOLVED_SHARE, UNRESOLVED_LOAD = 0.1, 0.005
+_UNRESOLVED_SHARE, _UNRESOLVED_LOAD = 0.1, 0.005
 
 
 # Load share of asperities above which spots remain on finer grids, however much their area changes.
@@ -740,11 +723,8 @@ def spot_warnings(
     if not film.converged:
         return
     if conditions.boundary_film > 0.0 and _edge_gap(film) <= (1.0 + _ROUNDING) * conditions.boundary_film:
-        yield ResultWarning(
-            "domain-too-small",
-            "the surfaces touch at the edge of the domain, where asperities carry nothing in this solution; "
-            "lower grid.inlet or raise grid.outlet" + (" or grid.side" if film.thickness.ndim == 2 else ""),
-        )
+        sides = " or grid.side" if film.thickness.ndim == 2 else ""
+        yield ResultWarning.of("domain-too-small", "touching", sides=sides)
     if case.roughness or np.any(film.contact):
         balance = oil_balance(case, conditions, film)
         if balance is not None and balance.mass_error > MASS_ERROR:
@@ -752,25 +732,31 @@ def spot_warnings(
     if not np.any(film.contact):
         return
     spots = spots_of(film)
-    share = float(np.sum(spots.loads)) / load_of(conditions)
+    share = load_share_of(conditions, spots)
     before = None if coarser is None else coarser.load_share
     what = "spot, which carries" if spots.number == 1 else "spots, which carry"
-    yield ResultWarning(
-        "asperities-touch",
-        f"the surfaces touch in {spots.number} {what} {about_share(share, before)} of "
-        "the load: the film conducts there, and the minimum film, the maximum field, the capacitance and a "
-        "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
+    yield ResultWarning.of(
+        "asperities-touch", "stationary", spots=spots.number, carried=what, share=about_share(share, before)
     )
-    if before is None:
-        grids = "is not known on a coarser grid"
-    elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
-        grids = f"was {about_share(before, share)} on a grid with half the nodes"
+    change = math.nan if before is None else share - before
+    grids = "a coarser grid", "a grid with half the nodes"
+    yield from unresolved_share("the load share", share, before, change, grids)
+
+
+def unresolved_share(
+    what: str, share: float, coarser: float | None, change: float, grids: tuple[str, str]
+) -> Iterator[ResultWarning]:
+    """Warning that a load share depends on the grid, or is not known on a coarser one.
+
+    ``grids`` are words for the coarser grid, where the share is not known there and where it is.
+    """
+    if coarser is None:
+        before = f"is not known on {grids[0]}"
+    elif abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
+        before = f"was {about_share(coarser, share)} on {grids[1]}"
     else:
         return
-    yield ResultWarning(
-        "load-share-unresolved",
-        f"the load share of the asperities depends on the grid: it {grids}; use more grid.nodes and compare",
-    )
+    yield ResultWarning.of("load-share-unresolved", what=what, before=before)
 
 
 def _edge_gap(film: Film | PointFilm) -> float:
@@ -784,10 +770,4 @@ def _not_conserved(balance: OilBalance) -> ResultWarning:
         f"{formatted(100.0 * each, '.2g')} %" if each >= _LEAST_SHARE else "none"
         for each in (balance.oil_made, balance.oil_lost)
     )
-    return ResultWarning(
-        "oil-not-conserved",
-        f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
-        f"cavitated gaps fill again, and {lost} is lost in spots, since cavities count as full where a line "
-        "contact touches, or no film that carries its oil was found; the film is rather too thick and the "
-        "load share of the asperities too low; use more grid.nodes, or [motion]",
-    )
+    return ResultWarning.of("oil-not-conserved", made=made, lost=lost)

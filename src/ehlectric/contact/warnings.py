@@ -28,25 +28,30 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
 
-# Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
-LINE_PERMANENT = 4e9
+# Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
+_PERMANENT = {"line": 4e9, "point": 4.2e9}
 
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
 
-# Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
-POINT_PERMANENT = 4.2e9
 
-
-def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
-    """Warnings about the operating conditions of a line contact, known before it is solved."""
-    yield from unit_warnings("reduced_radius", conditions.reduced_radius, conditions.reduced_modulus)
+def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warnings about the operating conditions of a contact, known before it is solved."""
+    key = "radius_x" if isinstance(conditions, PointConditions) else "reduced_radius"
+    texts = radius_doubt(key, conditions.radius_along)
+    yield from (ResultWarning("radius-large", text) for text in texts)
+    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(conditions.reduced_modulus))
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
-    yield from regime_warnings(conditions)
-    width = setup.grid.length / (0.5 * np.pi)
-    yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
+    # Load that the Hertz pressure would carry on the whole domain, over the load of the contact.
+    if isinstance(conditions, PointConditions):
+        yield from point_regime_warnings(conditions)
+        domain = setup.grid.length * 2.0 * conditions.side / (2.0 * np.pi / 3.0)
+    else:
+        yield from regime_warnings(conditions)
+        domain = setup.grid.length / (0.5 * np.pi)
+    yield from pressure_warnings(setup.oil, conditions, domain)
     yield from hardness_warnings(conditions)
 
 
@@ -56,12 +61,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
         celsius = f"{setup.contact.temperature - CELSIUS:.4g} °C"
-        yield ResultWarning(
-            "temperature-unused",
-            f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
-            f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
-            "lubricant.atmospheric_law for a viscosity that follows the temperature",
-        )
+        yield ResultWarning.of("temperature-unused", viscosity=1e3 * setup.oil.viscosity, temperature=celsius)
 
 
 def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
@@ -77,10 +77,12 @@ def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
         given = [key for key in keys if getattr(oil, key) is not None and key not in base]
         if other != rheology and given:
             names = " and ".join(f"lubricant.{key}" for key in given)
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "shear-constant-unused",
-                f"{names} {'are' if len(given) > 1 else 'is'} not used: film.rheology is {rheology!r}, not "
-                f"{other!r}; change it or leave them out",
+                names=names,
+                are="are" if len(given) > 1 else "is",
+                rheology=rheology,
+                other=other,
             )
 
 
@@ -88,18 +90,7 @@ def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[Resu
     """Warning about a hardness below the Hertz pressure: bodies would yield, not only asperities."""
     hardness, pressure = conditions.hardness, conditions.max_pressure
     if hardness is not None and hardness < pressure:
-        yield ResultWarning(
-            "hardness-low",
-            f"contact.hardness is {hardness / 1e9:.3g} GPa, below the Hertz pressure of "
-            f"{pressure / 1e9:.3g} GPa: smooth surfaces alone would yield where they touch, and the film "
-            "will probably not converge; hardened bearing steel has about 7 GPa",
-        )
-
-
-def unit_warnings(key: str, radius: float, modulus: float) -> Iterator[ResultWarning]:
-    """Warnings about a reduced radius [m], with its key, or modulus [Pa] that no machine part has."""
-    yield from (ResultWarning("radius-large", text) for text in radius_doubt(key, radius))
-    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(modulus))
+        yield ResultWarning.of("hardness-low", hardness=hardness / 1e9, pressure=pressure / 1e9)
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
@@ -108,11 +99,7 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     if regime == "isoviscous-rigid":
         yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
-        yield ResultWarning(
-            "regime",
-            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
-            "Moes; use the solved film",
-        )
+        yield ResultWarning.of("regime", "line", regime=regime)
 
 
 def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
@@ -121,49 +108,27 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
     The film builds up over ``reach`` half-widths or semi-axes; ``length`` and ``lengths`` are the name of
     this unit in singular and plural.
     """
-    return ResultWarning(
-        "regime",
-        f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
-        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: "
-        f"where grid.inlet is given it should be at most {-reach:.2g}",
-    )
+    return ResultWarning.of("regime", "rigid", length=length, reach=reach, lengths=lengths, inlet=-reach)
 
 
 def pressure_warnings(
-    oil: Oil, pressure: float, domain: float, kind: str, permanent: float
+    oil: Oil, conditions: Conditions | PointConditions, domain: float
 ) -> Iterator[ResultWarning]:
     """Warnings that follow from the Hertz pressure of a contact and from its oil.
 
-    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load that the Hertz pressure would
-    carry if it acted on the whole domain, divided by the load of the contact. ``permanent`` is the Hertz
-    pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
+    ``domain`` is the load that the Hertz pressure would carry if it acted on the whole domain, divided by
+    the load of the contact.
     """
+    pressure, kind = conditions.max_pressure, conditions.geometry
+    permanent = _PERMANENT[kind]
     ambient_load = oil.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
-        yield ResultWarning(
-            "ambient-pressure",
-            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load on this domain; set "
-            "lubricant.ambient_pressure to 0 to leave it out",
-        )
+        yield ResultWarning.of("ambient-pressure", percent=100 * ambient_load)
     if pressure > permanent:
-        yield ResultWarning(
-            "plastic-deformation",
-            f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
-            f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
+        yield ResultWarning.of(
+            "plastic-deformation", pressure=pressure / 1e9, limit=permanent / 1e9, kind=kind
         )
     yield from oil.warnings(pressure)
-
-
-def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
-    """Warnings about the operating conditions of a point contact, known before it is solved."""
-    yield from unit_warnings("radius_x", conditions.radius_x, conditions.reduced_modulus)
-    yield from temperature_warnings(setup)
-    yield from rheology_warnings(setup)
-    yield from point_regime_warnings(conditions)
-    area = setup.grid.length * 2.0 * conditions.side
-    domain = area / (2.0 * np.pi / 3.0)
-    yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
-    yield from hardness_warnings(conditions)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
@@ -176,11 +141,7 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
         reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
         yield rigid_warning("semi-axis", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
-        yield ResultWarning(
-            "regime",
-            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
-            "Nijenbanning, Venner and Moes; use the solved film",
-        )
+        yield ResultWarning.of("regime", "point", regime=regime)
 
 
 # Estimated relative error of the maximum field above which there is a warning.
@@ -208,36 +169,25 @@ _DEFICIT = 0.01
 def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings about the film of a line or point contact."""
     if not film.converged:
-        yield ResultWarning(
-            "not-converged",
-            f"do not use this film: the iteration did not converge ({film.status} at a residual of "
-            f"{film.residual:.1e}); {_advice(setup, film)}",
+        yield ResultWarning.of(
+            "not-converged", status=film.status, residual=film.residual, advice=_advice(setup, film)
         )
     places = film.collapsed_positions / film.scales.length
     # A film with heat or shear has a warning of its own: its surfaces must not touch at all.
     if len(places) and film.heated is None:
-        where = "x/b" if places.ndim == 1 else "(x/b, y/b)"
-        named = (", ".join(f"{place:.3f}" for place in np.atleast_1d(p)) for p in places[:_NAMED])
-        yield ResultWarning(
-            "surfaces-touch",
-            f"the surfaces would touch at {where} = "
-            + ", ".join(name if places.ndim == 1 else f"({name})" for name in named)
-            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else "")
-            + ": there is no full film there; lower the load or the roughness, or raise speed or viscosity",
-        )
+        if places.ndim == 1:
+            axes, named = "x/b", [f"{x:.3f}" for x in places[:_NAMED]]
+        else:
+            axes, named = "(x/b, y/b)", [f"({x:.3f}, {y:.3f})" for x, y in places[:_NAMED]]
+        more = f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else ""
+        yield ResultWarning.of("surfaces-touch", "nodes", axes=axes, places=", ".join(named), more=more)
     if film.minimum_thickness < ATOM:
-        yield ResultWarning(
-            "thinner-than-atom",
-            "the film is thinner than an atom in places: there is no full film there, and the field is that "
-            "of a gap of 0.1 nm",
-        )
+        yield ResultWarning.of("thinner-than-atom")
     for check in setup.oil.film_checks:
         yield from check(film.max_pressure)
     yield from _local_pressure(film, rough=bool(setup.roughness))
     if not film.cavitates:
-        yield ResultWarning(
-            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
-        )
+        yield ResultWarning.of("outlet-too-short")
     # The minimum of a film whose surfaces touch is the boundary film, whatever the grid.
     if film.contact_pressure is None:
         yield from _discretisation(setup, film)
@@ -247,24 +197,13 @@ def _discretisation(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Res
     """Warnings about the discretisation error of a film."""
     error = film.discretisation_error
     if film.converged and error is None and setup.roughness:
-        yield ResultWarning(
-            "error-unknown",
-            "the discretisation error of the film is unknown, because the roughness was raised in steps; "
-            "solve again with more grid.nodes and compare",
-        )
+        yield ResultWarning.of("error-unknown", "stationary")
     elif film.converged and error is None:
-        yield ResultWarning(
-            "coarser-grid-unsolved",
-            "do not use this film: the next coarser grid was not solved"
-            + (", or not with the third-order wedge" if setup.grid.wedge == "first-order" else "")
-            + ", so the discretisation error is unknown and probably large; use more grid.nodes",
-        )
+        wedge = ", or not with the third-order wedge" if setup.grid.wedge == "first-order" else ""
+        yield ResultWarning.of("coarser-grid-unsolved", wedge=wedge)
     elif error is not None and error > max(0.01, setup.grid.target or 0.0):
-        code, advice = "grid-too-coarse", ""
-        if error > 0.1:
-            code, advice = "grid-far-too-coarse", "do not use this film, "
-        text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
-        yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
+        code = "grid-far-too-coarse" if error > 0.1 else "grid-too-coarse"
+        yield ResultWarning.of(code, "stationary", percent=100 * error)
 
 
 def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
@@ -298,7 +237,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
     has its own warning.
     """
-    limit = LINE_PERMANENT if film.thickness.ndim == 1 else POINT_PERMANENT
+    limit = _PERMANENT["line" if film.thickness.ndim == 1 else "point"]
     error = (film.max_pressure_error or 0.0) if rough else 0.0
     largest = film.max_pressure * (1.0 + error)
     likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)
@@ -311,11 +250,14 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     reach = f", or about {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
     if error > UNRESOLVED:
         reach = ", or several times more, as the grid does not resolve it,"
-    yield ResultWarning(
+    yield ResultWarning.of(
         "local-plastic-deformation",
-        f"{what} is {film.max_pressure / 1e9:.3g} GPa{reach} at a Hertz pressure of "
-        f"{film.scales.pressure / 1e9:.3g} GPa: bearing steel yields above about {limit / 1e9:g} GPa, but "
-        f"the model is elastic; {advice}",
+        what=what,
+        largest=film.max_pressure / 1e9,
+        reach=reach,
+        hertz=film.scales.pressure / 1e9,
+        limit=limit / 1e9,
+        advice=advice,
     )
 
 
@@ -324,20 +266,12 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
     deficit = film.domain_loss
     if deficit is not None and deficit > _DEFICIT:
         inlet, _ = setup.grid.ends
-        code, effect = "inlet-too-short", "the film is wrong by about as much"
-        if deficit > 0.2:
-            code, effect = "inlet-far-too-short", "do not use this film"
-        yield ResultWarning(
-            code,
-            f"the inlet is too short: {100 * deficit:.2g} % of the pressure, or of the load, is missing "
-            f"upstream of it; {effect}; lower grid.inlet from {inlet:g} to about "
-            f"{_longer_inlet(inlet, deficit):g}",
-        )
+        code = "inlet-far-too-short" if deficit > 0.2 else "inlet-too-short"
+        longer = _longer_inlet(inlet, deficit)
+        yield ResultWarning.of(code, percent=100 * deficit, inlet=inlet, longer=longer)
     yield from _few_columns(setup.grid, film, field)
     if not np.any(field.inner & (field.x == field.max_strength_position)):
-        yield ResultWarning(
-            "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
-        )
+        yield ResultWarning.of("field-range-too-narrow", "line")
 
 
 def _longer_inlet(inlet: float, deficit: float) -> float:
@@ -346,7 +280,7 @@ def _longer_inlet(inlet: float, deficit: float) -> float:
     Far upstream the gap is a parabola, the gradient of the reduced pressure falls with the fourth power of
     the distance, and so the missing pressure falls with its cube.
 
-    ``inlet``, inlet of the case in half-widths, negative.
+    The ``inlet`` of the case is negative, in half-widths.
     """
     return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
 
@@ -355,22 +289,12 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
     """Warnings about the domain of a point contact and about the grid and range of its field."""
     loss, upstream, sides = film.domain_loss, film.inlet_deficit, film.side_deficit
     if loss is not None and upstream is not None and sides is not None and loss > _LOSS:
-        code, effect = "domain-too-small", ""
-        if loss > 0.2:
-            code, effect = "domain-far-too-small", "do not use this film, "
-        yield ResultWarning(
-            code,
-            f"the domain is too small: {100 * upstream:.2g} % of the pressure would build up upstream of it "
-            f"and {100 * sides:.2g} % is cut off at its sides, so the film is too thin by about "
-            f"{100 * loss:.2g} %; {effect}lower grid.inlet and raise grid.side",
-        )
+        code = "domain-far-too-small" if loss > 0.2 else "domain-too-small"
+        yield ResultWarning.of(code, "point", upstream=100 * upstream, sides=100 * sides, loss=100 * loss)
     yield from _few_columns(setup.grid, film, field)
     x, y = field.max_strength_position
     if not field.inner[field.x == x][:, field.y == y].any():
-        yield ResultWarning(
-            "field-range-too-narrow",
-            "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
-        )
+        yield ResultWarning.of("field-range-too-narrow", "point")
 
 
 def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) -> Iterator[ResultWarning]:
@@ -379,11 +303,7 @@ def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) 
         inside = int(np.count_nonzero((nodes >= of_field[0]) & (nodes <= of_field[-1])))
         columns = getattr(grid, key)
         if columns is not None and columns < inside:
-            yield ResultWarning(
-                "field-grid-too-coarse",
-                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
-                f"zone and capacitance are less accurate; use at least {inside}",
-            )
+            yield ResultWarning.of("field-grid-too-coarse", key=key, columns=columns, nodes=inside)
 
 
 def accuracy_warnings(
@@ -398,12 +318,7 @@ def accuracy_warnings(
 
 def unknown_error(where: str = "") -> ResultWarning:
     """Warning about a maximum field whose error is not known, ``where`` of several fields."""
-    return ResultWarning(
-        "field-unresolved",
-        f"the error of the maximum field is not known{where}, because a finer solution near the maximum did "
-        "not converge; a breakdown voltage may be too high; check the slopes of the surfaces, or use more "
-        "grid.nodes and compare",
-    )
+    return ResultWarning.of("field-unresolved", "unknown", where=where)
 
 
 def inaccurate_field(
@@ -415,9 +330,4 @@ def inaccurate_field(
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
         if degree >= MOST_DEGREE:
             advice = "the waves are far shorter than the film is thick"
-    return ResultWarning(
-        "field-unresolved",
-        f"the error of the maximum field is estimated at {100 * error:.2g} %, because the grid of the field "
-        "does not resolve the waves of the surfaces; a breakdown voltage is off by as much, and probably "
-        f"too high; {advice}",
-    )
+    return ResultWarning.of("field-unresolved", "inaccurate", percent=100 * error, advice=advice)

@@ -76,9 +76,10 @@ class Companion:
         return history if round(steps) == done // STRIDE else None
 
     def after(self, step: int, history: History | None) -> History | None:
-        """Films of the companion after a step of the run. ``history``, films of the companion after the step
-        before; None if it had not converged. Returns the same films after a step between two steps of the
-        companion; None where a step of the companion does not converge.
+        """Films of the companion after a step of the run, from its ``history`` before.
+
+        They are those of the history after a step between two steps of the companion. None where a step of
+        the companion does not converge, now or before.
         """
         if history is None or step % STRIDE:
             return history

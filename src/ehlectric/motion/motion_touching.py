@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.contact.touching import Spots, load_of
+from ehlectric.contact.touching import Spots, load_share_of
 from ehlectric.field.zones import areas_by_zone
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import State
@@ -54,7 +54,7 @@ class Toucher:
         touching = pressure > 0.0
         spots = Spots.of(self._axes, touching, pressure)
         return Touch(
-            load_share=float(np.sum(spots.loads)) / load_of(self._contact.conditions),
+            load_share=load_share_of(self._contact.conditions, spots),
             area_share=float(np.sum(self._zone[touching])),
             spots=spots.number,
         )

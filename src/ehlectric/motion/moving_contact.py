@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
-from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +24,9 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import contact_kinds
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
-from ehlectric.contact.problems import film_problem, point_film_problem
+from ehlectric.contact.problems import domain_of
 from ehlectric.errors import InputError
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
@@ -254,14 +253,8 @@ class MovingRoughness:
         return height
 
 
-C = TypeVar("C")  # conditions
-R = TypeVar("R")  # rough surface
-F = TypeVar("F")  # film
-E = TypeVar("E")  # field
-
-
 @dataclass(frozen=True)
-class Kind(Generic[C, R, F, E]):
+class Kind:
     """Functions of one kind of transient contact."""
 
     name: str  # geometry of the case, "line" or "point"
@@ -269,34 +262,12 @@ class Kind(Generic[C, R, F, E]):
     axes: tuple[str, ...]
     capacitance_unit: str
     contact: contact_kinds.AnyKind  # functions of the stationary contact of the same kind
-    # Changes to a grid that keep its nodes across entrainment when nodes along entrainment are added.
-    nodes_across: Callable[[Grid], dict[str, int]]
-    # Film equations with the rough surfaces at rest only.
-    film_problem: Callable[[Case, Case, C, MovingRoughness], FilmProblem]
     # Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
     shaped: Callable[[Mesh, NDArray[Any]], NDArray[Any]]
     # Film from its solution, the film equations and the mesh.
-    film: Callable[[FilmSolution, FilmProblem, Mesh], F]
+    film: Callable[[FilmSolution, FilmProblem, Mesh], Film | PointFilm]
     # Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
-    column_strength: Callable[[F, E], Array]
-
-
-AnyKind: TypeAlias = Kind[Any, Any, Any, Any]
-
-
-def _line_film_problem(
-    case: Case, _travelled: Case, conditions: Conditions, roughness: MovingRoughness
-) -> FilmProblem:
-    return film_problem(case, conditions, cast("list[RoughSurface]", roughness.resting))
-
-
-def _point_film_problem(
-    case: Case, travelled: Case, conditions: PointConditions, roughness: MovingRoughness
-) -> FilmProblem:
-    problem = point_film_problem(case, conditions, cast("list[RoughMap]", roughness.resting))
-    # Half of the contact suffices only if all roughness that passes is symmetric about y = 0.
-    whole = point_film_problem(travelled, conditions, cast("list[RoughMap]", roughness.surfaces))
-    return replace(problem, width=whole.width)
+    column_strength: Callable[[Any, Any], Array]
 
 
 def _point_film(solution: FilmSolution, problem: FilmProblem, mesh: Mesh) -> PointFilm:
@@ -314,29 +285,25 @@ def _point_column_strength(film: PointFilm, field: PointField) -> Array:
     return strength
 
 
-LINE = Kind[Conditions, RoughSurface, Film, Field](
+LINE = Kind(
     name="line",
     axes=("x",),
     capacitance_unit="F/m",
     contact=contact_kinds.LINE,
-    nodes_across=lambda _grid: {},
-    film_problem=_line_film_problem,
     shaped=lambda _mesh, values: values[:, 0],
     film=lambda solution, _problem, _mesh: Film.of(solution),
     column_strength=_line_column_strength,
 )
-POINT = Kind[PointConditions, RoughMap, PointFilm, PointField](
+POINT = Kind(
     name="point",
     axes=("x", "y"),
     capacitance_unit="F",
     contact=contact_kinds.POINT,
-    nodes_across=lambda grid: {"nodes_y": grid.nodes_across},
-    film_problem=_point_film_problem,
     shaped=lambda mesh, values: mesh.mirrored(values),
     film=_point_film,
     column_strength=_point_column_strength,
 )
-KINDS: dict[Literal["line", "point"], AnyKind] = {"line": LINE, "point": POINT}
+KINDS: dict[Literal["line", "point"], Kind] = {"line": LINE, "point": POINT}
 
 
 # Tolerance for a whole number of grid intervals in the extended domain [grid intervals].
@@ -364,7 +331,7 @@ class TransientContact:
         conditions = kind.contact.resolve(case)
         schedule = schedule_of(case, conditions)
         travelled = travelled_case(case, schedule)
-        domain = kind.contact.domain(travelled, conditions)
+        domain = domain_of(travelled, conditions)
         surfaces: list[Any] = [
             kind.contact.rough([table], domain)[0] if surface is None or table.file is None else surface
             for table, surface in zip_longest(travelled.roughness, rough)
@@ -373,7 +340,7 @@ class TransientContact:
         return cls(case, conditions, schedule, travelled, roughness)
 
     @property
-    def kind(self) -> AnyKind:
+    def kind(self) -> Kind:
         """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 
@@ -385,9 +352,12 @@ class TransientContact:
     @cached_property
     def problem(self) -> FilmProblem:
         """Film problem without moving roughness; the roughness of surfaces at rest is part of the gap."""
-        problem = self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
+        film_problem = self.kind.contact.film_problem
+        problem = film_problem(self.case, self.conditions, self.roughness.resting)
+        # Half of a point contact suffices only if all roughness that passes is symmetric about y = 0.
+        whole = film_problem(self.travelled, self.conditions, self.roughness.surfaces)
         # The scheme in time is of second order, and the film that it starts from must agree with it.
-        return replace(problem, wedge_order=2)
+        return replace(problem, width=whole.width, wedge_order=2)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
         """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.
@@ -416,5 +386,6 @@ def travelled_case(case: Case, schedule: Schedule) -> Case:
             outlet = max(outlet, grid.ends[1] + beyond)
     nodes = 1 + int(np.ceil((grid.nodes_along - 1) * (outlet - inlet) / length - _ROUNDING))
     changes = {"inlet": inlet, "outlet": outlet, "nodes": nodes}
-    changes |= KINDS[case.contact.geometry].nodes_across(grid)
+    if case.contact.geometry == "point":
+        changes["nodes_y"] = grid.nodes_across
     return case.model_copy(update={"grid": grid.model_copy(update=changes)})

@@ -137,39 +137,38 @@ def _begin(
     still = solve(at_rest, prepared=prepared, beside_smooth=False)
     history, coarse = solver.start(), companion.start()
     first = solver.snapshot(history.now)
+    maps, numbers = _stationary(contact, still)
     attributes = {
         "title": contact.case.title,
         "schema": SCHEMA,
         "case": contact.case.to_toml(),
         "version": __version__,
         "date": now(),
-        "stationary": json.dumps(plain(_numbers(still))),
+        "stationary": json.dumps(plain(numbers)),
         "rough": described(contact),
         "seconds": 0.0,
     }
     attributes |= warnings_as_attributes(motion_warnings(contact, still))
     rows = [time_step(solver, history, companion.films(0, coarse))]
     record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
-    file.create(record, attributes | contact.schedule.moments(), _maps(contact, still))
+    file.create(record, attributes | contact.schedule.moments(), maps)
 
 
-def _maps(contact: TransientContact, still: Result | PointResult) -> Maps | None:
-    """Film and field of stationary roughness over its nodes; None where the film is not converged."""
+def _stationary(
+    contact: TransientContact, still: Result | PointResult
+) -> tuple[Maps | None, dict[str, Any] | None]:
+    """Film and field of stationary roughness over its nodes, and their numbers as in summary.json.
+
+    Both are None where the film is not converged.
+    """
     if not still.converged:
-        return None
-    film = still.film
-    return Maps(film.pressure, film.thickness, contact.kind.column_strength(film, still.field))
-
-
-def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
-    """Results with stationary roughness, as in summary.json; None where the film is not converged."""
-    if not still.converged:
-        return None
-    return {
-        "minimum_thickness": still.film.minimum_thickness,
-        "minimum_position": still.film.minimum_position,
-        "max_pressure": still.film.max_pressure,
-        "max_strength": still.field.max_strength,
-        "capacitance": still.field.capacitance,
+        return None, None
+    film, field = still.film, still.field
+    return Maps(film.pressure, film.thickness, contact.kind.column_strength(film, field)), {
+        "minimum_thickness": film.minimum_thickness,
+        "minimum_position": film.minimum_position,
+        "max_pressure": film.max_pressure,
+        "max_strength": field.max_strength,
+        "capacitance": field.capacitance,
         "discretisation_error": still.film_error,
     }

@@ -14,8 +14,9 @@ from __future__ import annotations
 import json
 import math
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -237,19 +238,20 @@ def described(contact: TransientContact) -> str:
     return json.dumps(plain([surface.describe() for surface in contact.roughness.surfaces]))
 
 
-# Stored values of an instant: those over the mesh, and its time T and rigid separation H00.
-_VALUES: Mapping[str, Callable[[Instant], Any]] = {
-    "pressure": lambda instant: instant.state.pressure,
-    "thickness": lambda instant: instant.state.thickness,
-    "mass": lambda instant: instant.mass,
-    "density": lambda instant: instant.density,
-    "free": lambda instant: instant.full_film,
-    "t": lambda instant: instant.time,
-    "h00": lambda instant: instant.state.h00,
+# Attributes of an instant by the names of their variables: values over the mesh, and its time T and rigid
+# separation H00, which are numbers.
+_ATTRIBUTES: Mapping[str, str] = {
+    "pressure": "state.pressure",
+    "thickness": "state.thickness",
+    "mass": "mass",
+    "density": "density",
+    "free": "full_film",
+    "t": "time",
+    "h00": "state.h00",
 }
 _NUMBERS = ("t", "h00")
 
-# Variable over the mesh that a file has from the first instant on whose surfaces touch.
+# Variable over the mesh that a file has from the first instant on whose surfaces touch, after the others.
 _TOUCHING = "contact_pressure"
 
 # Number of places that are written alternately.
@@ -270,7 +272,12 @@ def make_place(file: Any, history: History, *, group: str = _FINE) -> None:
     The group is that of the run, or ``COARSE`` for the films of its companion.
     """
     if group not in file.groups:
-        _create(file, group, history.now.state.pressure.shape)
+        created = file.create_group(group)
+        nx, ny = history.now.state.pressure.shape
+        created.dimensions = {"place": _PLACES, "instant": 2, "along": nx, "across": ny}
+        for name in _ATTRIBUTES:
+            _add_state(created, name)
+        created.create_variable("checksum", ("place",), "i8")
     if _touches(history) and _TOUCHING not in file.groups[group].variables:
         _add_state(file.groups[group], _TOUCHING)
 
@@ -294,19 +301,15 @@ def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
     None if no instant is recorded, or its place is not complete. A missing variable raises a KeyError.
     """
     variables, place = file.groups[group].variables, (frames - 1) % _PLACES
-    names = [*_VALUES, *([_TOUCHING] if _TOUCHING in variables else [])]
-    values = {name: np.asarray(variables[name][place]) for name in names}
+    values = {name: np.asarray(variables[name][place]) for name in _names(variables)}
     if not frames or _checksum(values) != int(variables["checksum"][place]):
         return None
     return History(now=_instant(values, 0), before=_instant(values, 1))
 
 
-def _create(file: Any, name: str, shape: tuple[int, ...]) -> None:
-    group = file.create_group(name)
-    group.dimensions = {"place": _PLACES, "instant": 2, "along": shape[0], "across": shape[1]}
-    for variable in _VALUES:
-        _add_state(group, variable)
-    group.create_variable("checksum", ("place",), "i8")
+def _names(known: Container[str]) -> list[str]:
+    """Names of the variables of an instant, in the order of the checksum."""
+    return [*_ATTRIBUTES, *([_TOUCHING] if _TOUCHING in known else [])]
 
 
 def _add_state(group: Any, variable: str) -> None:
@@ -321,7 +324,7 @@ def _type_of(name: str) -> str:
 def _checksum(values: Mapping[str, Array]) -> int:
     """CRC-32 of the values, in the order and with the types of the file."""
     total = 0
-    for name in (*_VALUES, *([_TOUCHING] if _TOUCHING in values else [])):
+    for name in _names(values):
         total = zlib.crc32(np.ascontiguousarray(values[name], dtype=_type_of(name)).tobytes(), total)
     return total
 
@@ -334,7 +337,10 @@ def _touches(history: History) -> bool:
 def _values_of(history: History) -> dict[str, Array]:
     """Values of both instants by the names of their variables, the last instant first."""
     instants = history.now, history.before
-    values = {name: np.stack([value(instant) for instant in instants]) for name, value in _VALUES.items()}
+    values = {
+        name: np.stack([attrgetter(attribute)(instant) for instant in instants])
+        for name, attribute in _ATTRIBUTES.items()
+    }
     if _touches(history):
         over = [np.broadcast_to(each.state.contact_pressure, each.mass.shape) for each in instants]
         values[_TOUCHING] = np.stack(over)

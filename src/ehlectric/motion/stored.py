@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.motion.moving_contact import KINDS, AnyKind
+from ehlectric.motion.moving_contact import KINDS, Kind
 from ehlectric.runtime.file_rules import (
     Rule,
     UnfitError,
@@ -131,7 +131,7 @@ class Parts:
     stationary: Part
 
     @classmethod
-    def of(cls, kind: AnyKind) -> Self:
+    def of(cls, kind: Kind) -> Self:
         """Parts for one kind of contact."""
         axes = {"nodes": kind.axes}
         lacking = {} if len(kind.axes) > 1 else {name: {"needed": False} for name in _ACROSS_ONLY}
@@ -160,7 +160,7 @@ def lay_out(
     positions: Mapping[str, Array],
     stationary: Maps | None,
     first: tuple[TimeStep, Frame],
-    kind: AnyKind,
+    kind: Kind,
 ) -> None:
     """Create dimensions and variables in a new ``h5netcdf.File``; write the nodes and the stationary maps.
 

@@ -16,7 +16,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
 from ehlectric.errors import InputError
-from ehlectric.motion.moving_contact import KINDS, AnyKind, Schedule, schedule_of
+from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import SCHEMA, solved_part
 from ehlectric.runtime.drafts import redo_file
 from ehlectric.runtime.file_rules import check_format, refusing
@@ -69,10 +69,9 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
     The largest field strength is the voltage divided by the minimum film thickness, times a ratio that
     changes little with time. The ratio is interpolated between the recorded instants.
 
-    ``time`` [s], shape (steps,); ``estimate``, voltage divided by the minimum film thickness [V/m],
-    shape (steps,); ``frame_time``, times of the recorded instants [s], shape (frames,); ``strength``, largest
-    field strength at the recorded instants [V/m], shape (frames,). Returns largest field strength [V/m],
-    shape (steps,).
+    The arguments over the time steps are their times [s] and the ``estimate``, voltage divided by minimum
+    film thickness [V/m], shape (steps,). Those over the recorded instants are their times [s] and the largest
+    field ``strength`` [V/m], shape (frames,). The result has the shape (steps,).
 
     Examples
     --------
@@ -85,9 +84,9 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
 
 
 def intervals_above(time: Array, values: Array, level: float) -> Array:
-    """Intervals of time in which values are above a level. ``time``, times, ascending, shape (n,);
-    ``values``, values at these times, linear in between, shape (n,). Returns start and end of each interval,
-    shape (m, 2).
+    """Start and end of each interval of time in which values are above a level, shape (m, 2).
+
+    The times ascend, shape (n,), and the ``values`` are linear between them, shape (n,).
 
     Examples
     --------
@@ -107,9 +106,9 @@ def intervals_above(time: Array, values: Array, level: float) -> Array:
 
 
 def time_above(time: Array, values: Array, level: float) -> float:
-    """Share of the time in which values are above a level. ``time``, times, ascending, shape (n,);
-    ``values``, values at these times, linear in between, shape (n,). Returns share between 0 and 1; for a
-    single instant 0 or 1.
+    """Share of the time in which values are above a level, from 0 to 1; for a single instant 0 or 1.
+
+    The times ascend, shape (n,), and the ``values`` are linear between them, shape (n,).
 
     Examples
     --------
@@ -232,7 +231,7 @@ class MotionRun(Values):
         return cls(selected, case, KINDS[case.contact.geometry].contact.resolve(case))
 
     @property
-    def kind(self) -> AnyKind:
+    def kind(self) -> Kind:
         """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 

@@ -73,9 +73,8 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum: float) -> RunErrors:
     """Errors of a run from its film thicknesses and those of its companion at the same instants.
 
-    ``lowest`` and ``central``, minimum film thickness between the nodes and central film thickness over time,
-    of the run and of its companion, in any unit, shape (n,). Returns relative errors of the minimum and of
-    the central film thickness.
+    ``lowest`` and ``central`` are the minimum film thickness between the nodes and the central film thickness
+    over time, of the run and of its companion, in any unit, shape (n,).
 
     Two minima over time may agree by chance. Their change is therefore the largest one of all instants at
     which the minimum of either film is within 5 % of its lowest value over time. The distance of the lowest
@@ -163,11 +162,7 @@ def _unreliable(run: MotionRun) -> Iterator[ResultWarning]:
 def _halved(run: MotionRun) -> Iterator[ResultWarning]:
     halvings = run.dataset["halvings"].values
     if np.any(halvings):
-        yield ResultWarning(
-            "steps-halved",
-            f"{np.count_nonzero(halvings)} time steps did not converge and were halved, "
-            f"{int(halvings.sum())} times in all; more motion.steps or more grid.nodes may help",
-        )
+        yield ResultWarning.of("steps-halved", steps=np.count_nonzero(halvings), times=int(halvings.sum()))
 
 
 def _inaccurate_film(run: MotionRun) -> Iterator[ResultWarning]:
@@ -176,23 +171,11 @@ def _inaccurate_film(run: MotionRun) -> Iterator[ResultWarning]:
         return  # a run of an earlier version, which has no estimate
     errors = run_errors(run)
     if errors is None:
-        yield ResultWarning(
-            "error-unknown",
-            "the discretisation error of the moving film is unknown, because the film on every second node "
-            "with twice the time step did not converge, or the run has less than two steps; it is probably "
-            "large: solve again with more grid.nodes and compare",
-        )
+        yield ResultWarning.of("error-unknown", "moving")
     elif errors.largest > FILM_ERROR:
-        code, advice = "grid-too-coarse", ""
-        if errors.largest > FAR_TOO_LARGE:
-            code, advice = "grid-far-too-coarse", "do not use this film, "
+        code = "grid-far-too-coarse" if errors.largest > FAR_TOO_LARGE else "grid-too-coarse"
         steps = " and more motion.steps" if run.case.motion and run.case.motion.steps else ""
-        yield ResultWarning(
-            code,
-            f"the discretisation error of the moving film, by its grid and its time steps together, is "
-            f"estimated at {100.0 * errors.largest:.2g} % and may be larger; {advice}use more "
-            f"grid.nodes{steps}",
-        )
+        yield ResultWarning.of(code, "moving", percent=100.0 * errors.largest, steps=steps)
 
 
 def _inaccurate(run: MotionRun) -> Iterator[ResultWarning]:
@@ -314,9 +297,10 @@ def _position(run: MotionRun, name: str, index: int) -> float | list[float]:
 
 
 def local_maxima(run: MotionRun, within: Mask) -> Array:
-    """Local maxima of the field strength over position, within the Hertz zone. ``within``, recorded instants
-    to use, shape (frames,). Returns field strengths at nodes where the field is larger than at all
-    neighbouring nodes, from all these instants together [V/m], shape (n,).
+    """Local maxima of the field strength over position, within the Hertz zone [V/m], shape (n,).
+
+    They are the field strengths at nodes where the field is larger than at all neighbouring nodes, from all
+    recorded instants of the mask ``within``, shape (frames,).
     """
     strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
     axes = zip(run.kind.axes, run.conditions.semi_axes, strict=True)

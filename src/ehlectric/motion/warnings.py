@@ -7,14 +7,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import UNRESOLVED_LOAD, UNRESOLVED_SHARE, about_share
+from ehlectric.contact.touching import about_share, unresolved_share
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
-from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave
+from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, surface_warnings
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3
@@ -32,28 +33,21 @@ LEAST_STEPS, SUFFICIENT_STEPS = 8.0, 20.0
 
 
 def motion_warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warnings about the case, its surfaces, its time steps and the film with stationary roughness. Yields
-    warnings that are known before the first time step.
+    """Warnings that are known before the first time step.
+
+    They concern the case, its surfaces, its time steps and the film with stationary roughness.
     """
     kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
-    domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
+    domain, spacings = domain_of(travelled, conditions), spacings_of(contact.case, conditions)
     yield from kind.case_warnings(contact.case, conditions)
-    yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
+    yield from surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
     yield from starvation_warnings(contact.case, conditions, still.film)
     yield from _unlike(contact, still)
     if not still.converged:
-        text = (
-            f"the film with stationary roughness did not converge ({still.film.status}), so there is no "
-            "comparison with the moving roughness; try more grid.nodes"
-        )
-        yield ResultWarning("stationary-not-converged", text)
+        yield ResultWarning.of("stationary-not-converged", status=still.film.status)
     elif (error := still.film_error) is not None and error > 0.01:
-        text = (
-            f"the discretisation error of the film with stationary roughness is estimated at "
-            f"{100.0 * error:.2g} %; use more grid.nodes"
-        )
-        yield ResultWarning("stationary-error", text)
+        yield ResultWarning.of("stationary-error", percent=100.0 * error)
 
 
 def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
@@ -66,7 +60,7 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     """
     steps, motion, case = contact.schedule.steps, contact.case.motion, contact.case
     assert motion is not None
-    spacing = contact.kind.contact.spacings(case, contact.conditions)[0]
+    spacing = spacings_of(case, contact.conditions)[0]
     passages = []
     for number, table in enumerate(case.roughness):
         wave = shortest_wave(table, contact.roughness.surfaces[number])
@@ -76,39 +70,25 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     fewest, surface = min(passages, default=(math.inf, 0))
     if fewest < LEAST_STEPS:
         enough = math.ceil(steps * SUFFICIENT_STEPS / fewest)
-        yield ResultWarning(
-            "steps-too-long",
-            f"the {steps} time steps are too long: the shortest waves of surface {surface} move past the oil "
-            f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 % or more; use "
-            f"at least {enough} motion.steps",
-        )
+        yield ResultWarning.of("steps-too-long", steps=steps, surface=surface, fewest=fewest, enough=enough)
 
 
 def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
-    """Warnings about a run whose surfaces touch: what it means, and a load share not resolved. Yields that
-    the surfaces touch, and where so that their load share depends on the grid or is not known on a coarser
-    one.
+    """Warnings about a run whose surfaces touch.
+
+    The first says what touching means. The second is given where the load share depends on the grid, or is
+    not known on a coarser one.
     """
     share, coarser = found.mean_share, found.coarser
-    short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "
-    yield ResultWarning(
+    yield ResultWarning.of(
         "asperities-touch",
-        f"the surfaces touch at {100.0 * found.time_share:.3g} % of {found.steps} time steps, and asperities "
-        f"carry {about_share(share, coarser)} of the load on average: the film conducts there, and the "
-        "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
-        "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
+        "moving" if found.filled else "short run",
+        percent=100.0 * found.time_share,
+        steps=found.steps,
+        share=about_share(share, coarser),
     )
-    if coarser is None:
-        grids = "is not known on every second node with twice the time step"
-    elif abs(found.share_change) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
-        grids = f"was {about_share(coarser, share)} on every second node with twice the time step"
-    else:
-        return
-    yield ResultWarning(
-        "load-share-unresolved",
-        f"the mean load share of the asperities depends on the grid: it {grids}; use more grid.nodes and "
-        "compare",
-    )
+    grid = "every second node with twice the time step"
+    yield from unresolved_share("the mean load share", share, coarser, found.share_change, (grid, grid))
 
 
 def _passed(contact: TransientContact, surface: int) -> float:
@@ -127,11 +107,7 @@ def _unlike(contact: TransientContact, still: Result | PointResult) -> Iterator[
     away = (contact.roughness.heights(coincident, *axes) - still.roughness)[:, inside]
     part = np.max(np.abs(away)) / max(np.max(np.abs(still.roughness[:, inside])), ATOM)
     if part > _ALIKE:
-        yield ResultWarning(
-            "stationary-differs",
-            f"the moving roughness differs from the stationary one by up to {100.0 * part:.2g} % of its "
-            f"height: {'; '.join(_causes(contact))}",
-        )
+        yield ResultWarning.of("stationary-differs", percent=100.0 * part, causes="; ".join(_causes(contact)))
 
 
 def _causes(contact: TransientContact) -> Iterator[str]:

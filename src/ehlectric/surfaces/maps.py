@@ -61,8 +61,8 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     the rim of the void. It stays between the lowest and the highest height at the rim. At a side of the map
     its slope is zero.
 
-    ``heights`` [m], shape (nx, ny); ``spacing_x`` and ``spacing_y``, distances between neighbouring points
-    along x and y [m]. Returns heights without NaN [m], shape (nx, ny).
+    Heights and spacings along x and y are in metres. The result has the shape (nx, ny) of the heights, and no
+    NaN.
 
     Examples
     --------
@@ -261,7 +261,7 @@ def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
 
 
 def without_form(surface: Map, form: Form) -> Map:
-    """Map without its form, which is fitted by least squares and subtracted. Returns map of the same size.
+    """Map of the same size without its form, which is fitted by least squares and subtracted.
 
     Products of polynomials that are orthogonal over the points of each axis are orthogonal over the points of
     the map. The fit therefore needs no system of equations over all points.
@@ -296,8 +296,8 @@ def waviness(surface: Map, cutoff: float) -> Map:
     The weight is exp(-pi (r/(alpha cutoff))^2)/(alpha cutoff)^2 with alpha = sqrt(ln 2/pi). It is the product
     of the weights of the profile filter along x and along y.
 
-    ``cutoff``, cutoff wavelength [m], from four spacings to the length of the shorter side. Returns waviness,
-    of the same size. Raises InputError if the cutoff is longer than a side, or shorter than four spacings.
+    The cutoff wavelength [m] lies between four spacings and the length of the shorter side. The waviness has
+    the size of the map. Raises an InputError for any other cutoff.
 
     ISO 16610-61.
 
@@ -330,8 +330,9 @@ def _smoothed(heights: Array, weights: Array, axis: int) -> Array:
 
 
 def trimmed(surface: Map, length: float) -> Map:
-    """Map without a margin of ``length`` [m] at each of its four sides. Raises InputError if fewer than 16
-    points are left along x or y.
+    """Map without a margin of ``length`` [m] at each of its four sides.
+
+    Raises an InputError if fewer than 16 points are left along x or y.
     """
     cut = [round(length / spacing) for spacing in (surface.spacing_x, surface.spacing_y)]
     left = [n - 2 * k for n, k in zip(surface.heights.shape, cut, strict=True)]

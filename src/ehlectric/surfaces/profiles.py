@@ -134,8 +134,7 @@ def first_below(covariance: Array, spacing: float) -> float:
 
 
 def without_form(profile: Profile, form: Form) -> Profile:
-    """Profile without its form, which is fitted by least squares and subtracted. Returns profile of the same
-    length.
+    """Profile of the same length without its form, which is fitted by least squares and subtracted.
 
     Examples
     --------

@@ -19,7 +19,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES, Roughness
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.surfaces import generated_maps as map_generators
 from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.generated_profiles import Domain, turned
@@ -135,19 +135,14 @@ def step_warnings(
         whose, how = "line", "linear"
         if isinstance(steps[0][1], Map):
             whose, how = "map", "harmonic"
-        yield ResultWarning(
-            "voids-filled",
-            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} has no data; these voids were "
-            f"filled by {how} interpolation",
+        yield ResultWarning.of(
+            "voids-filled", percent=100 * voids, part=whose, surface=table.surface, method=how
         )
     if table.truncate is not None:
         share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
         if share > _MOST_CUT:
-            yield ResultWarning(
-                "heights-cut",
-                f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq was "
-                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before: the truncated surface differs from the "
-                "measured one; raise truncate",
+            yield ResultWarning.of(
+                "heights-cut", percent=100 * share, surface=table.surface, rq=rms(steps[-2][1].heights) * 1e9
             )
 
 
@@ -156,35 +151,39 @@ def step_warnings(
 _MARGIN = 64
 
 
-@dataclass(frozen=True)
-class RoughSurface:
-    """Rough surface of a line contact."""
+@dataclass(frozen=True, kw_only=True)
+class _Rough:
+    """Rough surface of a line or a point contact: its source and processing steps."""
 
     surface: int  # number of the surface, 1 (lower) or 2 (upper)
-    height: Height  # height [m] as a function of position [m], positive out of the body
-    surface_read: Surface | None  # content of the file; None for a generated surface
-    # Description of each processing step and the profile after it; empty for an exact shape.
-    steps: list[tuple[str, Profile]]
-    extent: float  # length of the profile before its continuation [m]; infinite for an exact shape
-    # Fraction of the points of the line without data in the file; None for a generated surface.
+    surface_read: Surface | None = None  # content of the file; None for a generated surface
+    # Description of each processing step and the surface after it: a map, or the profile that is extended.
+    # Empty for an exact shape.
+    steps: Sequence[tuple[str, Map | Profile]] = ()
+    # Fraction of the points used that have no data in the file; None for a generated surface.
     voids: float | None = None
     warnings: tuple[ResultWarning, ...] = ()  # warnings about the file and the processing steps
 
     def describe(self) -> dict[str, Any]:
         """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
-        return _described(self)
+        read = self.surface_read
+        return {
+            "surface": self.surface,
+            "source": None if read is None else read.source,
+            "size": None if read is None else list(read.heights.shape),
+            "voids": self.voids,
+            "height_step": None if read is None else read.height_step,
+            "steps": [{"step": name} | _described_step(step) for name, step in self.steps],
+        }
 
 
-def _described(rough: RoughSurface | RoughMap) -> dict[str, Any]:
-    read = rough.surface_read
-    return {
-        "surface": rough.surface,
-        "source": None if read is None else read.source,
-        "size": None if read is None else list(read.heights.shape),
-        "voids": rough.voids,
-        "height_step": None if read is None else read.height_step,
-        "steps": [{"step": name} | _described_step(step) for name, step in rough.steps],
-    }
+@dataclass(frozen=True, kw_only=True)
+class RoughSurface(_Rough):
+    """Rough surface of a line contact."""
+
+    height: Height  # height [m] as a function of position [m], positive out of the body
+    steps: Sequence[tuple[str, Profile]] = ()
+    extent: float = np.inf  # length of the profile before its continuation [m]; infinite for an exact shape
 
 
 def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
@@ -197,7 +196,8 @@ def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSur
 
 def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
     if table.generator in SHAPES:
-        return RoughSurface(table.surface, _shape(table, domain.length), None, [], np.inf)
+        shape = _exact_shape(table, generators.SHAPES, ("the domain", domain.length))
+        return RoughSurface(surface=table.surface, height=_shifted(shape, table.shift))
     if table.file is not None:
         return measured(table)
     reach = max(abs(end - table.shift) for end in (domain.inlet, domain.outlet))
@@ -223,17 +223,25 @@ def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> Rou
     last = steps[-1][1]
     height = _shifted(_cut(continued(last, table.extend), table.truncate), table.shift)
     voids = None if read is None else read.line_voids(table.line or 0, along=table.along)
-    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
-    return RoughSurface(table.surface, height, read, steps, last.length, voids, warnings)
+    return RoughSurface(**_attributes(table, read, steps, voids), height=height, extent=last.length)
+
+
+def _attributes(
+    table: Roughness, read: Surface | None, steps: Sequence[tuple[str, Points]], voids: float | None
+) -> dict[str, Any]:
+    """Attributes that rough profiles and maps have in common."""
+    return {
+        "surface": table.surface,
+        "surface_read": read,
+        "steps": steps,
+        "voids": voids,
+        "warnings": (*(read.warnings if read else ()), *step_warnings(table, steps, voids)),
+    }
 
 
 def _cut(height: Height, limit: float | None) -> Height:
     """Height limited to ``limit`` [m] between the points too, as a spline overshoots there."""
     return height if limit is None else lambda x: np.clip(height(x), -limit, limit)
-
-
-def _shape(table: Roughness, domain: float) -> Height:
-    return _shifted(_exact_shape(table, generators.SHAPES, ("the domain", domain)), table.shift)
 
 
 def _exact_shape(
@@ -259,26 +267,23 @@ def _shifted(height: Height, shift: float) -> Height:
 
 def _random(table: Roughness, domain: float, reach: float) -> Profile:
     """Random profile that extends ``reach`` [m] to both sides after the trim, for a domain length [m]."""
-    assert table.rq is not None and table.seed is not None
-    key = "correlation_length" if table.generator == "gaussian" else "rolloff_wavelength"
+    smooth = table.generator == "gaussian"
+    key = "correlation_length" if smooth else "rolloff_wavelength"
     longest = getattr(table, key)
-    common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
     shortest = table.shortest_wavelength or longest / 100.0
-    if table.generator == "gaussian":
-        finest = longest / generators.POINTS_IN_CORRELATION
-    else:
-        finest = shortest / generators.POINTS_IN_SHORTEST
-    common["length"] = 2.0 * (reach + _trim(table) + _MARGIN * finest)
-    try:
+    finest = (
+        longest / generators.POINTS_IN_CORRELATION if smooth else shortest / generators.POINTS_IN_SHORTEST
+    )
+    length = 2.0 * (reach + _trim(table) + _MARGIN * finest)
+    common: dict[str, Any] = {"rq": table.rq, "seed": table.seed, "length": length}
+    with within("roughness"):
         _check_waves(key, longest, ("the domain", domain))
-        if table.generator == "gaussian":
+        if smooth:
             return generators.gaussian(correlation_length=longest, **common)
         assert table.hurst is not None
         return generators.self_affine(
             hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest, **common
         )
-    except InputError as error:
-        raise error.under("roughness") from None
 
 
 # Points of a generated map beyond each side of the domain. The effect of the end conditions of a spline there
@@ -286,32 +291,20 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
 _MAP_MARGIN = 32
 
 
-@dataclass(frozen=True)
-class RoughMap:
+@dataclass(frozen=True, kw_only=True)
+class RoughMap(_Rough):
     """Rough surface of a point contact."""
 
-    surface: int  # number of the surface, 1 (lower) or 2 (upper)
     # Height [m] as a function of positions x and y [m] whose shapes broadcast, positive out of the body.
     at: MapHeight
-    surface_read: Surface | None  # content of the file; None for a generated surface
-    # Description of each processing step and the surface after it: a map, or the profile that is extended.
-    # Empty for an exact shape.
-    steps: Sequence[tuple[str, Map | Profile]]
     # Lengths along the surface's own x and y axes before its continuation [m]. Infinite for an exact shape,
     # and along the lay of a profile.
-    extent: tuple[float, float]
+    extent: tuple[float, float] = (np.inf, np.inf)
     orientation: float = 0.0  # angle of the surface's own x axis, counter-clockwise [degrees]
-    # Fraction of the points used that have no data in the file; None for a generated surface.
-    voids: float | None = None
-    warnings: tuple[ResultWarning, ...] = ()  # warnings about the file and the processing steps
 
     def height(self, x: Array, y: Array) -> Array:
         """Heights (nx, ny) at the nodes x (nx,) and y (ny,) of a grid, all [m], positive out of the body."""
         return self.at(*np.meshgrid(x, y, indexing="ij"))
-
-    def describe(self) -> dict[str, Any]:
-        """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
-        return _described(self)
 
 
 def _described_step(step: Map | Profile) -> dict[str, Any]:
@@ -342,7 +335,9 @@ def _rough_map(table: Roughness, domain: Domain) -> RoughMap:
     if table.file is not None:
         return measured_map(table)
     if table.generator in SHAPES:
-        return RoughMap(table.surface, _map_shape(table, domain), None, [], (np.inf, np.inf))
+        side = "the shorter side of the domain", domain.shorter
+        made = _exact_shape(table, map_generators.SHAPES, side)
+        return RoughMap(surface=table.surface, at=lambda x, y: made(x - table.shift, y - table.shift_y))
     return _of_map(table, _random_map(table, domain), None)
 
 
@@ -392,9 +387,8 @@ def _extended(table: Roughness, read: Surface) -> RoughMap:
         return np.broadcast_to(line.height(along), np.broadcast_shapes(along.shape, other.shape))
 
     extent = (np.inf, line.extent) if across else (line.extent, np.inf)
-    return RoughMap(
-        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, warnings=line.warnings
-    )
+    of_line = {each.name: getattr(line, each.name) for each in fields(_Rough)}
+    return RoughMap(**of_line, at=at, extent=extent)
 
 
 def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
@@ -408,51 +402,34 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
         # The limit is applied between the points too, as the spline overshoots there.
         return heights if table.truncate is None else np.clip(heights, -table.truncate, table.truncate)
 
-    voids = None if read is None else read.voids
-    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
-    extent = last.length_x, last.length_y
-    return RoughMap(table.surface, at, read, steps, extent, turn, voids=voids, warnings=warnings)
-
-
-def _map_shape(table: Roughness, domain: Domain) -> MapHeight:
-    made = _exact_shape(table, map_generators.SHAPES, ("the shorter side of the domain", domain.shorter))
-    return lambda x, y: made(x - table.shift, y - table.shift_y)
+    attributes = _attributes(table, read, steps, None if read is None else read.voids)
+    return RoughMap(**attributes, at=at, extent=(last.length_x, last.length_y), orientation=turn)
 
 
 def _random_map(table: Roughness, domain: Domain) -> Map:
     """Random map that covers the domain after its ends have been trimmed."""
-    assert table.rq is not None and table.seed is not None
-    reach = [length + _trim(table) for length in domain.reach(table)]
-    shorter = "the shorter side of the domain", domain.shorter
-    try:
-        if table.generator == "gaussian":
-            assert table.correlation_length is not None
-            lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
-            _check_waves("correlation_length", min(lengths), shorter)
-            beyond = [_MAP_MARGIN * length / map_generators.POINTS_IN_CORRELATION for length in lengths]
-            return map_generators.gaussian(
-                rq=table.rq,
-                correlation_length=lengths[0],
-                correlation_length_y=lengths[1],
-                reach_x=reach[0] + beyond[0],
-                reach_y=reach[1] + beyond[1],
-                seed=table.seed,
-            )
-        assert table.hurst is not None and table.rolloff_wavelength is not None
-        _check_waves("rolloff_wavelength", table.rolloff_wavelength, shorter)
-        shortest = table.shortest_wavelength or table.rolloff_wavelength / map_generators.SHORTEST_PART
-        margin = _MAP_MARGIN * shortest / map_generators.POINTS_IN_SHORTEST
-        return map_generators.self_affine(
-            rq=table.rq,
-            hurst=table.hurst,
-            rolloff_wavelength=table.rolloff_wavelength,
-            reach_x=reach[0] + margin,
-            reach_y=reach[1] + margin,
-            seed=table.seed,
-            shortest=shortest,
+    make: Callable[..., Map]
+    if table.generator == "gaussian":
+        assert table.correlation_length is not None
+        lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
+        key, longest = "correlation_length", min(lengths)
+        spacings = [length / map_generators.POINTS_IN_CORRELATION for length in lengths]
+        make = partial(
+            map_generators.gaussian, correlation_length=lengths[0], correlation_length_y=lengths[1]
         )
-    except InputError as error:
-        raise error.under("roughness") from None
+    else:
+        assert table.hurst is not None and table.rolloff_wavelength is not None
+        key, longest = "rolloff_wavelength", table.rolloff_wavelength
+        shortest = table.shortest_wavelength or longest / map_generators.SHORTEST_PART
+        spacings = [shortest / map_generators.POINTS_IN_SHORTEST] * 2
+        make = partial(
+            map_generators.self_affine, hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest
+        )
+    needed = zip(domain.reach(table), spacings, strict=True)
+    reach_x, reach_y = (reach + _trim(table) + _MAP_MARGIN * spacing for reach, spacing in needed)
+    with within("roughness"):
+        _check_waves(key, longest, ("the shorter side of the domain", domain.shorter))
+        return make(rq=table.rq, seed=table.seed, reach_x=reach_x, reach_y=reach_y)
 
 
 def _trim(table: Roughness) -> float:

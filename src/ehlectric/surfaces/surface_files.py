@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, ResultWarning, shown, within
 from ehlectric.quantities.units import length_unit, to_si
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
@@ -36,7 +36,7 @@ from ehlectric.runtime.sizes import check_memory_for
 from ehlectric.surfaces.maps import Map, filled, without_void_borders
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
 
-# Exceptions of Python's ZIP reader and of its decompressors for invalid content.
+# Exceptions of Python's readers of ZIP archives and XML, and of its decompressors, for invalid content.
 BROKEN = (
     zipfile.BadZipFile,
     zlib.error,
@@ -49,6 +49,7 @@ BROKEN = (
     OSError,
     EOFError,
     OverflowError,
+    ElementTree.ParseError,
 )
 
 # Largest number of members of an archive. A surface has fewer than ten.
@@ -400,10 +401,8 @@ def _unit_in(field: str) -> str | None:
 
 def _unit_of(path: Path, name: str, given: str | None, stated: str | None) -> str:
     if given is not None:
-        try:
+        with within(name):
             length_unit(given)
-        except InputError as error:
-            raise error.under(name) from None
     if given is not None and stated is not None and to_si(f"1 {given}", "m") != to_si(f"1 {stated}", "m"):
         raise InputError(name, got=f"{given!r}, but {path} states {stated!r}")
     unit = stated if given is None else given
@@ -435,12 +434,8 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
         where = int(np.argmax(long))
-        text = (
-            f"{path}: {np.count_nonzero(long)} of the {steps.size} distances between positions are twice the "
-            f"others, the first after point {where}: positions are rounded, or samples are missing; all "
-            "points are treated as equally spaced, check the file"
-        )
-        return spacing, (ResultWarning("spacing-irregular", text),)
+        numbers = {"long": np.count_nonzero(long), "distances": steps.size, "point": where}
+        return spacing, (ResultWarning.of("spacing-irregular", file=path, **numbers),)
     return spacing, ()
 
 
@@ -451,9 +446,6 @@ _MOST_XML = 2_000_000
 # Heights (rows, columns) [m] with NaN at points without data, distance between neighbours in a row [m], and
 # distance between rows [m], None for a single row.
 HeightMap: TypeAlias = tuple[Array, float, float | None]
-
-# Exceptions of the readers of archives and of XML for invalid content.
-_BROKEN = (*BROKEN, ElementTree.ParseError)
 
 # Memory of each point while a map is read [bytes]: its height, and whether it is valid.
 _POINT = 10
@@ -478,7 +470,7 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
         root = ElementTree.fromstring(member(archive, content, "main.xml", _MOST_XML))
     except InputError as error:
         raise error.under(str(path)) from None
-    except _BROKEN:
+    except BROKEN:
         raise InputError(path, "is not a complete X3P file") from None
     _check_axes(path, root)
     columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
@@ -538,16 +530,15 @@ def _check_axes(path: Path, root: ElementTree.Element) -> None:
 
 
 def _whole(path: Path, root: ElementTree.Element, place: str) -> int:
+    text = _text(root, place)
     try:
-        number = int(_text(root, place))
-        if not 1 <= number <= MOST_POINTS:
-            raise ValueError
+        number = int(text)
     except ValueError:
+        number = 0
+    if not 1 <= number <= MOST_POINTS:
         raise InputError(
-            path,
-            f"its {place} is {shown(_text(root, place))}",
-            takes=f"a whole number from 1 to {MOST_POINTS}",
-        ) from None
+            path, f"its {place} is {shown(text)}", takes=f"a whole number from 1 to {MOST_POINTS}"
+        )
     return number
 
 
@@ -558,10 +549,10 @@ def _number(path: Path, root: ElementTree.Element, place: str, default: float | 
         return default
     try:
         number = float(text)
-        if not np.isfinite(number):
-            raise ValueError
     except ValueError:
-        raise InputError(path, f"its {place} is {shown(text)}", takes="a number") from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(path, f"its {place} is {shown(text)}", takes="a number")
     return number
 
 
@@ -577,7 +568,7 @@ def _binary_block(
         data = member(archive, content, name, size) if held == size else b""
     except InputError as error:
         raise InputError(path, f"{shown(name)} {error.text}") from None
-    except _BROKEN:
+    except BROKEN:
         raise InputError(path, f"its {link} is {shown(name)}, which cannot be read from it") from None
     if held != size:
         raise InputError(path, f"{shown(name)} has {held} bytes", takes=f"{size} for the size of the map")
@@ -698,8 +689,9 @@ class Surface:
         return float(np.median(np.diff(levels)))
 
     def line(self, index: int = 0, *, along: str = "row") -> Profile:
-        """One line of the surface as a profile, with voids filled by linear interpolation. Raises InputError
-        if the surface has no such line, or too much of the line is void.
+        """One line of the surface as a profile, with voids filled by linear interpolation.
+
+        Raises an InputError if the surface has no such line, or too much of the line is void.
         """
         lines, spacing = self.heights, self.spacing_x
         if along == "column":
@@ -723,9 +715,10 @@ class Surface:
         return _checked(Profile(spacing, whole), self.source)
 
     def map(self, *, along: str = "row") -> Map:
-        """Whole surface as a map, with voids filled by a harmonic function. Returns map without the outer
-        rows and columns that have no data at all. Raises InputError if the surface is a profile, has too many
-        points, or too much of it is void.
+        """Whole surface as a map, with voids filled by a harmonic function.
+
+        Outer rows and columns that have no data at all are left out. Raises an InputError if the surface is a
+        profile, has too many points, or too much of it is void.
         """
         if self.spacing_y is None:
             raise InputError(self.source, "is a profile", takes="a map of several rows")
@@ -791,22 +784,33 @@ def _check_range(name: str, length: float, heights: Array, source: str, units: s
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
-    """Read a measured surface from a file. Returns heights [m], spacings [m] and warnings. Raises InputError
-    if the file cannot be read, or its data are not credible for a surface.
+    """Read a measured surface from a file: heights [m], spacings [m] and warnings.
+
+    Raises an InputError if the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
     content = _content(path)
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
+    surface = None
     if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
-        surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
+        heights = read_x3p(path, content)
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
-        surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
+        heights = read_al3d(path, content)
     elif is_text(content):
-        surface = _of_text(path, content, x_unit, z_unit)
+        try:
+            text = read_text(path, content, x_unit, z_unit)
+            surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
+        except NoProfileError as error:
+            heights = _read_other(path, error.text)
     else:
-        surface = _of_map(path, _read_other(path), x_unit, z_unit)
+        heights = _read_other(path)
+    if surface is None:
+        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
+            if unit is not None:
+                raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
+        surface = Surface(*heights, str(path))
     _check_scale(surface)
     return surface
 
@@ -817,22 +821,6 @@ def _content(path: Path) -> bytes:
         text = is_text(file.read(4096))
     most, copies = (MOST_TEXT, _TEXT_COPIES) if text else (MOST_BINARY, 1.0)
     return read_bytes(path, most=most, copies=copies)
-
-
-def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
-    """Surface of a text: a profile, or another format that the package SurfaceTopography reads."""
-    try:
-        text = read_text(path, content, x_unit, z_unit)
-    except NoProfileError as error:
-        return _of_map(path, _read_other(path, error.text), x_unit, z_unit)
-    return Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
-
-
-def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
-    for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-        if unit is not None:
-            raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
-    return Surface(*heights, str(path))
 
 
 def _check_scale(surface: Surface) -> None:

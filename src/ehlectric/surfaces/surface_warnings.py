@@ -80,56 +80,75 @@ LEAST_IN_SHAPE = 8.0
 MOST_MISSED = 0.01
 
 
-def map_surface_warnings(
-    tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
+def surface_warnings(
+    tables: Sequence[Roughness],
+    rough: Sequence[RoughSurface | RoughMap],
+    domain: Domain,
+    *spacings: float,
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a point contact on a grid with the spacings ``dx`` and ``dy`` [m].
+    """Warnings about the roughness of a contact on a grid with spacings along each axis [m].
 
     They concern files and processing steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
         yield from _continued(table, surface, domain)
-        if not surface.steps:
-            yield from _map_shape_warnings(table, domain, dx, dy)
-            continue
-        last = surface.steps[-1][1]
-        if isinstance(last, Map):
-            yield from _map_warnings(table, surface, last, domain, (dx, dy))
-        elif table.direction == "y":
+        last = surface.steps[-1][1] if surface.steps else None
+        if last is None:
+            yield from _shape_warnings(table, domain, spacings)
+        elif isinstance(last, Map):
+            yield from _map_warnings(table, last, domain, spacings)
+        elif isinstance(surface, RoughMap) and table.direction == "y":
             ends = -domain.side - table.shift_y, domain.side - table.shift_y
-            yield from profile_warnings(surface.surface, last, dy, ends)
+            yield from profile_warnings(surface.surface, last, spacings[1], ends)
         else:
             ends = domain.inlet - table.shift, domain.outlet - table.shift
-            yield from profile_warnings(surface.surface, last, dx, ends)
+            yield from profile_warnings(surface.surface, last, spacings[0], ends)
     yield from same_seeds(tables)
 
 
-def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[ResultWarning]:
-    needed = [2.0 * reach for reach in domain.reach(table)]
-    short = [k for k in (0, 1) if surface.extent[k] < needed[k]]
+def _continued(table: Roughness, surface: RoughSurface | RoughMap, domain: Domain) -> Iterator[ResultWarning]:
+    """Warning about a surface that is shorter than the domain."""
+    if isinstance(surface, RoughSurface):
+        reach = 2.0 * max(abs(domain.inlet - table.shift), abs(domain.outlet - table.shift))
+        if surface.extent < reach:
+            length, needed = surface.extent * 1e6, reach * 1e6
+            yield ResultWarning.of(
+                "roughness-continued",
+                "profile",
+                surface=table.surface,
+                length=length,
+                needed=needed,
+                extend=table.extend,
+            )
+        return
+    lengths = [2.0 * reach for reach in domain.reach(table)]
+    short = [k for k in (0, 1) if surface.extent[k] < lengths[k]]
     if short:
         axis = short[0]
-        yield ResultWarning(
+        yield ResultWarning.of(
             "roughness-continued",
-            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]}, but "
-            f"the domain needs {needed[axis] * 1e6:.4g} µm, since the map is centred"
-            + (" (it is too short along y, too)" if len(short) == 2 else "")
-            + f": it was continued by extend = {table.extend!r}; to avoid this, use a larger map, "
-            + ("change roughness.shift or raise" if axis == 0 else "change roughness.shift_y or lower")
-            + (" grid.inlet" if axis == 0 else " grid.side"),
+            "map",
+            surface=table.surface,
+            length=surface.extent[axis] * 1e6,
+            axis="xy"[axis],
+            needed=lengths[axis] * 1e6,
+            both=" (it is too short along y, too)" if len(short) == 2 else "",
+            extend=table.extend,
+            change=("shift or raise grid.inlet", "shift_y or lower grid.side")[axis],
         )
 
 
-def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[ResultWarning]:
-    """Warnings about exact shapes inside the domain that are finer than the grid of a point contact."""
-    whose = f"the {table.generator} of surface {table.surface}"
+def _shape_warnings(table: Roughness, domain: Domain, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
+    """Warnings about exact shapes inside the domain that are finer than the grid."""
+    whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}, whose"
     if table.wavelength is not None:
         turn = np.deg2rad(table.orientation or 0.0)
-        axes = (("x", dx, abs(np.cos(turn))), ("y", dy, abs(np.sin(turn))))
+        axes = zip("xy", spacings, (abs(np.cos(turn)), abs(np.sin(turn))), strict=False)
         name, spacing, waves = max(axes, key=lambda axis: axis[1] * axis[2])
         if spacing * waves > table.wavelength / LEAST_IN_SHAPE:
-            yield unresolved(spacing, f"{whose}, whose wavelength along {name}", table.wavelength / waves)
+            along = f" along {name}" if len(spacings) > 1 else ""
+            yield unresolved(spacing, f"{whose} wavelength{along}", table.wavelength / waves)
         return
     assert table.width is not None
     x, y = (table.position or 0.0) + table.shift, (table.position_y or 0.0) + table.shift_y
@@ -138,33 +157,34 @@ def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) 
         return
     # The rim of a pit is half as wide as the pit.
     finest = 0.5 * table.width if table.rim else table.width
-    if max(dx, dy) > finest / LEAST_IN_SHAPE:
-        whose = f"the rim of the pit of surface {table.surface}" if table.rim else whose
-        yield unresolved(max(dx, dy), f"{whose}, whose width", finest)
+    if max(spacings) > finest / LEAST_IN_SHAPE:
+        yield unresolved(max(spacings), f"{whose} width", finest)
 
 
 def _map_warnings(
-    table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
+    table: Roughness, last: Map, domain: Domain, spacing: tuple[float, ...]
 ) -> Iterator[ResultWarning]:
     """Warnings about a map that is finer than the grid along one of the axes of the grid."""
-    lengths = _correlation_lengths(last, surface.orientation)
+    turn = table.orientation or 0.0
+    lengths = _correlation_lengths(last, turn)
     worst = max((0, 1), key=lambda k: spacing[k] / lengths[k])
     if spacing[worst] > lengths[worst] / LEAST_IN_CORRELATION:
-        whose = f"the map of surface {surface.surface}, whose correlation length along {'xy'[worst]}"
+        whose = f"the map of surface {table.surface}, whose correlation length along {'xy'[worst]}"
         yield unresolved(spacing[worst], whose, lengths[worst])
     within = _inside(table, last, domain)
-    missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], surface.orientation)
-    yield from _variance_missed(surface.surface, missed, spacing)
+    missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], turn)
+    yield from _variance_missed(table.surface, missed, spacing)
 
 
 def _variance_missed(surface: int, missed: float, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
     """Warning about the part of the variance of a surface that a grid with these spacings [m] misses."""
     if missed > MOST_MISSED:
-        yield ResultWarning(
+        yield ResultWarning.of(
             "variance-missed",
-            f"the grid spacing of {' x '.join(f'{each * 1e6:.3g}' for each in spacings)} µm misses "
-            f"{100 * missed:.2g} % of the variance of surface {surface}, in waves shorter than two "
-            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * max(spacings):.3g} µm",
+            spacings=" x ".join(f"{each * 1e6:.3g}" for each in spacings),
+            percent=100 * missed,
+            surface=surface,
+            cutoff=4e6 * max(spacings),
         )
 
 
@@ -242,66 +262,16 @@ def map_variance_beyond(
     return float(np.sum(power[beyond])) / total if total > 0.0 else 0.0
 
 
-def profile_surface_warnings(
-    tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
-) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a line contact on a grid with the spacing ``dx`` [m].
-
-    They concern files and processing steps, continuation, and roughness that is finer than the grid.
-    """
-    for table, surface in zip(tables, rough, strict=True):
-        yield from surface.warnings
-        ends = domain.inlet - table.shift, domain.outlet - table.shift
-        reach = 2.0 * max(map(abs, ends))
-        if surface.extent < reach:
-            yield ResultWarning(
-                "roughness-continued",
-                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long, but the "
-                f"domain needs {reach * 1e6:.4g} µm, since the profile is centred and must reach the farther "
-                f"end: it was continued by extend = {table.extend!r}; to avoid this, use a longer profile, "
-                "change roughness.shift or raise grid.inlet",
-            )
-        if surface.steps:
-            yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)
-        else:
-            yield from _profile_shape_warnings(table, dx, ends)
-    yield from same_seeds(tables)
-
-
 def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
     """Warnings about generated surfaces that share a seed and so are not independent of each other."""
     for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
         if times > 1:
-            yield ResultWarning(
-                "seed-repeated",
-                f"{times} rough surfaces have the seed {seed}: their random numbers are the same, so they "
-                "are not independent; give each surface its own seed",
-            )
+            yield ResultWarning.of("seed-repeated", times=times, seed=seed)
 
 
 def unresolved(dx: float, what: str, length: float) -> ResultWarning:
     """Warning that a grid with the spacing ``dx`` does not resolve a ``length`` of the roughness [m]."""
-    return ResultWarning(
-        "roughness-unresolved",
-        f"the grid spacing of {dx * 1e6:.3g} µm does not resolve {what} is {length * 1e6:.3g} µm: the error "
-        "estimate is not meaningful; use more grid.nodes",
-    )
-
-
-def _profile_shape_warnings(
-    table: Roughness, dx: float, ends: tuple[float, float]
-) -> Iterator[ResultWarning]:
-    """Warnings about exact shapes inside the domain that are finer than the grid of a line contact."""
-    name, length = ("wavelength", table.wavelength) if table.wavelength else ("width", table.width)
-    assert length is not None
-    position = table.position or 0.0
-    if name == "width" and not ends[0] - 2.0 * length < position < ends[1] + 2.0 * length:
-        return
-    # The rim of a pit is half as wide as the pit.
-    finest = 0.5 * length if table.rim else length
-    if dx > finest / LEAST_IN_SHAPE:
-        whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}"
-        yield unresolved(dx, f"{whose}, whose {name}", finest)
+    return ResultWarning.of("roughness-unresolved", spacing=dx * 1e6, what=what, length=length * 1e6)
 
 
 def profile_warnings(

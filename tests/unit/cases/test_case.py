@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, solve
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.warnings import line_case_warnings
+from ehlectric.contact.warnings import case_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 
@@ -118,12 +118,12 @@ WARNINGS = [
 @each("keys, message", WARNINGS)
 def test_warnings_before_solving(keys, message):
     case = Case.from_dict(TABLE).replace(keys)
-    assert any(message in text for text in map(str, line_case_warnings(case, resolve(case))))
+    assert any(message in text for text in map(str, case_warnings(case, resolve(case))))
 
 
 def test_paper_case_needs_no_warning():
     case = Case.from_dict(TABLE)
-    assert not list(line_case_warnings(case, resolve(case)))
+    assert not list(case_warnings(case, resolve(case)))
 
 
 @pytest.mark.parametrize(("radius", "told"), [("1 m", 0), ("1.1 m", 1)])
@@ -139,7 +139,7 @@ def test_radii_of_no_machine_are_doubted(radius, told):
             "lubricant": {"base": "paper"},
         }
     )
-    warnings = [w for w in line_case_warnings(case, resolve(case)) if w.code == "radius-large"]
+    warnings = [w for w in case_warnings(case, resolve(case)) if w.code == "radius-large"]
     assert len(warnings) == told
     assert all("reduced_radius" in str(w) and " 1.1 m" in str(w) for w in warnings)
 
@@ -248,12 +248,11 @@ def test_contacts_that_no_bearing_has_are_said():
     contact = PAPER_CONTACT | {"load_per_length": "7 MN/m"}
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
     assert any(
-        "deforms permanently above 4 GPa" in text
-        for text in map(str, line_case_warnings(case, resolve(case)))
+        "deforms permanently above 4 GPa" in text for text in map(str, case_warnings(case, resolve(case)))
     )
     electric = {"potential_1": 0.0, "potential_2": "2 kV"}
     case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "electric": electric})
-    assert not any("permanently" in text for text in map(str, line_case_warnings(case, resolve(case))))
+    assert not any("permanently" in text for text in map(str, case_warnings(case, resolve(case))))
     assert any(
         "no insulator withstands" in text
         for text in map(str, solve(case.replace({"grid.nodes": 801})).warnings)

@@ -10,7 +10,7 @@ from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount
 from ehlectric.contact.conditions import default_side, resolve, resolve_point
 from ehlectric.contact.contact_memory import check_memory
-from ehlectric.contact.warnings import point_case_warnings
+from ehlectric.contact.warnings import case_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.strategies import point_tables
@@ -171,14 +171,14 @@ WARNINGS = [
 def test_warnings_before_solving(contact, lubricant, message):
     """The ambient share by hand: 1e5/20e6 6 6/(2 pi/3) = 0.086."""
     case = Case.from_dict(table(contact) | {"lubricant": {"base": "paper"} | lubricant})
-    texts = list(map(str, point_case_warnings(case, resolve_point(case))))
+    texts = list(map(str, case_warnings(case, resolve_point(case))))
     assert any(re.search(message, text) for text in texts), texts
 
 
 def test_common_contacts_need_no_warning():
-    assert not list(point_case_warnings(point(), resolve_point(point())))
+    assert not list(case_warnings(point(), resolve_point(point())))
     bearing = point(NO_RADII | {"load": 600, "body_1": RING, "body_2": BALL})
-    assert not list(point_case_warnings(bearing, resolve_point(bearing)))
+    assert not list(case_warnings(bearing, resolve_point(bearing)))
 
 
 def test_each_geometry_is_resolved_by_its_own():
@@ -254,7 +254,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
         assert message.startswith(("contact", "grid.", "lubricant."))
         assert "\n" not in message
         return
-    list(point_case_warnings(case, conditions))
+    list(case_warnings(case, conditions))
     numbers = [value for value in vars(conditions).values() if isinstance(value, float)]
     assert np.isfinite(numbers).all()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.contact.conditions import resolve, resolve_point
-from ehlectric.contact.problems import domain_of, heights_of, line_domain_of
+from ehlectric.contact.problems import domain_of, heights_of
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.rough_surfaces import rough_maps, rough_surfaces
@@ -40,7 +40,7 @@ def of_case(case, *axes):
         return heights_of(surfaces, *(conditions.semi_axis_x * axis for axis in axes))
     conditions = resolve(case)
     return heights_of(
-        rough_surfaces(case.roughness, line_domain_of(case, conditions)), conditions.half_width * axes[0]
+        rough_surfaces(case.roughness, domain_of(case, conditions)), conditions.half_width * axes[0]
     )
 
 

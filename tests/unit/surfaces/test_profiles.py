@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from ehlectric import InputError
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.problems import line_domain_of
+from ehlectric.contact.problems import domain_of
 from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.profiles import (
     Processing,
@@ -179,7 +179,7 @@ def test_self_affine_surface_of_a_case(paper_case, shortest):
     asked = {"generator": "self-affine", "rq": 2e-8, "hurst": 0.8, "rolloff_wavelength": 1e-4, "seed": 5}
     asked |= {} if shortest is None else {"shortest_wavelength": shortest}
     case = paper_case.replace(roughness=[{"surface": 2} | asked])
-    (surface,) = rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
+    (surface,) = rough_surfaces(case.roughness, domain_of(case, resolve(case)))
     _, profile = surface.steps[-1]
     assert surface.surface == 2
     assert 2 * 4 * 499.4e-6 < profile.length < 1.05 * 2 * 4 * 499.4e-6

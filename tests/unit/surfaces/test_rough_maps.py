@@ -10,8 +10,8 @@ from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, statistics
 from ehlectric.surfaces.rough_surfaces import measured, measured_map, rough_maps, whole_map
 from ehlectric.surfaces.surface_files import read_surface
-from ehlectric.surfaces.surface_warnings import map_surface_warnings
 from ehlectric.surfaces.surface_warnings import map_variance_beyond as variance_beyond
+from ehlectric.surfaces.surface_warnings import surface_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d, x3p
@@ -36,7 +36,7 @@ def surfaces_of(*tables, domain=DOMAIN):
 
 def texts_of(*tables, dx=2e-6, dy=2e-6, domain=DOMAIN):
     made = [Roughness.from_dict(table) for table in tables]
-    return list(map(str, map_surface_warnings(made, rough_maps(made, domain), domain, dx, dy)))
+    return list(map(str, surface_warnings(made, rough_maps(made, domain), domain, dx, dy)))
 
 
 @pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE, RIDGES], ids=["gaussian", "self-affine", "ridges"])

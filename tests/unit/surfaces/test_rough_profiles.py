@@ -5,11 +5,11 @@ import pytest
 
 from ehlectric import Case, InputError
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.problems import line_domain_of, spacing
+from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import measured, rough_surfaces
-from ehlectric.surfaces.surface_warnings import profile_surface_warnings
 from ehlectric.surfaces.surface_warnings import profile_variance_beyond as variance_beyond
+from ehlectric.surfaces.surface_warnings import surface_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d
@@ -34,15 +34,15 @@ def case_of(*tables, load=3.925e5, **grid):
 
 def surfaces_of(*tables, **changes):
     case = case_of(*tables, **changes)
-    return rough_surfaces(case.roughness, line_domain_of(case, resolve(case)))
+    return rough_surfaces(case.roughness, domain_of(case, resolve(case)))
 
 
 def texts_of(*tables, **changes):
     case = case_of(*tables, **changes)
     conditions = resolve(case)
-    domain = line_domain_of(case, conditions)
+    domain = domain_of(case, conditions)
     rough = rough_surfaces(case.roughness, domain)
-    return list(map(str, profile_surface_warnings(case.roughness, rough, domain, spacing(case, conditions))))
+    return list(map(str, surface_warnings(case.roughness, rough, domain, *spacings_of(case, conditions))))
 
 
 @each("table", [GAUSSIAN, SELF_AFFINE])

@@ -20,6 +20,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
@@ -30,7 +31,7 @@ from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, without_void_borders
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, measured, measured_map
-from ehlectric.surfaces.surface_warnings import summit_statistics
+from ehlectric.surfaces.surface_warnings import summit_statistics, surface_warnings
 from ehlectric.tables.surface_tables import (
     SUMMITS_NOTE,
     SUMMITS_TITLE,
@@ -150,12 +151,12 @@ class _Contact:
     def __init__(self, case: Case, rough: Any = None) -> None:
         self.case, self.kind = case, KINDS[case.contact.geometry]
         self.conditions = self.kind.resolve(case)
-        self.domain: Domain = self.kind.domain(case, self.conditions)
+        self.domain: Domain = domain_of(case, self.conditions)
         self.rough = self.kind.rough(case.roughness, self.domain) if rough is None else [rough]
 
     def warnings(self) -> tuple[Told, ...]:
-        spacings = self.kind.spacings(self.case, self.conditions)
-        found = self.kind.surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        spacings = spacings_of(self.case, self.conditions)
+        found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         thin = too_rough(
             table, rough, formulas_of(self.conditions)[FORMULA_BY_GEOMETRY[self.case.contact.geometry]]

@@ -1,0 +1,48 @@
+"""Texts of warnings in warning_texts.toml: calls of ``ResultWarning.of`` give the values that they name."""
+
+import ast
+import string
+import tomllib
+from pathlib import Path
+
+import ehlectric
+from ehlectric.errors import CODES
+
+SOURCE = Path(ehlectric.__file__).parent
+
+
+def texts():
+    """Names of the values in each text, by code and situation."""
+    read = tomllib.loads((SOURCE / "quantities" / "warning_texts.toml").read_text("utf-8"))
+    for code, entry in read.items():
+        for situation, text in entry.items() if isinstance(entry, dict) else [("", entry)]:
+            yield (code, situation), {name for _, name, _, _ in string.Formatter().parse(text) if name}
+
+
+def calls():
+    """Code and situation, None where they are computed, and names of the values of each call."""
+    for path in sorted(SOURCE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "ResultWarning.of":
+                keys = [each.value if isinstance(each, ast.Constant) else None for each in node.args]
+                code, situation = (*keys, "")[:2]
+                yield path.name, (code, situation), {each.arg for each in node.keywords}
+
+
+def test_every_warning_has_the_values_of_its_text():
+    known, used = dict(texts()), set()
+    for file, key, names in calls():
+        fitting = {
+            text
+            for text in known
+            if all(wanted in (None, part) for wanted, part in zip(key, text, strict=True))
+            and (None in names or known[text] <= names)
+        }
+        assert fitting, (file, key, names)
+        assert names - {None} <= set().union(*(known[text] for text in fitting)), (file, key)
+        used |= fitting
+    assert used == set(known)
+
+
+def test_every_text_belongs_to_a_code():
+    assert {code for code, _ in dict(texts())} <= set(CODES)
