@@ -13,7 +13,6 @@ from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     PRESETS,
-    SOURCE,
     changes_of,
     remedies_of,
     with_remedy,
@@ -200,7 +199,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
 
     def build_boxes(self) -> None:
         """Build the field of a measured waveform, and the remedies."""
-        with self.form.group(SOURCE.title):
+        with self.form.group("Source"):
             self.waveform = WaveformField(self.session, self.form.take)
         self.remedies = RemedyBox(self.session, self.change)
 

@@ -15,17 +15,10 @@ from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
 from ehlectric.app.pages.page_parts import JobBox, figure, heading, lines_html, mark, warnings
 from ehlectric.app.pages.roughness_box import Keys
-from ehlectric.app.roughness_keys import RoughKey
+from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
-
-_KEYS = (
-    RoughKey("passes", "Lengths of the domain travelled at the mean speed", "1.5", number=True),
-    RoughKey("duration", "Or the duration of the motion", "0.5 ms"),
-    RoughKey("steps", "Time steps (empty: from the grid)", "2400", number=True),
-    RoughKey("record", "Recorded instants", "200", number=True),
-)
 
 # Motion with which the page begins: that of the example, with fewer instants, at each of which a field is
 # solved.
@@ -95,7 +88,7 @@ class MovieBox:
                     "follows over time. It needs a rough surface."
                 ).classes("hint")
                 return
-            self._keys = Keys("motion", _KEYS, table, self._set)
+            self._keys = Keys("motion", MOTION_KEYS, table, self._set)
             ui.label("The values at first are those of an example: assumptions.").classes("hint")
 
     async def _switched(self, event: Any) -> None:
