@@ -12,13 +12,12 @@ import re
 import shutil
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from starlette.formparsers import MultiPartParser
 
-from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import History, Inputs
-from ehlectric.app.work import Job, Work
+from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError, printable
 
 if TYPE_CHECKING:
@@ -168,10 +167,6 @@ class Session:
             raise LostError("the page was closed")
         self._names[name] = given
         return name
-
-    def start(self, function: Call[Any], *values: Any) -> Job:
-        """Start a job that ends with the session."""
-        return self.work.start(function, *values)
 
     def close(self) -> None:
         """End the jobs, and remove the folder."""

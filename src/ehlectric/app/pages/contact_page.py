@@ -12,6 +12,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import ContactCheck, ContactView, Reach, Shown
 from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
+from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
@@ -30,6 +31,7 @@ from ehlectric.app.pages.page_parts import (
     JobBox,
     Strip,
     address_error,
+    button,
     card,
     figure,
     heading,
@@ -119,9 +121,8 @@ class ContactViewBox:
         self._cuts: dict[str, FigureBox] = {}
         self._folder: Path | None = None
         self._reach: Reach | None = None
-        self._cutting = False
         self._sliders: dict[str, CutSlider] = {}
-        self._at: tuple[float, float] | None = None
+        self._cut = OnlyLast(self._cut_through)
         with ui.element("div").props('data-testid="solved"') as self._box:
             self._words = ui.element("div").classes("told-answer").props('aria-live="polite"')
             self._plots = ui.element("div").classes("figures")
@@ -190,24 +191,20 @@ class ContactViewBox:
 
     async def _slid(self) -> None:
         """Cut through the chosen point; while one cut is made, only the last of further points waits."""
+        await self._cut(self._sliders["x"].value, self._sliders["y"].value)
+
+    async def _cut_through(self, x: float, y: float) -> None:
         reach, folder = self._reach, self._folder
         if reach is None or folder is None:
             return
-        self._at = (self._sliders["x"].value, self._sliders["y"].value)
-        if self._cutting:
-            return
-        self._cutting = True
+        self._draw_lines(*((y, x) if reach.turned else (x, y)))
         try:
-            while self._at is not None:
-                at, self._at = self._at, None
-                self._draw_lines(*((at[1], at[0]) if reach.turned else at))
-                cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), *at)
-                if folder == self._folder:
-                    self._show_figures(self._cut_plots, self._cuts, cuts)
+            cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), x, y)
         except (InputError, LostError) as error:
             ui.notify(str(error), type="negative")
-        finally:
-            self._cutting = False
+            return
+        if folder == self._folder:
+            self._show_figures(self._cut_plots, self._cuts, cuts)
 
     def _draw_lines(self, across: float, down: float) -> None:
         """Move the lines of the cuts on the maps; their shapes are the third and the fourth."""
@@ -256,7 +253,7 @@ class ContactPage:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._asked = self._runs = 0
-        self._wanted = self._busy = False
+        self._solve_at_once = OnlyLast(self._solve_now)
         self._check: ContactCheck | None = None
         # Inputs of the solved contact that is shown, and the folder of its files; small ones have none.
         self._solved: Inputs | None = None
@@ -301,8 +298,7 @@ class ContactPage:
             self._formula.props('aria-live="polite" data-testid="by-formula"')
         with card("Solved"):
             with ui.element("div").classes("solving"):
-                self._solve = ui.button("Solve", on_click=self.solve, color=None).classes("primary")
-                self._solve.props('flat no-caps data-testid="solve"')
+                self._solve = button("Solve", "solve", self.solve, primary=True)
                 self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
             self._job = JobBox(self.session, self._ended, self._tell_refused)
             self.view = ContactViewBox(self.session)
@@ -451,28 +447,21 @@ class ContactPage:
             self._running = (inputs, folder)
             self._solve.disable()
 
-    async def _solve_at_once(self) -> None:
-        """Solve the latest inputs; those in between are left out while one is being solved."""
-        self._wanted = True
-        if self._busy:
+    async def _solve_now(self) -> None:
+        """Solve the latest inputs without a job."""
+        if self._formula.is_deleted:
             return
-        self._busy = True
+        asked, inputs = self._asked, self.session.inputs
         try:
-            while self._wanted and not self._formula.is_deleted:
-                self._wanted = False
-                asked, inputs = self._asked, self.session.inputs
-                try:
-                    view = await self.session.work.quick(
-                        CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
-                    )
-                except (InputError, ConvergenceError, LostError) as error:
-                    if self._awaits(asked):
-                        self._tell(error)
-                    continue
-                if not self._formula.is_deleted:
-                    self._show(view, inputs, None)
-        finally:
-            self._busy = False
+            view = await self.session.work.quick(
+                CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
+            )
+        except (InputError, ConvergenceError, LostError) as error:
+            if self._awaits(asked):
+                self._tell(error)
+            return
+        if not self._formula.is_deleted:
+            self._show(view, inputs, None)
 
     def _tell_refused(self, error: LostError) -> None:
         self._state.text = str(error)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Awaitable, Callable, Mapping
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,17 @@ from nicegui import ui
 from ehlectric.app.answers import Line, MotionAnswer
 from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
-from ehlectric.app.pages.page_parts import JobBox, figure, heading, lines_html, mark, warnings
+from ehlectric.app.pages.page_parts import (
+    JobBox,
+    button,
+    figure,
+    heading,
+    lines_html,
+    mark,
+    say,
+    script,
+    warnings,
+)
 from ehlectric.app.pages.roughness_box import Keys
 from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
@@ -41,8 +50,7 @@ class MovieBox:
             self._inputs = ui.element("div").classes("box")
             self._message = ui.label().classes("error").props('role="alert" data-testid="error-motion"')
             with ui.element("div").classes("buttons"):
-                self._run = ui.button("Compute the movie", on_click=self._start, color=None)
-                self._run.classes("primary").props('flat no-caps data-testid="solve-motion"')
+                self._run = button("Compute the movie", "solve-motion", self._start, primary=True)
             self._job = JobBox(session, self._ended, self._tell)
             self._state = ui.label().classes("muted").props('aria-live="polite" data-testid="motion-state"')
             self._view = ui.element("div").classes("box").props('data-testid="movie"')
@@ -157,8 +165,7 @@ class MovieBox:
 
     def _tell(self, error: Exception | None) -> None:
         beside = self._keys is not None and self._keys.tell(error)
-        self._message.text = "" if error is None or beside else str(error)
-        self._message.set_visibility(bool(self._message.text))
+        say(self._message, "" if error is None or beside else str(error))
 
 
 def _state(answer: MotionAnswer, why: str) -> str:
@@ -210,5 +217,4 @@ def _movie(answer: MotionAnswer) -> None:
         "texts": answer.texts,
         "first": answer.at_least_film,
     }
-    script = resources.files("ehlectric.app").joinpath("static/movie.js").read_text(encoding="utf-8")
-    ui.run_javascript(f"{script}({json.dumps(values)})")
+    ui.run_javascript(f"{script('movie')}({json.dumps(values)})")

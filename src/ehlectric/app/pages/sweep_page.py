@@ -100,8 +100,7 @@ class Box:
 
     def tell(self, text: str) -> None:
         """Show an error; an empty text takes it away."""
-        self._error.text = text
-        self._error.set_visibility(bool(text))
+        page_parts.say(self._error, text)
         name = self._error.props["id"]
         if text:
             self._input.props(f'error hide-bottom-space aria-invalid=true aria-describedby="{name}"')
@@ -702,8 +701,7 @@ class SweepPage:
         with card("Run"):
             self.plan = ui.label().props('data-testid="plan" aria-live="polite"')
             with ui.element("div").classes("buttons"):
-                self.run = ui.button("Run", on_click=self._run, color=None).classes("primary")
-                self.run.props("no-caps unelevated data-testid=solve")
+                self.run = page_parts.button("Run", "solve", self._run, "no-caps unelevated", primary=True)
                 self.stop = ui.button("Stop", on_click=self._stop)
                 self.stop.props("no-caps outline data-testid=cancel").set_enabled(False)
                 self.clear = ui.button("Clear results", on_click=self._clear)
@@ -752,7 +750,7 @@ class SweepPage:
         """Solve the open points; those that the database has are kept."""
         self.failure.text = ""
         try:
-            self._job = self.session.start(SWEEP_SOLVED, self._table(), self.folder, self.workers)
+            self._job = self.session.work.start(SWEEP_SOLVED, self._table(), self.folder, self.workers)
         except LostError as error:
             self.failure.text = str(error)
             return
