@@ -20,7 +20,7 @@ from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
 from ehlectric.app.pages.page_parts import Strip, button, figure, lines_html, mark, say, scrolling_table
-from ehlectric.app.pages.solving import Solving, Words
+from ehlectric.app.pages.solving import Solving
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import SEVERITY_WORDS, InputError
@@ -36,7 +36,6 @@ class AnswerPage(Generic[A]):
     start: ClassVar[Inputs]  # inputs with which the page begins
     kind: ClassVar[Literal["bearing", "drive"]]
     groups: ClassVar[Sequence[Group]]
-    words: ClassVar[Words]
     short: ClassVar[Sequence[str]]  # keys of the numbers of the short answer
     # Time for which the page waits for its first answer before it is sent without one [s].
     wait: ClassVar[float] = 0.0
@@ -92,7 +91,7 @@ class AnswerPage(Generic[A]):
                 self._build_answer()
 
     def _build_answer(self) -> None:
-        self.solving: Solving[A] = Solving(self.solved, self.words, self.session, self._ask, self.go_to)
+        self.solving: Solving[A] = Solving(self.solved, self.kind, self.session, self._ask, self.go_to)
         self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
         self._notice.set_visibility(False)
         leads = button("Go to the field", "to-field", self.form.go_to_wrong, "no-caps dense")

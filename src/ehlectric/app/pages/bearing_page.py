@@ -13,7 +13,6 @@ from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
-from ehlectric.app.pages.solving import Words
 from ehlectric.cases.defaults import HOW
 from ehlectric.quantities.sheets import BEARING_CARDS
 
@@ -94,18 +93,6 @@ class BearingPage(AnswerPage[BearingAnswer]):
     start = BEARING
     kind = "bearing"
     groups = BEARING_GROUPS
-    words = Words(
-        solve="Solve the contacts",
-        show_solved="Show the solved contacts",
-        show_quick="Show the quick answer",
-        back="Back to the solved inputs",
-        earlier="The solved result is of earlier inputs.",
-        running="The contacts being solved are those of earlier inputs.",
-        done="The contacts of earlier inputs are solved.",
-        cancelled="Cancelled: no contacts were kept.",
-        failed="Not solved",
-        beyond="or solved contacts",
-    )
     short = ("bearing.capacitance", "bearing.margin")
     wait = 1.0
     quick, whole, solved = BEARING_QUICK, BEARING_WHOLE, BEARING_SOLVED

@@ -37,7 +37,7 @@ from ehlectric.app.pages.page_parts import (
     heading,
     light,
     light_shown,
-    lines_html,
+    lines_behind,
     mark,
     number_cards,
     warnings,
@@ -151,8 +151,9 @@ class ContactViewBox:
         self._show_figures(self._cut_plots, self._cuts, view.cuts)
         self._show_choice(view.reach)
         self._table.clear()
-        with self._table, ui.expansion("All numbers, as the command prints them").props('data-testid="rows"'):
-            ui.html(lines_html(view.rows, "Numbers of the solved contact"), sanitize=False)
+        with self._table:
+            title = "All numbers, as the command prints them"
+            lines_behind(title, view.rows, "Numbers of the solved contact", "rows")
 
     def _show_figures(self, place: ui.element, boxes: dict[str, FigureBox], figures: Iterable[Shown]) -> None:
         figures = tuple(figures)
@@ -300,7 +301,7 @@ class ContactPage:
             with ui.element("div").classes("solving"):
                 self._solve = button("Solve", "solve", self.solve, primary=True)
                 self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
-            self._job = JobBox(self.session, self._ended, self._tell_refused)
+            self._job = JobBox(self.session, self._ended, lambda error: self._state.set_text(str(error)))
             self.view = ContactViewBox(self.session)
         with card("Rough surfaces"):
             self._roughness = RoughnessBox(self.session, self._inputs_changed)
@@ -385,8 +386,7 @@ class ContactPage:
             number_cards(answer.numbers, prefix="formula-")
             light(answer.level, answer.text, testid="verdict-formula")
             warnings(answer.warnings)
-            with ui.expansion("All numbers before solving"):
-                ui.html(lines_html(answer.rows, "Numbers before the film is solved"), sanitize=False)
+            lines_behind("All numbers before solving", answer.rows, "Numbers before the film is solved")
         if not self._is_solved:
             self._show_short(answer, "by formula")
 
@@ -462,9 +462,6 @@ class ContactPage:
             return
         if not self._formula.is_deleted:
             self._show(view, inputs, None)
-
-    def _tell_refused(self, error: LostError) -> None:
-        self._state.text = str(error)
 
     def _ended(self, job: Job) -> None:
         """Show the outcome of a job."""

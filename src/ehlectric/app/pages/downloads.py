@@ -12,28 +12,15 @@ from nicegui import ui
 from ehlectric.app.answers import Download, Written, file_title
 from ehlectric.app.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.page_parts import JobBox, card, tool
+from ehlectric.app.pages.page_parts import JobBox, card, page_texts, tool
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError, LostError
 
-# What is downloaded from a folder of results: data-testid, words, and kind.
-_FILES: tuple[tuple[str, str, Download], ...] = (
-    ("download-csv", "Tables (CSV)", "csv"),
-    ("download-netcdf", "All values (NetCDF)", "netcdf"),
-    ("download-summary", "Key figures (JSON)", "summary"),
-    ("download-figures", "Figures (SVG, PNG)", "figures"),
-    ("download-all", "Everything (ZIP)", "all"),
-)
-# What is made from a result, for other programs and as reports: data-testid, words, and ending.
-_MADE = (
-    ("download-mat", "MATLAB, Octave (MAT)", "mat"),
-    ("download-xlsx", "Spreadsheet (XLSX)", "xlsx"),
-    ("download-vtkhdf", "ParaView (VTKHDF)", "vtkhdf"),
-    ("download-report-pdf", "Report (PDF)", "pdf"),
-    ("download-report-html", "Report (HTML)", "html"),
-)
+# Downloads from a folder of results, and what is made from a result: data-testid, words, and kind or ending.
+_FILES: list[tuple[str, str, Download]] = page_texts("downloads")["files"]
+_MADE: list[tuple[str, str, str]] = page_texts("downloads")["made"]
 
 # Forms that only the results of contacts have.
 _OF_CONTACTS = ("vtkhdf",)

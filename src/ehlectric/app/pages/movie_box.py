@@ -17,7 +17,7 @@ from ehlectric.app.pages.page_parts import (
     button,
     figure,
     heading,
-    lines_html,
+    lines_behind,
     mark,
     say,
     script,
@@ -204,9 +204,8 @@ def _movie(answer: MotionAnswer) -> None:
     ).classes("hint")
     history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
     warnings(answer.warnings)
-    with ui.expansion("Numbers of the run").props('data-testid="motion-numbers"'):
-        rows = (Line(name, value) for name, value in answer.rows)
-        ui.html(lines_html(rows, "Numbers of the run"), sanitize=False)
+    rows = (Line(name, value) for name, value in answer.rows)
+    lines_behind("Numbers of the run", rows, "Numbers of the run", "motion-numbers")
     values = {
         "movie": movie.html_id,
         "history": history.html_id,

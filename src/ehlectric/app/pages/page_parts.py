@@ -20,10 +20,18 @@ from ehlectric.app.page_warnings import Told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
 from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
+from ehlectric.quantities.quantity import data_file
 from ehlectric.report.light import Light, light_of
 
 if TYPE_CHECKING:
     from ehlectric.discharge.film_verdict import Level
+
+
+@cache
+def page_texts(name: str) -> dict[str, Any]:
+    """Part of ``page_texts.toml``, whose head says what its parts are."""
+    part: dict[str, Any] = data_file("ehlectric.app", "page_texts.toml")[name]
+    return part
 
 
 @cache
@@ -277,6 +285,14 @@ def lines_html(lines: Iterable[Line], caption: str) -> str:
             rows.append(f"<tr><th scope=rowgroup colspan=2>{name}</th></tr>")
     head = f"<caption class=unseen>{escape(caption)}</caption>"
     return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
+
+
+def lines_behind(title: str, lines: Iterable[Line], caption: str, test: str = "") -> None:
+    """Table of the lines that the command prints, closed at first, with a caption for screen readers."""
+    with ui.expansion(title) as place:
+        ui.html(lines_html(lines, caption), sanitize=False)
+    if test:
+        place.props(f'data-testid="{test}"')
 
 
 def figure(data: Mapping[str, Any], label: str) -> ui.plotly:

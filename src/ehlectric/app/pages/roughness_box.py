@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import SummitsTable, SurfaceAnswer
 from ehlectric.app.calls import SURFACE
+from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say, warnings
@@ -202,7 +203,7 @@ class RoughnessBox:
 
     def _show_used(self, table: Mapping[str, Any]) -> None:
         file = table.get("file")
-        lost = isinstance(file, str) and not self._is_here(file)
+        lost = isinstance(file, str) and own_file(file, self._session.folder) is None
         with ui.element("div").classes("used"):
             text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
             ui.label(text).props('data-testid="surfaces-used"')
@@ -216,10 +217,7 @@ class RoughnessBox:
             ui.label("A link cannot hold the file; a download with everything has it.").classes("hint")
 
     def _is_point(self) -> bool:
-        return bool(self._session.inputs.value("contact.geometry") == "point")
-
-    def _is_here(self, file: str) -> bool:
-        return own_file(file, self._session.folder) is not None
+        return geometry_of(self._session.inputs) == "point"
 
     def _told(self, table: Mapping[str, Any]) -> str:
         if isinstance(table.get("file"), str):

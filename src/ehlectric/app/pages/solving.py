@@ -13,7 +13,7 @@ from nicegui import ui
 from ehlectric.app.answers import PageAnswer
 from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.page_parts import JobBox, button, say
+from ehlectric.app.pages.page_parts import JobBox, button, page_texts, say
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 
@@ -62,12 +62,13 @@ class Solving(Generic[A]):
     def __init__(
         self,
         call: Call[A],
-        words: Words,
+        kind: str,
         session: Session,
         changed: Callable[[], object],
         back: Callable[[Inputs], None],
     ) -> None:
-        self._call, self._words = call, words
+        self._call = call
+        self._words = words = Words(**page_texts("solving")[kind])
         self._session, self._changed, self._back = session, changed, back
         self._solved: dict[str, _Solved[A]] = {}
         self._quick = False

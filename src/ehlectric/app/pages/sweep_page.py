@@ -62,14 +62,6 @@ from ehlectric.runtime.worker_processes import cores
 
 Change = Callable[[Inputs], Awaitable[None]]
 
-# Examples that may be the base case. Their films are computed as they say.
-EXAMPLES = {
-    "bearing_6208": "Ball bearing 6208 in a drive",
-    "drive": "Inverter, motor and both bearings",
-    "discharge": "Line contact with breakdown",
-    "oil_contact": "Ball on disc",
-}
-
 _NONE = "no second input"
 
 # Longest text that is read as a number of values [characters].
@@ -95,8 +87,7 @@ class Box:
 
     def put(self, text: str) -> None:
         """Show another text."""
-        if self._input.value != text:
-            self._input.value = text
+        self._input.value = text
 
     def tell(self, text: str) -> None:
         """Show an error; an empty text takes it away."""
@@ -186,7 +177,9 @@ class RangesForm:
     def _build_base(self) -> None:
         """Source of the base case, and its inputs in the form of its page."""
         self._title = ui.label().classes("case-title")
-        chosen = ui.select(EXAMPLES, label="Take an example", on_change=self._example)
+        chosen = ui.select(
+            page_parts.page_texts("examples"), label="Take an example", on_change=self._example
+        )
         chosen.props("outlined dense data-testid=base-example").classes("full")
         self._link = Box("or paste a link of a page", "", "base-link", self._take_over)
         with ui.element("div") as self._kind:
@@ -326,16 +319,6 @@ _KEYS = """(event) => {
   }
 }"""
 _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
-
-# Words of the link to the case of a point, by the address of its page.
-_OPEN = {"/": "Open its bearing", "/drive": "Open its drive", "/contact": "Open its contact"}
-
-# States of points whose own words say too little.
-_STATES = {
-    "do not use": 'solved, but "do not use"',
-    "no value": "solved, without this number",
-    "failed": "refused or failed",
-}
 
 # Most points whose table is written anew at each look while points are being solved.
 _FEW = 200
@@ -523,7 +506,7 @@ class MapPart:
                     with ui.element("li"):
                         ui.label(text)
             if self._address:
-                name = _OPEN[self._address.partition("?")[0]]
+                name = page_parts.page_texts("open")[self._address.partition("?")[0]]
                 link = ui.link(f"{name} (new tab)", self._address, new_tab=True)
                 link.props('data-testid="open-point"')
             else:
@@ -540,7 +523,8 @@ _BUTTON = """
 
 def _told(view: SweepView) -> str:
     """How many points have which state, and how their contacts are computed."""
-    some = (f"{count} {_STATES.get(state, state)}" for state, count in view.counts.items())
+    words = page_parts.page_texts("states")
+    some = (f"{count} {words.get(state, state)}" for state, count in view.counts.items())
     return f"Points: {', '.join(some)}. {view.accuracy}".rstrip()
 
 
@@ -549,13 +533,6 @@ _PATH = "/sweep"
 # Shortest time between two looks at the database [s]; where reading takes longer, looks are rarer.
 _LOOK = 1.0
 _SHARE = 4.0
-
-# Files of a sweep that can be downloaded: name, label and what it is for tests.
-_DOWNLOADS = (
-    ("sweep.sqlite", "Database (SQLite)", "download-sqlite"),
-    ("sweep.csv", "Table (CSV)", "download-csv"),
-    ("sweep.nc", "Table (NetCDF)", "download-netcdf"),
-)
 
 
 def add(work: Work) -> None:
@@ -716,7 +693,8 @@ class SweepPage:
             with ui.element("div").classes("buttons"):
                 button = ui.button("Sweep file (TOML)", on_click=self._download_toml)
                 button.props("no-caps outline data-testid=download-toml")
-                self.downloads = [self._download_of(*about) for about in _DOWNLOADS]
+                files = page_parts.page_texts("downloads")["sweep"]
+                self.downloads = [self._download_of(*about) for about in files]
             ui.label("ehlectric sweep sweep.toml runs this file; the files are those that it writes.")
         Downloads(self.session, "sweep", self._finished_folder, only_made=True)
 
@@ -729,7 +707,7 @@ class SweepPage:
         """Whether the map shows the sweep of the present inputs."""
         return self._ran is not None and same_sweep(self._ran, sweep_file(self.session.inputs))
 
-    def _download_of(self, name: str, label: str, test_id: str) -> ui.button:
+    def _download_of(self, test_id: str, label: str, name: str) -> ui.button:
         async def download() -> None:
             try:
                 names = await self.session.work.quick(SWEEP_FILES, self.folder)
