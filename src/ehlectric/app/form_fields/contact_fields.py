@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.app.catalogue import oil
-from ehlectric.app.form_fields.field import Group, always, both, equal, given, group_of
+from ehlectric.app.form_fields.field import Group, always, both, equal, form_data, given, group_of
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.form_fields.oil_fields import oil as oil_fields
 from ehlectric.app.page_inputs import Inputs
@@ -28,16 +28,9 @@ def _follows(inputs: Inputs) -> bool:
 
 # Keys that only a film has whose temperature is computed.
 _OF_HEAT = (
-    *("lubricant.thermal_conductivity", "contact.temperature_1", "contact.temperature_2"),
-    *(
-        f"contact.body_{number}.{key}"
-        for number in (1, 2)
-        for key in ("material", "thermal_conductivity", "heat_capacity", "density")
-    ),
+    "lubricant.thermal_conductivity",
+    *(key for key in form("line")["Heat and shear"] if key.startswith("contact.")),
 )
-# Keys of the heat within the table of the contact, which line and point contacts share.
-HEAT_OF_CONTACT = tuple(key.removeprefix("contact.") for key in _OF_HEAT if key.startswith("contact."))
-
 
 _ELASTIC = tuple(f"body_{k}.{key}" for k in (1, 2) for key in ("youngs_modulus", "poissons_ratio"))
 
@@ -81,22 +74,8 @@ def _groups(name: str) -> tuple[Group, ...]:
 
 _GROUPS = {name: _groups(name) for name in ("line", "point")}
 
-# Tables and keys that line and point contacts share, which a change from one to the other keeps.
+# Tables that line and point contacts share, which a change from one to the other keeps.
 _SHARED = ("lubricant", "electric", "discharge", "film", "inlet")
-_SHARED_CONTACT = (
-    "reduced_modulus",
-    "entrainment_speed",
-    "slide_to_roll_ratio",
-    "speed_1",
-    "speed_2",
-    "temperature",
-    "max_hertz_pressure",
-    "boundary_film",
-    "hardness",
-    "boundary_friction",
-    *_ELASTIC,
-    *HEAT_OF_CONTACT,
-)
 
 
 def geometry_of(inputs: Inputs) -> str:
@@ -122,5 +101,5 @@ def switched(inputs: Inputs, start: Inputs) -> Inputs:
     # A point contact has no length, and a line contact gets back the one it had before.
     if found.value("discharge") is not None:
         found = found.changed({"discharge.length": start.value("discharge.length")})
-    values = {f"contact.{name}": inputs.value(f"contact.{name}") for name in _SHARED_CONTACT}
+    values = {f"contact.{name}": inputs.value(f"contact.{name}") for name in form_data("shared")}
     return changed(found, {key: value for key, value in values.items() if value is not None})

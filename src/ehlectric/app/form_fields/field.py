@@ -20,16 +20,15 @@ DEEP, ANGULAR, ROLLERS = "deep-groove ball", "angular-contact ball", "cylindrica
 
 
 @cache
-def form_data(name: str) -> dict[str, Any]:
-    """Part of ``form_fields.toml`` in the book of quantities, whose head says what its parts are.
+def form_data(name: str) -> Any:
+    """Table or list of ``form_fields.toml`` in the book of quantities, whose head says what its parts are.
 
     Examples
     --------
     >>> form_data("remedies")["Grounding ring"]
     {'circuit.grounding_ring_resistance': '1 ohm'}
     """
-    part: dict[str, Any] = data_file("ehlectric.quantities", "form_fields.toml")[name]
-    return part
+    return data_file("ehlectric.quantities", "form_fields.toml")[name]
 
 
 def kind_of(inputs: Inputs) -> str:

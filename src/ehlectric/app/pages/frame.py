@@ -19,7 +19,7 @@ from ehlectric.app.calls import FILES_UPLOADED
 from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
-from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, script, tool, weakly
+from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_texts, script, tool, weakly
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
@@ -71,16 +71,6 @@ def contact_start(geometry: str) -> Inputs:
 SWEEP = Inputs({"case": dict(BEARING.changed({"contacts": "atlas"}).table), "vary": _FIRST["vary"]})
 
 
-# Links at the top: address, name.
-LINKS = (
-    ("/", "Bearing"),
-    ("/drive", "Drive"),
-    ("/contact", "Contact"),
-    ("/sweep", "Sweep"),
-    ("/compare", "Compare"),
-)
-
-
 # Time in which the server answers with a page, also where many ask at once [s].
 PAGE_PATIENCE = 30.0
 
@@ -104,7 +94,7 @@ def framed(title: str, here: str) -> Iterator[None]:
     with ui.element("header").classes("head"):
         ui.link("ehlectric", "/").classes("name")
         with ui.element("nav").props('aria-label="Pages"'):
-            for address, name in LINKS:
+            for address, name in page_texts("links").items():
                 link = ui.link(name, address)
                 if address == here:
                     link.props('aria-current="page"')

@@ -313,11 +313,6 @@ def _texts(inputs: Inputs) -> dict[str, str]:
 
 # Only the number of the point goes to the server, not the whole figure.
 _CLICKED = "(event) => emit(event.points.map((p) => p.customdata).find((n) => n !== undefined))"
-_KEYS = """(event) => {
-  if (["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Enter"].includes(event.key)) {
-    event.preventDefault(); emit(event.key);
-  }
-}"""
 _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
 # Most points whose table is written anew at each look while points are being solved.
@@ -363,7 +358,7 @@ class MapPart:
             with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
                 self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
                 self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
-            self._keys.on("keydown", self._pressed, js_handler=_KEYS)
+            self._keys.on("keydown", self._pressed, js_handler=page_parts.script("map_keys"))
             self._keys.set_visibility(False)
             self._point = ui.element("div").classes("point").props('aria-live="polite" data-testid="point"')
             self._warnings = ui.element("div")
