@@ -114,8 +114,8 @@ def with_bounded_bodies(inner: ASGIApp, most: int = MOST_BODY, at_once: int = MO
 
     It also refuses a request when those that are being answered have large bodies together.
 
-    ``most``, largest size of a body [bytes]; ``at_once``, largest size of the bodies of all requests that are
-    being answered [bytes].
+    ``most`` is the largest size of a body [bytes], and ``at_once`` that of the bodies of all requests that
+    are being answered [bytes].
     """
     open_bodies = 0
 

@@ -35,9 +35,9 @@ _COMMANDS = {"bearing": "bearing", "drive": "drive", "contact": "run", "sweep": 
 class Downloads:
     """Card with the downloads of a page, at the place where it is made.
 
-    ``folder``, returns the folder of a result of the present inputs that the page has; None, or a folder
-    without files, where there is none and the files are to be made; ``only_made``, whether the card has only
-    what is made from a result: reports, and files for other programs.
+    ``folder`` is called for the folder with a result of the present inputs; it returns None where the page
+    has none, and then the files are made first. With ``only_made`` the card has only what is made from a
+    result: reports, and files for other programs.
 
     The contacts of a bearing's files are not solved, as its page shows them, unless the page has a folder
     with solved contacts.
