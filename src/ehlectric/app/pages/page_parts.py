@@ -311,7 +311,7 @@ class JobBox:
     """
 
     def __init__(
-        self, session: Session, done: Callable[[Job], Any], refused: Callable[[LostError], None]
+        self, session: Session, done: Callable[[Job], Any], refused: Callable[[LostError], object]
     ) -> None:
         self._session, self._done, self._refused = session, done, refused
         self._job: Job | None = None
