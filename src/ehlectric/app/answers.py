@@ -484,45 +484,41 @@ class Difference:
     way: str
 
 
+@dataclass(frozen=True, kw_only=True)
 class PageAnswer:
     """Parts that the answers about a bearing and about a drive share."""
 
+    title: str
     judged: Judged  # the verdict in its parts
     how: str  # how the answer was computed, and how far off it may be
     shown: tuple[Number, ...]  # numbers that the page shows large
     lines: tuple[Line, ...]  # all rows that the command prints
-    warnings: tuple[Told, ...]
-    figures: Mapping[str, Figure]
+    warnings: tuple[Told, ...]  # warnings, with the numbers of ``shown`` that they concern
+    # Of a bearing "load" and "film", and with a whole answer "breakdown" and "capacitance" over the speed; of
+    # a simulated drive "voltages", "histogram", "spectrum", "remedies", "discharge-voltage" and others. Empty
+    # where the films are not converged.
+    figures: Mapping[str, Figure] = field(default_factory=dict)
+    seconds: float = 0.0  # computing time [s]
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""
         return next((one for one in self.shown if one.key == key), None)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class BearingAnswer(PageAnswer):
     """Answer about a bearing, in SI units."""
 
-    title: str
     contacts: Contacts  # "atlas", "formula" or "solved"
     # Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
     whole: bool
     converged: bool  # whether the films of all contacts converged
     level: str  # level of the verdict; "grey" without one
     text: str
-    judged: Judged
-    how: str
-    shown: tuple[Number, ...]
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
     margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``whole``
     contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
-    lines: tuple[Line, ...]  # all rows that the command prints
-    # "load" and "film"; with a whole answer "breakdown" and "capacitance" over the speed. Empty where the
-    # films are not converged.
-    figures: Mapping[str, Figure]
-    warnings: tuple[Told, ...]
-    seconds: float  # computing time [s]
-    differences: tuple[Difference, ...] = field(default=())
+    differences: tuple[Difference, ...] = ()
     effects: Table | None = None  # margins if one input changes; None unless ``whole``, and without a margin
 
 
@@ -572,22 +568,11 @@ class ContactView(ContactAnswer):
     spots: tuple[Number, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DriveAnswer(PageAnswer):
     """Answer about a drive."""
 
-    title: str
     simulated: bool  # whether the drive was simulated; otherwise the answer is that of the capacitive divider
-    judged: Judged
-    how: str
-    # Before a simulation the numbers of its circuit and its films, after it those of its discharges, too.
-    shown: tuple[Number, ...]
     ends: Table  # numbers of both bearings side by side
-    lines: tuple[Line, ...]  # all rows that the command prints
-    warnings: tuple[Told, ...]  # warnings, with the numbers of ``shown`` that they concern
     # The drive and its remedies side by side; None before a simulation, and without remedies.
     remedies: Table | None = None
-    # "voltages", "histogram", "spectrum", "discharge-voltage" and others, and "remedies"; empty before a
-    # simulation.
-    figures: Mapping[str, Figure] = field(default_factory=dict)
-    seconds: float = 0.0  # computing time of a simulation [s]

@@ -7,19 +7,10 @@ from typing import Any
 
 from ehlectric.app.answers import Choice
 from ehlectric.cases import library
+from ehlectric.quantities.quantity import data_file
 
-# Name of a bearing's kind as a group of the list.
-_GROUPS = {
-    "deep-groove ball": "Deep-groove ball bearings",
-    "angular-contact ball": "Angular-contact ball bearings",
-    "cylindrical roller": "Cylindrical roller bearings",
-}
-_BASE_OILS = {
-    "mineral-paraffinic": "Mineral oils",
-    "mineral-naphthenic": "Mineral oils",
-    "pao": "Synthetic oils",
-}
-_COATED = {"inner": "Coating on the inner ring", "outer": "Coating on the outer ring"}
+# Headings in the lists, by kind of bearing or of oil, and by coated ring.
+_HEADINGS: dict[str, str] = data_file("ehlectric.quantities", "form_fields.toml")["headings"]
 
 
 @cache
@@ -70,14 +61,14 @@ def _bearing(name: str) -> Choice:
     size = " x ".join(table[key].removesuffix(" mm") for key in ("bore", "outer_diameter", "width"))
     elements = "rollers" if "roller_length" in table else "balls"
     label = f"{name.upper()}: {size} mm, {table['elements']} {elements}"
-    return Choice(name, label, _GROUPS[table["kind"]])
+    return Choice(name, label, _HEADINGS[table["kind"]])
 
 
 def _oil(name: str) -> Choice:
     file = library.tables("lubricant", name)
     kind = file["lubricant"].get("temperature", {}).get("base_oil", "")
     title = str(file["title"])
-    group = _BASE_OILS.get(kind) or _named(title)
+    group = _HEADINGS.get(kind) or _named(title)
     return Choice(name, title if title.lower().startswith(name.split("-")[0]) else f"{name}: {title}", group)
 
 
@@ -92,7 +83,7 @@ def _named(title: str) -> str:
 def _coating(name: str) -> Choice:
     table = coating(name)
     given = [f"{table[key]} {word}" for key, word in _COATING_WORDS.items() if key in table]
-    return Choice(name, f"{name}: {', '.join(given)}", _COATED[table["ring"]])
+    return Choice(name, f"{name}: {', '.join(given)}", _HEADINGS[table["ring"]])
 
 
 _COATING_WORDS = {"thickness": "thick", "breakdown_voltage": "breakdown"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from ehlectric.errors import ConvergenceError, InputError, LostError
 
@@ -13,6 +13,32 @@ T = TypeVar("T")
 
 # Time without a change after which the whole answer is computed [s].
 _QUIET = 0.3
+
+
+class OnlyLast:
+    """Coroutine function that runs once at a time: of the calls meanwhile only the last waits."""
+
+    def __init__(self, run: Callable[..., Awaitable[None]]) -> None:
+        self._run = run
+        self._waiting: tuple[Any, ...] | None = None
+        self._running = False
+
+    async def __call__(self, *values: Any) -> None:
+        """Run with these values, after the run that is under way."""
+        self._waiting = values
+        if self._running:
+            return
+        self._running = True
+        try:
+            while self._waiting is not None:
+                values, self._waiting = self._waiting, None
+                await self._run(*values)
+        finally:
+            self._running = False
+
+    def drop(self) -> None:
+        """Leave out the call that waits."""
+        self._waiting = None
 
 
 class Following(Generic[I, T]):

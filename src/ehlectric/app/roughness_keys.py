@@ -1,10 +1,12 @@
-"""Keys of a table ``[[roughness]]`` as fields of a page, as data."""
+"""Keys of a table ``[[roughness]]`` as fields of a page, from the book of quantities."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+from ehlectric.app.form_fields.field import form_data
 
 
 @dataclass(frozen=True)
@@ -21,107 +23,15 @@ class RoughKey:
     needed: bool = False  # whether a made surface must have it
 
 
-FILE_KEYS = (
-    RoughKey("x_unit", "Unit of positions, where the file states none", "um"),
-    RoughKey("z_unit", "Unit of heights, where the file states none", "nm"),
-    RoughKey(
-        "along",
-        "Lines of a map along x",
-        choices={"row": "rows of the file", "column": "columns of the file"},
-    ),
-    RoughKey("line", "Number of the line of a map, from 0", "0", number=True),
-    RoughKey(
-        "direction",
-        "Direction of a measured line",
-        choices={"x": "along entrainment", "y": "across entrainment"},
-    ),
-    RoughKey(
-        "assume_transverse",
-        "A line measured across, in a line contact",
-        choices={"": "refuse it", "true": "use it as if along (assumption)"},
-    ),
+_DATA = form_data("roughness")
+FILE_KEYS, STEP_KEYS, PLACE_KEYS, MOTION_KEYS = (
+    tuple(RoughKey(**entry) for entry in _DATA[name]) for name in ("file", "steps", "place", "motion")
 )
 
-STEP_KEYS = (
-    RoughKey(
-        "form",
-        "Form to remove",
-        choices={
-            "none": "none (files: mean)",
-            "mean": "mean",
-            "line": "line or plane",
-            "parabola": "parabola or quadric",
-        },
-    ),
-    RoughKey("cutoff_long", "Remove waves longer than", "80 um"),
-    RoughKey("cutoff_short", "Remove waves shorter than", "2.5 um"),
-    RoughKey("trim", "Cut off each end (empty: half of the longer cutoff)", "40 um"),
-    RoughKey("rescale_rq", "Scale the heights to this Rq (Sq of a map)", "50 nm"),
-    RoughKey("truncate", "Limit heights to plus and minus", "200 nm"),
-    RoughKey(
-        "extend",
-        "Beyond the ends",
-        choices={"mirror": "mirrored", "repeat": "repeated", "flat": "flat"},
-    ),
-)
-
-PLACE_KEYS = (
-    RoughKey("shift", "Shift along x", "20 um"),
-    RoughKey("shift_y", "Shift along y", "20 um", point=True),
-)
-
-GENERATOR_NAMES: Mapping[str, str] = {
-    "sinusoid": "waviness (sinusoid)",
-    "gaussian": "random (Gaussian)",
-    "self-affine": "random (self-affine)",
-    "asperity": "single asperity",
-    "pit": "single pit",
-}
-
-_RQ = RoughKey("rq", "Root mean square height Rq", "50 nm", needed=True)
-_SEED = RoughKey("seed", "Seed of the random numbers", "1", number=True, needed=True)
-_WIDTH = RoughKey("width", "Width", "50 um", needed=True)
-_ORIENTATION = RoughKey("orientation", "Orientation, counter-clockwise from x", "30 deg", point=True)
-_PLACES = (
-    RoughKey("position", "Position along x", "0 um"),
-    RoughKey("position_y", "Position along y", "0 um", point=True),
-)
-
-# Keys of each kind of made surface.
+# Names of the kinds of made surfaces, and the keys of each.
+GENERATOR_NAMES: Mapping[str, str] = {kind: entry["label"] for kind, entry in _DATA["generators"].items()}
 GENERATOR_KEYS: Mapping[str, tuple[RoughKey, ...]] = {
-    "sinusoid": (
-        RoughKey("amplitude", "Amplitude", "50 nm", needed=True),
-        RoughKey("wavelength", "Wavelength", "50 um", needed=True),
-        RoughKey("phase", "Phase [rad]", "0", number=True),
-        _ORIENTATION,
-    ),
-    "gaussian": (
-        _RQ,
-        RoughKey("correlation_length", "Correlation length along x", "20 um", needed=True),
-        _SEED,
-        RoughKey(
-            "correlation_length_y", "Correlation length along y (empty: as along x)", "60 um", point=True
-        ),
-        _ORIENTATION,
-    ),
-    "self-affine": (
-        _RQ,
-        RoughKey("hurst", "Hurst exponent", "0.8", number=True, needed=True),
-        RoughKey("rolloff_wavelength", "Roll-off wavelength", "50 um", needed=True),
-        _SEED,
-        RoughKey(
-            "shortest_wavelength",
-            "Shortest wavelength (empty: a fraction of the roll-off wavelength)",
-            "2 um",
-        ),
-    ),
-    "asperity": (RoughKey("height", "Height", "50 nm", needed=True), _WIDTH, *_PLACES),
-    "pit": (
-        RoughKey("depth", "Depth", "500 nm", needed=True),
-        _WIDTH,
-        RoughKey("rim", "Height of the rim", "0 nm"),
-        *_PLACES,
-    ),
+    kind: tuple(RoughKey(**key) for key in entry["keys"]) for kind, entry in _DATA["generators"].items()
 }
 
 # Kinds of made surfaces with processing steps: random ones.

@@ -114,8 +114,8 @@ def with_bounded_bodies(inner: ASGIApp, most: int = MOST_BODY, at_once: int = MO
 
     It also refuses a request when those that are being answered have large bodies together.
 
-    ``most``, largest size of a body [bytes]; ``at_once``, largest size of the bodies of all requests that are
-    being answered [bytes].
+    ``most`` is the largest size of a body [bytes], and ``at_once`` that of the bodies of all requests that
+    are being answered [bytes].
     """
     open_bodies = 0
 
@@ -323,12 +323,8 @@ def is_loopback(host: str) -> bool:
     >>> [is_loopback(host) for host in ("localhost", "127.0.0.1", "::1", "0.0.0.0", "example.org")]
     [True, True, True, False, False]
     """
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return False
+    address = _address(host.strip("[]"))
+    return host == "localhost" or (address is not None and address.is_loopback)
 
 
 def is_any(host: str) -> bool:
@@ -339,10 +335,16 @@ def is_any(host: str) -> bool:
     >>> is_any("0.0.0.0"), is_any("127.0.0.1"), is_any("localhost")
     (True, False, False)
     """
+    address = _address(host)
+    return address is not None and address.is_unspecified
+
+
+def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    """Address of a host; None for a name."""
     try:
-        return ipaddress.ip_address(host).is_unspecified
+        return ipaddress.ip_address(host)
     except ValueError:
-        return False
+        return None
 
 
 async def refuse(scope: Scope, receive: Receive, send: Send, status: int, reason: str) -> None:

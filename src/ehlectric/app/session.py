@@ -12,13 +12,12 @@ import re
 import shutil
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from starlette.formparsers import MultiPartParser
 
-from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import History, Inputs
-from ehlectric.app.work import Job, Work
+from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError, printable
 
 if TYPE_CHECKING:
@@ -109,7 +108,8 @@ class Session:
         self.work = work.share()
         self.history = History(inputs)
         self._server = work
-        self._folder: Path | None = None
+        # Temporary folder; None where the session has none yet, and so no uploaded files.
+        self.made_folder: Path | None = None
         self._closed = False
         # Names that users gave to uploaded files, and sizes of files that are being stored [bytes], by path.
         self._names: dict[str, str] = {}
@@ -128,14 +128,9 @@ class Session:
         """
         if self._closed:
             raise LostError("the page was closed")
-        if self._folder is None:
-            self._folder = self._server.scratch.new()
-        return self._folder
-
-    @property
-    def made_folder(self) -> Path | None:
-        """Temporary folder of the session; None where it has none yet, and so no uploaded files."""
-        return self._folder
+        if self.made_folder is None:
+            self.made_folder = self._server.scratch.new()
+        return self.made_folder
 
     def name_of(self, file: str) -> str:
         """Name of a file as its user knows it."""
@@ -169,14 +164,10 @@ class Session:
         self._names[name] = given
         return name
 
-    def start(self, function: Call[Any], *values: Any) -> Job:
-        """Start a job that ends with the session."""
-        return self.work.start(function, *values)
-
     def close(self) -> None:
         """End the jobs, and remove the folder."""
         self._closed = True
         self.work.close()
-        if self._folder is not None:
-            shutil.rmtree(self._folder, ignore_errors=True)
-            self._folder = None
+        if self.made_folder is not None:
+            shutil.rmtree(self.made_folder, ignore_errors=True)
+            self.made_folder = None

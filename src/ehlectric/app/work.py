@@ -229,10 +229,6 @@ def limits_of(*, jobs: int | None, gigabytes: float | None, minutes: float) -> L
     )
 
 
-class ReplacedError(LostError):
-    """Error of a quick answer that was not computed because a later one was asked for in its place."""
-
-
 class Work:
     """Quick answers and jobs of a server, within limits.
 
@@ -370,28 +366,22 @@ class Share:
         self.behind = work.behind
         self._turn = asyncio.Semaphore(_AT_ONCE)
         self._queued = 0
-        self._newest: dict[str, object] = {}
         self._jobs: list[Job] = []
         self._closed = False
 
-    async def quick(self, function: Call[T], *values: Any, lane: str = "") -> T:
+    async def quick(self, function: Call[T], *values: Any) -> T:
         """Result of a function of a worker process that takes a second at most.
 
-        Raises InputError and ConvergenceError as the function raises them; ReplacedError where a later answer
-        of the lane was asked for; LostError where it takes too long, its process dies, the session has ended,
-        or the program has an error.
+        Raises InputError and ConvergenceError as the function raises them; LostError where it takes too long,
+        its process dies, the session has ended, or the program has an error.
         """
         if self._queued >= _QUEUED:
             raise LostError("this page asks for more answers than are computed; wait a moment")
-        mine = object()
-        self._newest[lane] = mine
         self._queued += 1
         try:
             async with self._turn:
                 if self._closed:
                     raise LostError("the page was closed")
-                if lane and self._newest[lane] is not mine:
-                    raise ReplacedError("a later answer was asked for")
                 outcome = await self._work.answer(function, values)
         finally:
             self._queued -= 1

@@ -5,11 +5,10 @@ import tomllib
 import pytest
 
 from ehlectric.app.form_fields import BEARING_GROUPS
-from ehlectric.app.form_fields.bearing_fields import OIL
 from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.field_defaults import default_of
 from ehlectric.app.form_fields.field_rules import Memory, changed
-from ehlectric.app.form_fields.oil_fields import EXPANSION, assumed
+from ehlectric.app.form_fields.oil_fields import EXPANSION, assumed, oil
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.quantities.units import to_si
@@ -119,7 +118,7 @@ def test_an_own_bearing_comes_back_after_one_of_the_library(base):
 
 def test_a_way_comes_back_with_its_last_values():
     memory = Memory(BEARING_GROUPS)
-    field = next(field for field in OIL.fields if field.key.endswith("way_40"))
+    field = next(field for field in oil("bearing").fields if field.key.endswith("way_40"))
     grade, viscosity = 0, 1
     typed = EXAMPLE.changed({"lubricant.temperature.kinematic_viscosity_40": "52 mm^2/s"})
     memory.note(typed)

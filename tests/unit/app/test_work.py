@@ -8,7 +8,7 @@ from multiprocessing.forkserver import _forkserver
 
 import pytest
 
-from ehlectric.app.work import Limits, ReplacedError, Work, limits_of
+from ehlectric.app.work import Limits, Work, limits_of
 from ehlectric.errors import InputError, LostError
 from tests.helpers import calls
 from tests.helpers.processes import PATIENCE, alive, wait_until
@@ -122,18 +122,6 @@ def test_more_answers_than_may_wait_are_refused():
     found = working(None, use)
     assert found[:50] == [2] * 50
     assert all(isinstance(error, LostError) for error in found[50:])
-
-
-def test_a_later_answer_of_a_lane_replaces_one_that_waits():
-    async def use(work):
-        share = work.share()
-        asked = (share.quick(calls.double, number, lane="verdict") for number in range(6))
-        return await asyncio.gather(*asked, return_exceptions=True)
-
-    found = working(None, use)
-    assert found[:2] == [0, 2]
-    assert all(isinstance(error, ReplacedError) for error in found[2:-1])
-    assert found[-1] == 10
 
 
 def test_a_job_tells_its_progress_and_returns():

@@ -6,29 +6,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ehlectric.app.form_fields.bearing_fields import (
-    ASSUMED,
-    BREAKDOWN,
-    CLEARANCE,
-    COATING,
-    FILM,
-    GEOMETRY,
-    OIL,
-    OPERATION,
-    REPORT,
-    SUMMITS,
-)
+from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import (
     Field,
     Group,
-    Way,
+    always,
     both,
     equal,
-    fields_of,
+    form_data,
     given,
-    list_of_ways,
+    group_of,
     unequal,
-    way_by,
 )
 from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
@@ -50,23 +38,8 @@ SWITCHING = "source.switching_frequency"
 # Title of the remedy whose frequency follows that of the drive.
 HALF = "Half the switching frequency"
 
-# Usual remedies by their titles, with what they change; those of the example have its values.
-PRESETS: Mapping[str, Mapping[str, Any]] = {
-    "Grounding ring": {"circuit.grounding_ring_resistance": "1 ohm"},
-    "Ceramic balls": {
-        "bearings.bearing.element_material": "silicon-nitride",
-        "bearings.bearing.element_capacitance": "5 pF",
-    },
-    "Coated rings": {
-        "bearings.bearing.coating.base": "schaeffler-j20aa",
-        "bearings.bearing.coating.relative_permittivity": 9.0,
-    },
-    "Common-mode choke": {
-        "circuit.common_mode_inductance": "5 mH",
-        "circuit.common_mode_resistance": "500 ohm",
-    },
-    HALF: {},
-}
+# Usual remedies by their titles, with what they change.
+PRESETS: Mapping[str, Mapping[str, Any]] = form_data("remedies")
 
 
 def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
@@ -158,44 +131,8 @@ def _fitted(remedy: Any, old: str | None, new: str | None) -> Any:
 
 _measured = given("source.file")
 _described = equal("source.file", None)
-# Source of the example.
-_SOURCE = {
-    "source.dc_link": "560 V",
-    "source.modulation": "space-vector",
-    SWITCHING: "10 kHz",
-    "source.pole_pairs": 2,
-    "source.modulation_index": 0.9,
-    "source.base_frequency": "100 Hz",
-    "source.rise_time": "100 ns",
-}
-_RINGING = {
-    "source.overshoot": "20 %",
-    "source.ringing_frequency": "2 MHz",
-    "source.ringing_time": "1 us",
-}
-
-_WAYS = {
-    "source.dc_link": list_of_ways(
-        "source.way",
-        "Common-mode voltage",
-        Way("Measured waveform", {}, "source.file", listed=False),
-        Way("Described by its modulation", _SOURCE),
-    ),
-    "source.pole_pairs": list_of_ways(
-        "source.frequency_way",
-        "Fundamental frequency",
-        way_by("source.pole_pairs", "Follows the speed", 2),
-        Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
-        when=_described,
-    ),
-    "source.overshoot": list_of_ways(
-        "source.ringing_way",
-        "Ringing",
-        Way("At the end of each edge", _RINGING, "source.overshoot"),
-        Way("None", dict.fromkeys(_RINGING)),
-        when=_described,
-    ),
-}
+_capacitances = equal("circuit.machine", None)
+_RINGING = ("overshoot", "ringing_frequency", "ringing_time")
 _SHOWN = {
     **{f"source.{key}": {"when": _described} for key in DESCRIBED},
     **{f"source.{key}": {"when": _measured} for key in MEASURED},
@@ -205,69 +142,17 @@ _SHOWN = {
     },
     "source.pole_pairs": {"when": both(_described, given("source.pole_pairs"))},
     "source.fundamental_frequency": {"when": both(_described, equal("source.pole_pairs", None))},
-    **{key: {"when": both(_described, given("source.overshoot"))} for key in _RINGING},
-}
-
-SOURCE = Group("Source", fields_of(form("drive")["Source"], _SHOWN, _WAYS))
-
-
-# Geometry of the machine of the guide.
-_GEOMETRY = {
-    "stack_length": "120 mm",
-    "bore_diameter": "110 mm",
-    "air_gap": "0.5 mm",
-    "slots": 36,
-    "slot_opening": "3 mm",
-    "copper_depth": "2 mm",
-    "slot_permittivity": 2,
-    "liner_width": "50 mm",
-    "liner_thickness": "0.3 mm",
-    "liner_permittivity": 3.5,
-}
-_CAPACITANCES = {
-    "circuit.winding_rotor_capacitance": "50 pF",
-    "circuit.rotor_frame_capacitance": "500 pF",
-    "circuit.winding_frame_capacitance": "5 nF",
-}
-
-_DRIVE_WAYS = {
-    "circuit.winding_rotor_capacitance": list_of_ways(
-        "circuit.way",
-        "Capacitances",
-        Way(
-            "From the geometry of the machine",
-            {**dict.fromkeys(_CAPACITANCES), "circuit.machine": _GEOMETRY},
-            "circuit.machine",
-        ),
-        Way("Given, as measured", {**_CAPACITANCES, "circuit.machine": None}),
-    ),
-    "breakdown.extinction_current": list_of_ways(
-        "breakdown.extinction_way",
-        "The arc goes out",
-        way_by("breakdown.extinction_current", "Below a current", "10 mA"),
-        Way("Below a voltage", {"breakdown.extinction_voltage": "0.1 V"}),
-    ),
-}
-_DRIVE_SHOWN = {
-    **{key: {"when": equal("circuit.machine", None)} for key in _CAPACITANCES},
+    **{f"source.{key}": {"when": both(_described, given("source.overshoot"))} for key in _RINGING},
+    **{key: {"when": _capacitances} for key in form("drive")["Machine"]},
     "breakdown.extinction_current": {"when": given("breakdown.extinction_current")},
     "breakdown.extinction_voltage": {"when": equal("breakdown.extinction_current", None)},
 }
+_LISTS = {"source.pole_pairs": _described, "source.overshoot": _described}
+_CONDITIONS = {"Geometry of the machine": given("circuit.machine")}
 
-
-def _group(title: str, **more: Any) -> Group:
-    return Group(title, fields_of(form("drive")[title], _DRIVE_SHOWN, _DRIVE_WAYS), **more)
-
-
-DRIVE = _group("Operation")
-MACHINE = _group("Machine", note=ASSUMED)
-STATOR = _group(
-    "Geometry of the machine",
-    note=f"{ASSUMED} End windings are left out, and add to all capacitances.",
-    when=given("circuit.machine"),
+_OF_DRIVE = tuple(
+    group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always)) for title in form("drive")
 )
-PATHS = _group("Ring, choke and ground", opened=False)
-ARC = _group("Arc of a discharge", note="There is no model of the arc: these values are assumptions.")
 
 # Keys of a bearing that the table "drive" replaces, by those of the drive.
 _REPLACED = {"bearing.inner_speed": "drive.speed", "bearing.temperature": "drive.temperature"}
@@ -282,38 +167,38 @@ def _fields_at(group: Group, end: str) -> Iterator[Field]:
             yield field_at(field, end)
 
 
-# Groups of a bearing, with their titles in a drive. The capacitances of the motor are in the circuit.
-_OF_BEARING = (
-    (GEOMETRY, "bearing"),
-    (OPERATION, "load"),
-    (OIL, "oil"),
-    (FILM, "films"),
-    (CLEARANCE, "clearance"),
-    (BREAKDOWN, "strength of the oil"),
-    (COATING, "coating"),
-    (SUMMITS, "summits"),
-)
-_OPENED = (GEOMETRY, OPERATION)
+# Titles of the groups of a bearing in a drive, whose circuit has the capacitances of the motor.
+_TITLES = {
+    "Bearing": "bearing",
+    "Operation": "load",
+    "Oil": "oil",
+    "Films": "films",
+    "Clearance": "clearance",
+    "Breakdown": "strength of the oil",
+    "Insulating coating": "coating",
+    "Summits of the roughness": "summits",
+}
+_OPENED = ("Bearing", "Operation")
 
 
 def _bearing(end: str, name: str) -> Iterator[Group]:
     """Groups of the bearing at an end; a drive needs a strength, so that its group is always on."""
-    for group, words in _OF_BEARING:
-        title, fields = f"{name}: {words}", tuple(_fields_at(group, end))
-        opened = group in _OPENED and end == DRIVE_END
+    for group in BEARING_GROUPS:
+        if group.title not in _TITLES:
+            continue
+        title, fields = f"{name}: {_TITLES[group.title]}", tuple(_fields_at(group, end))
+        opened = group.title in _OPENED and end == DRIVE_END
         found = group_at(group, end, title, fields, opened=opened)
-        if group is BREAKDOWN:
+        if group.title == "Breakdown":
             found = Group(title, fields, note=group.note, opened=False)
         # The other end has these groups only where it has a bearing of its own.
         yield found if end == DRIVE_END else replace(found, when=given(NON_DRIVE_END))
 
 
 def _which(inputs: Inputs) -> str:
-    return (
-        ""
-        if inputs.value(NON_DRIVE_END) is not None
-        else "The bearing at the non-drive end is the same as at the drive end."
-    )
+    if inputs.value(NON_DRIVE_END) is not None:
+        return ""
+    return "The bearing at the non-drive end is the same as at the drive end."
 
 
 OTHER = Group(
@@ -326,14 +211,9 @@ OTHER = Group(
 )
 
 DRIVE_GROUPS = (
-    DRIVE,
-    SOURCE,
-    MACHINE,
-    STATOR,
-    PATHS,
-    ARC,
+    *_OF_DRIVE,
     *_bearing(DRIVE_END, "Drive end"),
     OTHER,
     *_bearing(NON_DRIVE_END, "Non-drive end"),
-    REPORT,
+    BEARING_GROUPS[-1],
 )

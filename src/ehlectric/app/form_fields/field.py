@@ -4,31 +4,31 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
+from types import MappingProxyType
 from typing import Any, Literal
 
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.inputs import form, input_at
+from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
 
 DEEP, ANGULAR, ROLLERS = "deep-groove ball", "angular-contact ball", "cylindrical roller"
 
-# Keys that a kind does not have.
-_REFUSED = {
-    DEEP: ("contact_angle", "roller_length", "profile"),
-    ANGULAR: ("radial_clearance", "clearance_class", "fits", "roller_length", "profile"),
-    ROLLERS: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle", "axial_load"),
-}
 
-# First values of keys that a kind needs; the clearance and the profile are assumptions of the examples.
-_GROOVES = {"inner_groove": 0.52, "outer_groove": 0.53}
-_NEEDED: dict[str, dict[str, Any]] = {
-    DEEP: {**_GROOVES, "shoulder_height": 0.19, "radial_clearance": "10 um"},
-    ANGULAR: {**_GROOVES, "shoulder_height": 0.31, "contact_angle": "40 deg", "axial_load": "1000 N"},
-    ROLLERS: {"roller_length": "10 mm", "profile": "logarithmic", "radial_clearance": "20 um"},
-}
+@cache
+def form_data(name: str) -> Any:
+    """Table or list of ``form_fields.toml`` in the book of quantities, whose head says what its parts are.
+
+    Examples
+    --------
+    >>> form_data("remedies")["Grounding ring"]
+    {'circuit.grounding_ring_resistance': '1 ohm'}
+    """
+    return data_file("ehlectric.quantities", "form_fields.toml")[name]
 
 
 def kind_of(inputs: Inputs) -> str:
@@ -54,11 +54,11 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     >>> fitted_to_kind(Inputs({"bearing": {"base": "nu-208", "axial_load": "300 N"}}))
     {'bearing.axial_load': None, 'bearing.profile': 'logarithmic', 'bearing.radial_clearance': '20 um'}
     """
-    kind = kind_of(inputs)
+    kind = form_data("kinds").get(kind_of(inputs), {"refused": (), "needed": {}})
     known = bearing(str(inputs.value("bearing.base")))
-    given = [f"bearing.{key}" for key in _REFUSED.get(kind, ())]
+    given = [f"bearing.{key}" for key in kind["refused"]]
     changes: dict[str, Any] = {key: None for key in given if inputs.value(key) is not None}
-    for name, value in _NEEDED.get(kind, {}).items():
+    for name, value in kind["needed"].items():
         key = f"bearing.{name}"
         clear = name == "radial_clearance" and (
             inputs.value("bearing.clearance_class") or inputs.value("bearing.fits")
@@ -231,27 +231,21 @@ def field_of(key: str, **more: Any) -> Field:
         "unit": entry.shown,
         "low": entry.slider[0],
         "high": entry.slider[1],
+        "when": never if key in form_data("only_given") else always,
         **{name: getattr(entry, name) for name in ("log", "kind", "choices", "note", "optional")},
+        **form_data("fields").get(key, {}),
     }
     return Field(key, **(own | more))
 
 
-def way_by(key: str, label: str, first: Any, *, exactly: bool = False) -> Way:
-    """Way of inputs that have a key, with its first value; if ``exactly``, of inputs with that value."""
-    return Way(label, {key: first}, key, first if exactly else None)
-
-
-def list_of_ways(key: str, label: str, *ways: Way, when: When = always) -> Field:
-    """List of alternative ways to give a quantity."""
-    return Field(key, label, kind="ways", ways=ways, when=when)
-
-
-def fields_of(
-    keys: Iterable[str], shown: Mapping[str, Mapping[str, Any]], ways: Mapping[str, Field]
-) -> tuple[Field, ...]:
-    """Fields of keys in their order, each after the list of alternatives that stands before it."""
-    pairs = ((ways.get(key), field_of(key, **shown.get(key, {}))) for key in keys)
-    return tuple(field for pair in pairs for field in pair if field is not None)
+def list_of_ways(name: str, when: When = always) -> Field:
+    """List of the alternative ways to give a quantity, from the book."""
+    entry = form_data("alternatives")[name]
+    ways = []
+    for way in entry["ways"]:
+        changes = {key: None if value == "" else value for key, value in way.get("changes", {}).items()}
+        ways.append(Way(**(way | {"changes": changes})))
+    return Field(entry["key"], entry["label"], kind="ways", ways=tuple(ways), when=when)
 
 
 @dataclass(frozen=True)
@@ -268,6 +262,27 @@ class Group:
     tells: Callable[[Inputs], str] = lambda _: ""
     copies: str = ""  # table whose values the table has when it is first switched on, in place of ``start``
     when: When = always  # whether the group belongs to given inputs
+
+
+def group_of(
+    form_name: str,
+    title: str,
+    shown: Mapping[str, Mapping[str, Any]],
+    lists: Mapping[str, When] = MappingProxyType({}),
+    **more: Any,
+) -> Group:
+    """Group of a form as the book has it, each field after the list of alternatives that stands before it.
+
+    ``shown`` has for the key of a field what the book does not have of it, such as the condition under which
+    it is shown; ``lists`` the conditions of lists of alternatives by the key before which they stand.
+    """
+    fields: list[Field] = []
+    for key in form(form_name)[title]:
+        for name in (key, f"{form_name}/{key}"):
+            if name in form_data("alternatives"):
+                fields.append(list_of_ways(name, lists.get(key, always)))
+        fields.append(field_of(key, **shown.get(key, {})))
+    return Group(title, tuple(fields), **(form_data("groups").get(title, {}) | more))
 
 
 # Most digits of a number in a box; one with more, such as that of a point of a sweep, is rounded there.

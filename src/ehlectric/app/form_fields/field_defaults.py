@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
-from ehlectric.app.form_fields.field import Field, Group, Way, When
+from ehlectric.app.form_fields.field import Field, Group, Way, When, form_data
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 from ehlectric.quantities.inputs import ENDS
@@ -66,22 +66,6 @@ def _way_at(way: Way, end: str) -> Way:
     return replace(way, changes=at_end(way.changes, end), key=f"{end}.{way.key}" if way.key else "")
 
 
-_DEFAULTS = {
-    "contact.boundary_film": f"{1e9 * BOUNDARY_FILM:g} nm",
-    "electric.mean_free_path": "0 nm",
-    "electric.tribofilm_resistance": "0 ohm m^2",
-    "bearing.element_material": "steel",
-    "bearing.ring_material": "steel",
-    "bearing.radial_load": "0 N",
-    "bearing.axial_load": "0 N",
-    "bearing.fits.shaft_material": "steel",
-    "bearing.fits.shaft_bore": "0 mm",
-    "drive.seed": 0,
-    "source.scale": 1,
-    "circuit.common_mode_resistance": "0 ohm",
-    "circuit.ground_resistance": "0 ohm",
-}
-
 # Values of a library's oil that do not hold with a data sheet, as the cases resolve it.
 _NOT_WITH_SHEET = (
     *("lubricant.viscosity", "lubricant.pressure_viscosity_coefficient", "lubricant.density"),
@@ -106,10 +90,12 @@ def default_of(inputs: Inputs, key: str) -> Any:
     if key == "grid.error":
         error = DEFAULT_ERROR[inputs.value("contact.geometry") == "point"]
         return f"{100.0 * error:g} %"
+    if key == "contact.boundary_film":
+        return f"{1e9 * BOUNDARY_FILM:g} nm"
     if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:
         return None
     if key == "lubricant.roelands_z" and inputs.value("lubricant.temperature.base_oil") is not None:
         return None
     table = next((table for table in _LIBRARY if key.startswith(f"{table}.")), None)
     known = {} if table is None else _LIBRARY[table](str(inputs.value(f"{table}.base")))
-    return known.get(key.removeprefix(f"{table}."), _DEFAULTS.get(key))
+    return known.get(key.removeprefix(f"{table}."), form_data("defaults").get(key))

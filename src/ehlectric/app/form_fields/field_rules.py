@@ -12,7 +12,7 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
-from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind
+from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind, form_data
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
@@ -158,41 +158,26 @@ def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
     factor = inputs.value("bearing.film_factor")
     if inputs.value("lubricant.temperature") is None or factor not in FILM_FACTORS:
         return {}
-    needed = _THERMAL[: FILM_FACTORS.index(factor)]
+    needed = list(form_data("first_values")["needed_by_heat"].items())[: FILM_FACTORS.index(factor)]
     return {key: value for key, value in needed if inputs.value(key) is None}
-
-
-# Thermal properties of the oil of the examples, assumptions, in the order in which film factors need them.
-_THERMAL = (
-    ("lubricant.temperature.thermal_conductivity", "0.14 W/m/K"),
-    ("lubricant.heat_capacity", "2000 J/kg/K"),
-)
 
 
 def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
     """Changes by which the values of the library under a key become user-defined values."""
     end, key = end_and_key(key)
     inputs = bearing_at(inputs, end)
-    base = str(inputs.value(key))
+    base, first = str(inputs.value(key)), form_data("first_values")
     if key == "lubricant.base":
         # The paper's oil has all laws; the data sheet replaces its viscosity and density.
-        return at_end({key: "paper", "lubricant.temperature": dict(_SHEET)}, end)
+        return at_end({key: "paper", "lubricant.temperature": dict(first["data_sheet"])}, end)
     known = {
         "bearing.base": bearing(base),
-        "bearing.coating.base": {"thickness": "200 um"} | coating(base),
+        "bearing.coating.base": first["coating"] | coating(base),
     }.get(key, {})
     values = {f"{key.rpartition('.')[0]}.{name}": value for name, value in known.items()}
     return at_end(
         {name: one for name, one in values.items() if inputs.value(name) is None} | {key: None}, end
     )
-
-
-# Data sheet of the example of a bearing; an assumption.
-_SHEET = {
-    "kinematic_viscosity_40": "46 mm^2/s",
-    "kinematic_viscosity_100": "6.8 mm^2/s",
-    "density_15": "870 kg/m^3",
-}
 
 
 def is_own(inputs: Inputs, key: str) -> bool:

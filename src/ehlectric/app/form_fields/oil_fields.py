@@ -2,29 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ehlectric.app.catalogue import oil as oil_named
 from ehlectric.app.catalogue import oil_needs
-from ehlectric.app.form_fields.field import (
-    Group,
-    Way,
-    both,
-    equal,
-    fields_of,
-    given,
-    list_of_ways,
-    never,
-    way_by,
-)
+from ehlectric.app.form_fields.field import Group, both, equal, given, group_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import FILM_FACTORS
 
 _SHEET = "lubricant.temperature"
-
-# Viscosities of a data sheet, at 40 and 100 °C.
-_AT_TEMPERATURES = ("iso_vg", "kinematic_viscosity_40", "viscosity_index", "kinematic_viscosity_100")
 
 # Thermal expansion of an oil whose data sheet gives none.
 EXPANSION = "6.5e-4 1/K"
@@ -96,29 +83,7 @@ def _assumed_with_pressure(given: Mapping[str, Any], known: Mapping[str, Any], b
 _WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "roelands_z": "Roelands' z"}
 
 
-_WAYS = {
-    f"{_SHEET}.iso_vg": list_of_ways(
-        f"{_SHEET}.way_40",
-        "At 40 °C given as",
-        way_by(f"{_SHEET}.iso_vg", "ISO viscosity grade", 46),
-        Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_40": "46 mm^2/s"}),
-        when=_sheet,
-    ),
-    f"{_SHEET}.viscosity_index": list_of_ways(
-        f"{_SHEET}.way_100",
-        "At 100 °C given as",
-        way_by(f"{_SHEET}.viscosity_index", "Viscosity index", 100.0),
-        Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_100": "6.8 mm^2/s"}),
-        when=_sheet,
-    ),
-}
-
 _SHOWN: dict[str, dict[str, Any]] = {
-    "lubricant.base": {
-        "own": "From a data sheet",
-        "lacks": "not in the library ({count} oils): give the values of its data sheet",
-    },
-    **{f"{_SHEET}.{name}": {"when": never} for name in _AT_TEMPERATURES},
     f"{_SHEET}.density_15": {"when": _sheet},
     f"{_SHEET}.base_oil": {"when": _sheet},
     f"{_SHEET}.thermal_conductivity": {"when": _heated},
@@ -127,9 +92,10 @@ _SHOWN: dict[str, dict[str, Any]] = {
     "lubricant.pressure_viscosity_coefficient": {"when": _sheet},
     "lubricant.roelands_z": {"when": _needs_exponent},
 }
+_LISTS = {f"{_SHEET}.iso_vg": _sheet, f"{_SHEET}.viscosity_index": _sheet}
 
 
-def oil(keys: Iterable[str], **shown: Mapping[str, Any]) -> Group:
-    """Group of the oil with some keys; ``shown`` replaces what other forms say of a key, by its last name."""
+def oil(form_name: str, **shown: Mapping[str, Any]) -> Group:
+    """Group of the oil of a form; ``shown`` replaces what other forms say of a key, by its last name."""
     others = {(key := f"lubricant.{name}"): {**_SHOWN.get(key, {}), **more} for name, more in shown.items()}
-    return Group("Oil", fields_of(keys, _SHOWN | others, _WAYS), tells=assumed)
+    return group_of(form_name, "Oil", _SHOWN | others, _LISTS, tells=assumed)

@@ -19,8 +19,8 @@ from ehlectric.app.page_warnings import Told, counts, elsewhere
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
-from ehlectric.app.pages.page_parts import Strip, figure, lines_html, mark, scrolling_table
-from ehlectric.app.pages.solving import Solving, Words
+from ehlectric.app.pages.page_parts import Strip, button, figure, lines_html, mark, say, scrolling_table
+from ehlectric.app.pages.solving import Solving
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import SEVERITY_WORDS, InputError
@@ -36,7 +36,6 @@ class AnswerPage(Generic[A]):
     start: ClassVar[Inputs]  # inputs with which the page begins
     kind: ClassVar[Literal["bearing", "drive"]]
     groups: ClassVar[Sequence[Group]]
-    words: ClassVar[Words]
     short: ClassVar[Sequence[str]]  # keys of the numbers of the short answer
     # Time for which the page waits for its first answer before it is sent without one [s].
     wait: ClassVar[float] = 0.0
@@ -92,12 +91,11 @@ class AnswerPage(Generic[A]):
                 self._build_answer()
 
     def _build_answer(self) -> None:
-        self.solving: Solving[A] = Solving(self.solved, self.words, self.session, self._ask, self.go_to)
+        self.solving: Solving[A] = Solving(self.solved, self.kind, self.session, self._ask, self.go_to)
         self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
         self._notice.set_visibility(False)
-        button = ui.button("Go to the field", on_click=self.form.go_to_wrong, color=None)
-        button.props("no-caps dense data-testid=to-field")
-        button.bind_visibility_from(
+        leads = button("Go to the field", "to-field", self.form.go_to_wrong, "no-caps dense")
+        leads.bind_visibility_from(
             self._notice, "visible", lambda shown: shown and self.form.wrong is not None
         )
         self.build_view()
@@ -180,8 +178,7 @@ class AnswerPage(Generic[A]):
         self._strip.show("grey", "No answer", [words])
         self.solving.show(None, error)
         earlier = " The answer below is that of earlier inputs." if self.view.shown else ""
-        self._notice.text = f"{words}.{earlier}"
-        self._notice.set_visibility(True)
+        say(self._notice, f"{words}.{earlier}")
 
 
 class AnswerView(Generic[A]):
@@ -256,15 +253,14 @@ class VerdictBox:
     def show(self, judged: Judged, *, whole: bool = True) -> None:
         """Show a verdict; the place of the sentences that follow with a ``whole`` answer is kept for them."""
         self._box.classes(replace=f"verdict {judged.level}").props(f'data-level="{judged.level}"')
-        self._lead.text, self._bound.text = judged.lead, judged.bound
-        self._bound.set_visibility(bool(judged.bound))
+        self._lead.text = judged.lead
+        say(self._bound, judged.bound)
         self._meaning.text, self._numbers.text = judged.meaning, judged.numbers
         kept = () if whole else self._last[len(judged.reasons) :]
         self._reasons.content = _list(judged.reasons, kept)
         if whole:
             self._last = judged.reasons
-        self._assumed.text = judged.assumptions
-        self._assumed.set_visibility(bool(judged.assumptions))
+        say(self._assumed, judged.assumptions)
 
 
 class NumberBox:

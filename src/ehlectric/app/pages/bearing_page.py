@@ -12,8 +12,7 @@ from ehlectric.app.calls import BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
 from ehlectric.app.pages.frame import BEARING
-from ehlectric.app.pages.page_parts import mark
-from ehlectric.app.pages.solving import Words
+from ehlectric.app.pages.page_parts import mark, say
 from ehlectric.cases.defaults import HOW
 from ehlectric.quantities.sheets import BEARING_CARDS
 
@@ -61,8 +60,7 @@ class BearingView(AnswerView[BearingAnswer]):
         self._effects.set_visibility(bool(self._effects.content))
         mark(self._effects, "stale", on=not answer.whole)
         self._warnings.show(answer.warnings)
-        self._none.set_visibility(not answer.figures)
-        self._none.text = "" if answer.figures else "Not converged: the figures would show no solution."
+        say(self._none, "" if answer.figures else "Not converged: the figures would show no solution.")
 
     def show_figure(self, name: str, place: FigureBox, answer: BearingAnswer) -> None:
         """Show a figure; one over the speed stays as it is until the whole answer has it."""
@@ -95,18 +93,6 @@ class BearingPage(AnswerPage[BearingAnswer]):
     start = BEARING
     kind = "bearing"
     groups = BEARING_GROUPS
-    words = Words(
-        solve="Solve the contacts",
-        show_solved="Show the solved contacts",
-        show_quick="Show the quick answer",
-        back="Back to the solved inputs",
-        earlier="The solved result is of earlier inputs.",
-        running="The contacts being solved are those of earlier inputs.",
-        done="The contacts of earlier inputs are solved.",
-        cancelled="Cancelled: no contacts were kept.",
-        failed="Not solved",
-        beyond="or solved contacts",
-    )
     short = ("bearing.capacitance", "bearing.margin")
     wait = 1.0
     quick, whole, solved = BEARING_QUICK, BEARING_WHOLE, BEARING_SOLVED

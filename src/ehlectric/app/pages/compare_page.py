@@ -42,7 +42,7 @@ from ehlectric.app.pages.frame import (
     show_address,
 )
 from ehlectric.app.session import Session
-from ehlectric.app.work import ReplacedError, Work
+from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
 
 # Words of the signs of inputs, for readers who cannot see that a row is marked.
@@ -288,7 +288,7 @@ class ComparePage:
         found: list[Side | Exception] = []
         for name, quick in zip(_NAMES, self._quick or (None, None), strict=True):
             if inputs != self.session.inputs:
-                raise ReplacedError("the inputs have changed")
+                raise LostError("the inputs have changed")
             answer = await self._ask(COMPARE_WHOLE_SIDE, inputs, name)
             late = isinstance(answer, LostError) and isinstance(quick, Side)
             found.append(replace(quick, method=_LATE) if late and isinstance(quick, Side) else answer)

@@ -12,6 +12,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import ContactCheck, ContactView, Reach, Shown
 from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
+from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
@@ -30,12 +31,13 @@ from ehlectric.app.pages.page_parts import (
     JobBox,
     Strip,
     address_error,
+    button,
     card,
     figure,
     heading,
     light,
     light_shown,
-    lines_html,
+    lines_behind,
     mark,
     number_cards,
     warnings,
@@ -119,9 +121,8 @@ class ContactViewBox:
         self._cuts: dict[str, FigureBox] = {}
         self._folder: Path | None = None
         self._reach: Reach | None = None
-        self._cutting = False
         self._sliders: dict[str, CutSlider] = {}
-        self._at: tuple[float, float] | None = None
+        self._cut = OnlyLast(self._cut_through)
         with ui.element("div").props('data-testid="solved"') as self._box:
             self._words = ui.element("div").classes("told-answer").props('aria-live="polite"')
             self._plots = ui.element("div").classes("figures")
@@ -150,8 +151,9 @@ class ContactViewBox:
         self._show_figures(self._cut_plots, self._cuts, view.cuts)
         self._show_choice(view.reach)
         self._table.clear()
-        with self._table, ui.expansion("All numbers, as the command prints them").props('data-testid="rows"'):
-            ui.html(lines_html(view.rows, "Numbers of the solved contact"), sanitize=False)
+        with self._table:
+            title = "All numbers, as the command prints them"
+            lines_behind(title, view.rows, "Numbers of the solved contact", "rows")
 
     def _show_figures(self, place: ui.element, boxes: dict[str, FigureBox], figures: Iterable[Shown]) -> None:
         figures = tuple(figures)
@@ -190,24 +192,20 @@ class ContactViewBox:
 
     async def _slid(self) -> None:
         """Cut through the chosen point; while one cut is made, only the last of further points waits."""
+        await self._cut(self._sliders["x"].value, self._sliders["y"].value)
+
+    async def _cut_through(self, x: float, y: float) -> None:
         reach, folder = self._reach, self._folder
         if reach is None or folder is None:
             return
-        self._at = (self._sliders["x"].value, self._sliders["y"].value)
-        if self._cutting:
-            return
-        self._cutting = True
+        self._draw_lines(*((y, x) if reach.turned else (x, y)))
         try:
-            while self._at is not None:
-                at, self._at = self._at, None
-                self._draw_lines(*((at[1], at[0]) if reach.turned else at))
-                cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), *at)
-                if folder == self._folder:
-                    self._show_figures(self._cut_plots, self._cuts, cuts)
+            cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), x, y)
         except (InputError, LostError) as error:
             ui.notify(str(error), type="negative")
-        finally:
-            self._cutting = False
+            return
+        if folder == self._folder:
+            self._show_figures(self._cut_plots, self._cuts, cuts)
 
     def _draw_lines(self, across: float, down: float) -> None:
         """Move the lines of the cuts on the maps; their shapes are the third and the fourth."""
@@ -256,7 +254,7 @@ class ContactPage:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._asked = self._runs = 0
-        self._wanted = self._busy = False
+        self._solve_at_once = OnlyLast(self._solve_now)
         self._check: ContactCheck | None = None
         # Inputs of the solved contact that is shown, and the folder of its files; small ones have none.
         self._solved: Inputs | None = None
@@ -301,10 +299,9 @@ class ContactPage:
             self._formula.props('aria-live="polite" data-testid="by-formula"')
         with card("Solved"):
             with ui.element("div").classes("solving"):
-                self._solve = ui.button("Solve", on_click=self.solve, color=None).classes("primary")
-                self._solve.props('flat no-caps data-testid="solve"')
+                self._solve = button("Solve", "solve", self.solve, primary=True)
                 self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
-            self._job = JobBox(self.session, self._ended, self._tell_refused)
+            self._job = JobBox(self.session, self._ended, lambda error: self._state.set_text(str(error)))
             self.view = ContactViewBox(self.session)
         with card("Rough surfaces"):
             self._roughness = RoughnessBox(self.session, self._inputs_changed)
@@ -389,8 +386,7 @@ class ContactPage:
             number_cards(answer.numbers, prefix="formula-")
             light(answer.level, answer.text, testid="verdict-formula")
             warnings(answer.warnings)
-            with ui.expansion("All numbers before solving"):
-                ui.html(lines_html(answer.rows, "Numbers before the film is solved"), sanitize=False)
+            lines_behind("All numbers before solving", answer.rows, "Numbers before the film is solved")
         if not self._is_solved:
             self._show_short(answer, "by formula")
 
@@ -451,31 +447,21 @@ class ContactPage:
             self._running = (inputs, folder)
             self._solve.disable()
 
-    async def _solve_at_once(self) -> None:
-        """Solve the latest inputs; those in between are left out while one is being solved."""
-        self._wanted = True
-        if self._busy:
+    async def _solve_now(self) -> None:
+        """Solve the latest inputs without a job."""
+        if self._formula.is_deleted:
             return
-        self._busy = True
+        asked, inputs = self._asked, self.session.inputs
         try:
-            while self._wanted and not self._formula.is_deleted:
-                self._wanted = False
-                asked, inputs = self._asked, self.session.inputs
-                try:
-                    view = await self.session.work.quick(
-                        CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
-                    )
-                except (InputError, ConvergenceError, LostError) as error:
-                    if self._awaits(asked):
-                        self._tell(error)
-                    continue
-                if not self._formula.is_deleted:
-                    self._show(view, inputs, None)
-        finally:
-            self._busy = False
-
-    def _tell_refused(self, error: LostError) -> None:
-        self._state.text = str(error)
+            view = await self.session.work.quick(
+                CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
+            )
+        except (InputError, ConvergenceError, LostError) as error:
+            if self._awaits(asked):
+                self._tell(error)
+            return
+        if not self._formula.is_deleted:
+            self._show(view, inputs, None)
 
     def _ended(self, job: Job) -> None:
         """Show the outcome of a job."""

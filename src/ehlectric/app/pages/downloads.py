@@ -12,28 +12,15 @@ from nicegui import ui
 from ehlectric.app.answers import Download, Written, file_title
 from ehlectric.app.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.page_parts import JobBox, card, tool
+from ehlectric.app.pages.page_parts import JobBox, card, page_texts, tool
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError, LostError
 
-# What is downloaded from a folder of results: data-testid, words, and kind.
-_FILES: tuple[tuple[str, str, Download], ...] = (
-    ("download-csv", "Tables (CSV)", "csv"),
-    ("download-netcdf", "All values (NetCDF)", "netcdf"),
-    ("download-summary", "Key figures (JSON)", "summary"),
-    ("download-figures", "Figures (SVG, PNG)", "figures"),
-    ("download-all", "Everything (ZIP)", "all"),
-)
-# What is made from a result, for other programs and as reports: data-testid, words, and ending.
-_MADE = (
-    ("download-mat", "MATLAB, Octave (MAT)", "mat"),
-    ("download-xlsx", "Spreadsheet (XLSX)", "xlsx"),
-    ("download-vtkhdf", "ParaView (VTKHDF)", "vtkhdf"),
-    ("download-report-pdf", "Report (PDF)", "pdf"),
-    ("download-report-html", "Report (HTML)", "html"),
-)
+# Downloads from a folder of results, and what is made from a result: data-testid, words, and kind or ending.
+_FILES: list[tuple[str, str, Download]] = page_texts("downloads")["files"]
+_MADE: list[tuple[str, str, str]] = page_texts("downloads")["made"]
 
 # Forms that only the results of contacts have.
 _OF_CONTACTS = ("vtkhdf",)
@@ -48,9 +35,9 @@ _COMMANDS = {"bearing": "bearing", "drive": "drive", "contact": "run", "sweep": 
 class Downloads:
     """Card with the downloads of a page, at the place where it is made.
 
-    ``folder``, returns the folder of a result of the present inputs that the page has; None, or a folder
-    without files, where there is none and the files are to be made; ``only_made``, whether the card has only
-    what is made from a result: reports, and files for other programs.
+    ``folder`` is called for the folder with a result of the present inputs; it returns None where the page
+    has none, and then the files are made first. With ``only_made`` the card has only what is made from a
+    result: reports, and files for other programs.
 
     The contacts of a bearing's files are not solved, as its page shows them, unless the page has a folder
     with solved contacts.

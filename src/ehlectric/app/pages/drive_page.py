@@ -13,7 +13,6 @@ from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     PRESETS,
-    SOURCE,
     changes_of,
     remedies_of,
     with_remedy,
@@ -23,7 +22,6 @@ from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, WarningList,
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, removable
-from ehlectric.app.pages.solving import Words
 from ehlectric.app.session import LARGEST, Session, own_file
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
@@ -179,18 +177,6 @@ class DrivePage(AnswerPage[DriveAnswer]):
     kind = "drive"
     groups = DRIVE_GROUPS
     elsewhere = (REMEDIES, _FILE)
-    words = Words(
-        solve="Simulate",
-        show_solved="Show the simulation",
-        show_quick="Show the capacitive divider",
-        back="Back to the simulated inputs",
-        earlier="The simulation is of earlier inputs.",
-        running="The simulation that runs is of earlier inputs.",
-        done="The drive of earlier inputs is simulated.",
-        cancelled="Cancelled: nothing was kept.",
-        failed="Not simulated",
-        beyond="a simulation with solved contacts",
-    )
     short = ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage")
     quick, solved = DRIVE_QUICK, DRIVE_SIMULATED
 
@@ -200,7 +186,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
 
     def build_boxes(self) -> None:
         """Build the field of a measured waveform, and the remedies."""
-        with self.form.group(SOURCE.title):
+        with self.form.group("Source"):
             self.waveform = WaveformField(self.session, self.form.take)
         self.remedies = RemedyBox(self.session, self.change)
 

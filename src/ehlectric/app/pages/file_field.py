@@ -8,24 +8,9 @@ from typing import Any
 
 from nicegui import events, ui
 
-from ehlectric.app.pages.page_parts import weakly
+from ehlectric.app.pages.page_parts import script, weakly
 from ehlectric.app.session import ENDINGS, LARGEST, Session, shown_name
 from ehlectric.errors import InputError, LostError
-
-# Sends the chosen file to the address of the uploader, and reports its state to the page.
-_SEND = """async (event) => {
-  const field = event.target, file = field.files[0];
-  if (!file) return;
-  if (file.size > %(largest)d) { emit({name: file.name, size: file.size}); field.value = ""; return; }
-  const form = new FormData();
-  form.append("file", file, file.name);
-  emit({name: file.name, status: 0});
-  try {
-    const answer = await fetch(%(address)s, {method: "POST", body: form});
-    if (!answer.ok) emit({name: file.name, status: answer.status});
-  } catch (error) { emit({name: file.name, status: -1}); }
-  field.value = "";
-}"""
 
 
 class UploadField:
@@ -45,7 +30,8 @@ class UploadField:
     ) -> None:
         self._session, self._take, self._refuse = session, take, refuse
         uploader = ui.upload(on_upload=weakly(self._uploaded), max_file_size=LARGEST).style("display: none")
-        send = _SEND % {"largest": LARGEST, "address": json.dumps(uploader.props["url"])}
+        address = json.dumps(uploader.props["url"])
+        send = f"(event) => ({script('send_file')})({LARGEST}, {address}, emit)(event)"
         with ui.element("div").classes("key upload"):
             words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
             ui.html(label or words, sanitize=False, tag="label").props(f'for="{name}-file"')

@@ -12,6 +12,7 @@ from nicegui import ui
 
 from ehlectric.app.calls import FIELD_HELP
 from ehlectric.app.catalogue import choices
+from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
@@ -20,7 +21,7 @@ from ehlectric.app.form_fields.field_defaults import default_of, end_and_key
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_own
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
-from ehlectric.app.pages.page_parts import Control, GroupBox, brief, removable
+from ehlectric.app.pages.page_parts import Control, GroupBox, brief, removable, say
 from ehlectric.errors import InputError, LostError
 
 Change = Callable[[str, Any], Awaitable[None]]
@@ -53,8 +54,7 @@ class Form:
         self._groups, self._elsewhere = groups, elsewhere
         self._memory = Memory(groups)
         self.wrong: Field | None = None  # field with an error
-        self._slid: tuple[Field, float] | None = None
-        self._sliding = False
+        self._slide = OnlyLast(self._take_slid)
         self._boxes: dict[str, GroupBox] = {}
         self._mores: dict[str, GroupBox] = {}
         self._controls: list[tuple[Field, Control]] = []
@@ -83,8 +83,7 @@ class Form:
         self.wrong = field
         for one, control in self._controls:
             control.show(error=text if one is field else "", shown=self._is_shown(one))
-        self.message.text = "" if field is not None else text
-        self.message.set_visibility(bool(self.message.text))
+        say(self.message, "" if field is not None else text)
         if field is not None:
             title = self._group_of(field).title
             self._boxes[title].turn(opened=True)
@@ -114,7 +113,7 @@ class Form:
 
     def set(self, inputs: Inputs) -> None:
         """Show other inputs, as after an undo; nothing is sent."""
-        self._slid = None
+        self._slide.drop()
         self._inputs = inputs
         brief(self.note, "")
         self._show()
@@ -188,7 +187,7 @@ class Form:
         return found
 
     async def _commit(self, field: Field, text: str) -> None:
-        self._slid = None
+        self._slide.drop()
         if field.kind == "ways":
             await self.take(self._memory.way(field, int(text), self._inputs))
         elif text == _OWN:
@@ -196,17 +195,8 @@ class Form:
         else:
             await self.take({field.key: field.from_text(written_text(field, text))})
 
-    async def _slide(self, field: Field, place: float) -> None:
-        self._slid = (field, place)
-        if self._sliding:
-            return
-        self._sliding = True
-        try:
-            while self._slid is not None:
-                (field, place), self._slid = self._slid, None
-                await self.take({field.key: field.from_slider(place)}, drag=field.key)
-        finally:
-            self._sliding = False
+    async def _take_slid(self, field: Field, place: float) -> None:
+        await self.take({field.key: field.from_slider(place)}, drag=field.key)
 
     async def take(self, changes: Any, drag: str = "") -> None:
         """Take over changes with the inputs that they replace, show them, and send them.

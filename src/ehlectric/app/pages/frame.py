@@ -16,9 +16,10 @@ from nicegui import Client, events, ui
 
 from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.calls import FILES_UPLOADED
+from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
-from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, tool, weakly
+from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_texts, script, tool, weakly
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
@@ -37,68 +38,37 @@ BEARING = start("bearing_6208")
 DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
 
 
+# First values of pages, all assumptions.
+_FIRST = form_data("first_values")
+
 # Tables of a bearing that a drive does not take over: of its title and its margin, and of the motor, whose
 # capacitances go into the circuit.
 _NOT_OF_DRIVES = ("title", "contacts", "ranges", "motor")
-_OF_MOTOR = {
-    "motor.winding_rotor_capacitance": "circuit.winding_rotor_capacitance",
-    "motor.rotor_frame_capacitance": "circuit.rotor_frame_capacitance",
-    "motor.switching_frequency": "source.switching_frequency",
-    "motor.rise_time": "source.rise_time",
-}
 
 
 def drive_with(bearing: Inputs) -> Inputs:
     """Drive of the example with a bearing at both ends, at its speed and temperature."""
     own = bearing.changed({**dict.fromkeys(_NOT_OF_DRIVES), "discharge.peak_current": None})
-    strength = {} if own.value("discharge") else _STRENGTH
+    strength = {} if own.value("discharge") else _FIRST["strength"]
     changes = {
         "drive_end": dict(own.changed(strength).table),
         "drive.speed": bearing.value("bearing.inner_speed"),
         "drive.temperature": bearing.value("bearing.temperature"),
         "title": bearing.value("title"),
     }
-    motor = {theirs: bearing.value(key) for key, theirs in _OF_MOTOR.items()}
+    motor = {theirs: bearing.value(key) for key, theirs in form_data("motor_in_drive").items()}
     given = {key: value for key, value in motor.items() if value is not None}
     return changed(DRIVE, changes | given)
-
-
-# Strength of the first answers, that of the bearing: an assumption.
-_STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
-
-# Domain of the point contact, larger than that of the example, so that the film has no warning about it, also
-# with the oil and the speed of the line contact with which the page begins.
-_POINT_DOMAIN = {"grid.inlet": -6.0, "grid.side": 5.0}
 
 
 def contact_start(geometry: str) -> Inputs:
     """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
     if geometry == "point":
-        return start("ball_contact").changed({**_STRENGTH, **_POINT_DOMAIN})
-    return start("line_contact").changed(_STRENGTH)
+        return start("ball_contact").changed({**_FIRST["strength"], **_FIRST["point_domain"]})
+    return start("line_contact").changed(_FIRST["strength"])
 
 
-SWEEP = Inputs(
-    {
-        "case": dict(BEARING.changed({"contacts": "atlas"}).table),
-        "vary": {
-            "bearing": {
-                "inner_speed": {"from": "300 rpm", "to": "6000 rpm", "count": 8, "spacing": "log"},
-                "radial_load": {"from": "500 N", "to": "8000 N", "count": 8},
-            }
-        },
-    }
-)
-
-
-# Links at the top: address, name.
-LINKS = (
-    ("/", "Bearing"),
-    ("/drive", "Drive"),
-    ("/contact", "Contact"),
-    ("/sweep", "Sweep"),
-    ("/compare", "Compare"),
-)
+SWEEP = Inputs({"case": dict(BEARING.changed({"contacts": "atlas"}).table), "vary": _FIRST["vary"]})
 
 
 # Time in which the server answers with a page, also where many ask at once [s].
@@ -124,7 +94,7 @@ def framed(title: str, here: str) -> Iterator[None]:
     with ui.element("header").classes("head"):
         ui.link("ehlectric", "/").classes("name")
         with ui.element("nav").props('aria-label="Pages"'):
-            for address, name in LINKS:
+            for address, name in page_texts("links").items():
                 link = ui.link(name, address)
                 if address == here:
                     link.props('aria-current="page"')
@@ -180,33 +150,6 @@ Show = Callable[[], Awaitable[None] | None]
 # Pages of the kinds of files.
 PATHS = {"bearing": "/", "drive": "/drive", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
 
-# Undo and redo by keys, unless they belong to a text that is being typed.
-_KEYS = """<script>
-document.addEventListener("keydown", event => {
-  const key = event.key.toLowerCase();
-  if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== "z" && key !== "y")) return;
-  const focus = document.activeElement;
-  const typed = focus && focus.tagName === "INPUT" && !focus.readOnly
-    && !["range", "checkbox", "radio", "button"].includes(focus.type);
-  if (typed || (focus && (focus.isContentEditable || focus.tagName === "TEXTAREA"))) return;
-  const name = key === "y" || event.shiftKey ? "redo" : "undo";
-  const button = document.querySelector(`[data-testid="${name}"]`);
-  if (!button || button.disabled) return;
-  event.preventDefault();
-  button.click();
-});
-</script>"""
-
-# Copies the link to an address, and says whether the browser allowed it: other machines need https for it,
-# and browsers may ask their user first.
-_COPY = """
-const link = window.location.origin + {};
-const board = navigator.clipboard;
-const copied = board ? board.writeText(link).then(() => true, () => false) : false;
-const asking = new Promise((done) => setTimeout(() => done(false), 3000));
-return [link, await Promise.race([copied, asking])];
-"""
-
 # Time in which the browser answers, also where it draws figures without a graphics card [s].
 _ANSWER = 60.0
 
@@ -224,7 +167,7 @@ class Toolbar:
         # Opened files, and those that the case among them names and that are not there yet.
         self._pending: dict[str, bytes] = {}
         self._asked: tuple[str, ...] = ()
-        ui.add_body_html(_KEYS)
+        ui.add_body_html(f"<script>{script('undo_keys')}</script>")
         with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Case"'):
             self._undo = _button("Undo", "undo", self.undo, "Control+Z")
             self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
@@ -261,7 +204,8 @@ class Toolbar:
             self._tell(error=f"no link holds these inputs: it has more than {LONGEST_QUERY} characters")
             return
         address = address_of(self._path, self.session.inputs)
-        answer = await ui.run_javascript(_COPY.format(json.dumps(address)), timeout=_ANSWER)
+        copying = f"return await ({script('copy_link')})({json.dumps(address)})"
+        answer = await ui.run_javascript(copying, timeout=_ANSWER)
         if answer is None:  # The tab was closed meanwhile.
             return
         self._link.value, copied = answer

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Awaitable, Callable, Mapping
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -13,19 +12,22 @@ from nicegui import ui
 from ehlectric.app.answers import Line, MotionAnswer
 from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
-from ehlectric.app.pages.page_parts import JobBox, figure, heading, lines_html, mark, warnings
+from ehlectric.app.pages.page_parts import (
+    JobBox,
+    button,
+    figure,
+    heading,
+    lines_behind,
+    mark,
+    say,
+    script,
+    warnings,
+)
 from ehlectric.app.pages.roughness_box import Keys
-from ehlectric.app.roughness_keys import RoughKey
+from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
-
-_KEYS = (
-    RoughKey("passes", "Lengths of the domain travelled at the mean speed", "1.5", number=True),
-    RoughKey("duration", "Or the duration of the motion", "0.5 ms"),
-    RoughKey("steps", "Time steps (empty: from the grid)", "2400", number=True),
-    RoughKey("record", "Recorded instants", "200", number=True),
-)
 
 # Motion with which the page begins: that of the example, with fewer instants, at each of which a field is
 # solved.
@@ -48,8 +50,7 @@ class MovieBox:
             self._inputs = ui.element("div").classes("box")
             self._message = ui.label().classes("error").props('role="alert" data-testid="error-motion"')
             with ui.element("div").classes("buttons"):
-                self._run = ui.button("Compute the movie", on_click=self._start, color=None)
-                self._run.classes("primary").props('flat no-caps data-testid="solve-motion"')
+                self._run = button("Compute the movie", "solve-motion", self._start, primary=True)
             self._job = JobBox(session, self._ended, self._tell)
             self._state = ui.label().classes("muted").props('aria-live="polite" data-testid="motion-state"')
             self._view = ui.element("div").classes("box").props('data-testid="movie"')
@@ -95,7 +96,7 @@ class MovieBox:
                     "follows over time. It needs a rough surface."
                 ).classes("hint")
                 return
-            self._keys = Keys("motion", _KEYS, table, self._set)
+            self._keys = Keys("motion", MOTION_KEYS, table, self._set)
             ui.label("The values at first are those of an example: assumptions.").classes("hint")
 
     async def _switched(self, event: Any) -> None:
@@ -164,8 +165,7 @@ class MovieBox:
 
     def _tell(self, error: Exception | None) -> None:
         beside = self._keys is not None and self._keys.tell(error)
-        self._message.text = "" if error is None or beside else str(error)
-        self._message.set_visibility(bool(self._message.text))
+        say(self._message, "" if error is None or beside else str(error))
 
 
 def _state(answer: MotionAnswer, why: str) -> str:
@@ -204,9 +204,8 @@ def _movie(answer: MotionAnswer) -> None:
     ).classes("hint")
     history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
     warnings(answer.warnings)
-    with ui.expansion("Numbers of the run").props('data-testid="motion-numbers"'):
-        rows = (Line(name, value) for name, value in answer.rows)
-        ui.html(lines_html(rows, "Numbers of the run"), sanitize=False)
+    rows = (Line(name, value) for name, value in answer.rows)
+    lines_behind("Numbers of the run", rows, "Numbers of the run", "motion-numbers")
     values = {
         "movie": movie.html_id,
         "history": history.html_id,
@@ -217,5 +216,4 @@ def _movie(answer: MotionAnswer) -> None:
         "texts": answer.texts,
         "first": answer.at_least_film,
     }
-    script = resources.files("ehlectric.app").joinpath("static/movie.js").read_text(encoding="utf-8")
-    ui.run_javascript(f"{script}({json.dumps(values)})")
+    ui.run_javascript(f"{script('movie')}({json.dumps(values)})")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from html import escape
+from importlib import resources
 from time import monotonic
 from typing import TYPE_CHECKING, Any, cast
 from weakref import WeakMethod
@@ -18,11 +20,25 @@ from ehlectric.app.page_warnings import Told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
 from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
-from ehlectric.quantities.quantity import BOUNDS
+from ehlectric.quantities.quantity import BOUNDS, data_file
 from ehlectric.report.light import Light, light_of
 
 if TYPE_CHECKING:
     from ehlectric.discharge.film_verdict import Level
+
+
+@cache
+def page_texts(name: str) -> dict[str, Any]:
+    """Part of ``page_texts.toml``, whose head says what its parts are."""
+    part: dict[str, Any] = data_file("ehlectric.app", "page_texts.toml")[name]
+    return part
+
+
+@cache
+def script(name: str) -> str:
+    """JavaScript of a file that lies with the style sheets."""
+    folder = resources.files("ehlectric.app").joinpath("static")
+    return folder.joinpath(f"{name}.js").read_text(encoding="utf-8").rstrip()
 
 
 def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
@@ -58,14 +74,19 @@ def mark(element: Element, name: str, *, on: bool) -> None:
     element.classes(add=name if on else None, remove=None if on else name)
 
 
+def say(label: ui.label, text: str) -> None:
+    """Show a text in a label; an empty text hides the label."""
+    label.text = text
+    label.set_visibility(bool(text))
+
+
 # Time for which a short message is shown [s].
 _BRIEF = 8.0
 
 
 def brief(label: ui.label, text: str) -> None:
     """Show a short message in a label for a while; an empty text takes it away."""
-    label.text = text
-    label.set_visibility(bool(text))
+    say(label, text)
     if not text:
         return
 
@@ -131,6 +152,14 @@ def address_error(error: InputError | None) -> None:
         ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
 
 
+def button(
+    text: str, test: str, click: Callable[[], Any], look: str = "flat no-caps", *, primary: bool = False
+) -> ui.button:
+    """Button without a colour, or the main one of its part of the page."""
+    made = ui.button(text, on_click=click, color=None).props(f'{look} data-testid="{test}"')
+    return made.classes("primary") if primary else made
+
+
 def tool(text: str, test: str, click: Callable[[], Any]) -> ui.button:
     """Outlined button of a toolbar or of a row of downloads."""
     return ui.button(text, on_click=click).props(f'outline no-caps dense data-testid="{test}"')
@@ -140,8 +169,8 @@ def removable(text: str, name: str, remove: Callable[[], Any]) -> None:
     """Line with a button that removes what it names."""
     with ui.element("div").classes("other"):
         ui.label(text)
-        button = ui.button("Remove", on_click=remove).props("flat dense no-caps")
-        button.props["aria-label"] = f"Remove {name}"
+        removes = ui.button("Remove", on_click=remove).props("flat dense no-caps")
+        removes.props["aria-label"] = f"Remove {name}"
 
 
 @contextmanager
@@ -165,9 +194,9 @@ class Strip:
         with ui.element("div").classes("strip grey").props('data-testid="strip"') as self._box:
             self._word = ui.label().classes("word").props('aria-hidden="true"')
             self._numbers = ui.label().props('aria-hidden="true"')
-            button = ui.element("button").classes("to-answer").props('type="button" data-testid="to-answer"')
-            button.on("click", js_handler=_TO_ANSWER)
-            with button:
+            leads = ui.element("button").classes("to-answer").props('type="button" data-testid="to-answer"')
+            leads.on("click", js_handler=_TO_ANSWER)
+            with leads:
                 ui.html("Answer", sanitize=False, tag="span")
 
     def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
@@ -257,6 +286,14 @@ def lines_html(lines: Iterable[Line], caption: str) -> str:
     return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
 
 
+def lines_behind(title: str, lines: Iterable[Line], caption: str, test: str = "") -> None:
+    """Table of the lines that the command prints, closed at first, with a caption for screen readers."""
+    with ui.expansion(title) as place:
+        ui.html(lines_html(lines, caption), sanitize=False)
+    if test:
+        place.props(f'data-testid="{test}"')
+
+
 def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
     """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
     plot = ui.plotly(dict(data)).classes("figure")
@@ -273,7 +310,7 @@ class JobBox:
     """
 
     def __init__(
-        self, session: Session, done: Callable[[Job], Any], refused: Callable[[LostError], None]
+        self, session: Session, done: Callable[[Job], Any], refused: Callable[[LostError], object]
     ) -> None:
         self._session, self._done, self._refused = session, done, refused
         self._job: Job | None = None
@@ -281,14 +318,14 @@ class JobBox:
         with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
             self._bar = ui.element("progress").props('max=1 aria-label="Progress" data-testid="progress"')
             self._text = ui.label().classes("job-text")
-            ui.button("Cancel", on_click=self.cancel, color=None).props('flat no-caps data-testid="cancel"')
+            button("Cancel", "cancel", self.cancel)
         self._timer = ui.timer(0.2, self._look, active=False)
         self._box.set_visibility(False)
 
     def start(self, function: Call[Any], *values: Any) -> Job | None:
         """Start a job, and show it until it ends; None where it is refused."""
         try:
-            self._job = self._session.start(function, *values)
+            self._job = self._session.work.start(function, *values)
         except LostError as error:
             self._refused(error)
             return None

@@ -10,9 +10,10 @@ from nicegui import ui
 
 from ehlectric.app.answers import SummitsTable, SurfaceAnswer
 from ehlectric.app.calls import SURFACE
+from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import UploadField
-from ehlectric.app.pages.page_parts import JobBox, figure, heading, warnings
+from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say, warnings
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,
@@ -48,8 +49,7 @@ class Keys:
         name = str(getattr(error, "key", None) or "").removeprefix(f"{self._table}.")
         for key, (label, box) in self._errors.items():
             wrong = error is not None and key == name
-            label.text = str(error) if wrong else ""
-            label.set_visibility(wrong)
+            say(label, str(error) if wrong else "")
             box.props(f"aria-invalid={'true' if wrong else 'false'}")
         return name in self._errors
 
@@ -181,8 +181,7 @@ class RoughnessBox:
             self._job = JobBox(session, self._ended, self._tell)
             self._view = ui.element("div").classes("box").props('aria-live="polite" data-testid="surface"')
             with ui.element("div").classes("buttons"):
-                self._use = ui.button("Use this surface", on_click=self._put, color=None).classes("primary")
-                self._use.props('flat no-caps data-testid="use-surface"')
+                self._use = button("Use this surface", "use-surface", self._put, primary=True)
         self._tell(None)
         self._use.disable()
         self._edit()
@@ -204,14 +203,11 @@ class RoughnessBox:
 
     def _show_used(self, table: Mapping[str, Any]) -> None:
         file = table.get("file")
-        lost = isinstance(file, str) and not self._is_here(file)
+        lost = isinstance(file, str) and own_file(file, self._session.folder) is None
         with ui.element("div").classes("used"):
             text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
             ui.label(text).props('data-testid="surfaces-used"')
-            remove = ui.button("Remove", on_click=lambda: self._remove(table), color=None).props(
-                "flat no-caps"
-            )
-            remove.props["data-testid"] = f"remove-surface-{table.get('surface', 0)}"
+            button("Remove", f"remove-surface-{table.get('surface', 0)}", lambda: self._remove(table))
             if not lost:
                 ui.button("Change", on_click=lambda: self._reopen(table), color=None).props("flat no-caps")
         if lost:
@@ -221,10 +217,7 @@ class RoughnessBox:
             ui.label("A link cannot hold the file; a download with everything has it.").classes("hint")
 
     def _is_point(self) -> bool:
-        return bool(self._session.inputs.value("contact.geometry") == "point")
-
-    def _is_here(self, file: str) -> bool:
-        return own_file(file, self._session.folder) is not None
+        return geometry_of(self._session.inputs) == "point"
 
     def _told(self, table: Mapping[str, Any]) -> str:
         if isinstance(table.get("file"), str):
@@ -351,8 +344,7 @@ class RoughnessBox:
         for part in found:
             if part in self._groups:
                 self._groups[part].props("open")
-        self._message.text = "" if error is None or found else str(error)
-        self._message.set_visibility(bool(self._message.text))
+        say(self._message, "" if error is None or found else str(error))
         if error is not None:
             self._use.disable()
 

@@ -13,7 +13,7 @@ from nicegui import ui
 from ehlectric.app.answers import PageAnswer
 from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.page_parts import JobBox
+from ehlectric.app.pages.page_parts import JobBox, button, page_texts, say
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 
@@ -62,12 +62,13 @@ class Solving(Generic[A]):
     def __init__(
         self,
         call: Call[A],
-        words: Words,
+        kind: str,
         session: Session,
         changed: Callable[[], object],
         back: Callable[[Inputs], None],
     ) -> None:
-        self._call, self._words = call, words
+        self._call = call
+        self._words = words = Words(**page_texts("solving")[kind])
         self._session, self._changed, self._back = session, changed, back
         self._solved: dict[str, _Solved[A]] = {}
         self._quick = False
@@ -75,15 +76,12 @@ class Solving(Generic[A]):
         self._runs = 0
         with ui.element("div").classes("solving"):
             self.how = ui.label().props('data-testid="how" aria-live="polite"')
-            self._solve = ui.button(words.solve, on_click=self.start, color=None)
-            self._solve.classes("primary").props('no-caps unelevated data-testid="solve"')
-            self._other = ui.button("", on_click=self._switch, color=None)
-            self._other.props('flat no-caps data-testid="other-contacts"')
-            self._return = ui.button(words.back, on_click=self._go_back, color=None)
-            self._return.props('flat no-caps data-testid="back-to-solved"')
+            self._solve = button(words.solve, "solve", self.start, "no-caps unelevated", primary=True)
+            self._other = button("", "other-contacts", self._switch)
+            self._return = button(words.back, "back-to-solved", self._go_back)
         self._box = JobBox(session, self._done, lambda error: self._tell(str(error)))
         self._message = ui.label().classes("notice").props('role="status" data-testid="solve-message"')
-        self._message.set_visibility(False)
+        self._tell("")
         self.show(None)
 
     def answer(self) -> A | None:
@@ -127,7 +125,7 @@ class Solving(Generic[A]):
         folder = self._session.folder / f"solved-{self._runs}"
         if self._box.start(self._call, dict(inputs.table), self._session.folder, folder):
             self._running = (inputs, folder)
-            self._message.set_visibility(False)
+            self._tell("")
             self._solve.set_visibility(False)
 
     def _done(self, job: Job) -> None:
@@ -152,8 +150,7 @@ class Solving(Generic[A]):
             self._tell(self._words.done)
 
     def _tell(self, text: str) -> None:
-        self._message.text = text
-        self._message.set_visibility(True)
+        say(self._message, text)
 
     def _switch(self) -> None:
         self._quick = not self._quick

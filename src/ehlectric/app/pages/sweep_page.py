@@ -62,14 +62,6 @@ from ehlectric.runtime.worker_processes import cores
 
 Change = Callable[[Inputs], Awaitable[None]]
 
-# Examples that may be the base case. Their films are computed as they say.
-EXAMPLES = {
-    "bearing_6208": "Ball bearing 6208 in a drive",
-    "drive": "Inverter, motor and both bearings",
-    "discharge": "Line contact with breakdown",
-    "oil_contact": "Ball on disc",
-}
-
 _NONE = "no second input"
 
 # Longest text that is read as a number of values [characters].
@@ -95,13 +87,11 @@ class Box:
 
     def put(self, text: str) -> None:
         """Show another text."""
-        if self._input.value != text:
-            self._input.value = text
+        self._input.value = text
 
     def tell(self, text: str) -> None:
         """Show an error; an empty text takes it away."""
-        self._error.text = text
-        self._error.set_visibility(bool(text))
+        page_parts.say(self._error, text)
         name = self._error.props["id"]
         if text:
             self._input.props(f'error hide-bottom-space aria-invalid=true aria-describedby="{name}"')
@@ -187,7 +177,9 @@ class RangesForm:
     def _build_base(self) -> None:
         """Source of the base case, and its inputs in the form of its page."""
         self._title = ui.label().classes("case-title")
-        chosen = ui.select(EXAMPLES, label="Take an example", on_change=self._example)
+        chosen = ui.select(
+            page_parts.page_texts("examples"), label="Take an example", on_change=self._example
+        )
         chosen.props("outlined dense data-testid=base-example").classes("full")
         self._link = Box("or paste a link of a page", "", "base-link", self._take_over)
         with ui.element("div") as self._kind:
@@ -321,22 +313,7 @@ def _texts(inputs: Inputs) -> dict[str, str]:
 
 # Only the number of the point goes to the server, not the whole figure.
 _CLICKED = "(event) => emit(event.points.map((p) => p.customdata).find((n) => n !== undefined))"
-_KEYS = """(event) => {
-  if (["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Enter"].includes(event.key)) {
-    event.preventDefault(); emit(event.key);
-  }
-}"""
 _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
-
-# Words of the link to the case of a point, by the address of its page.
-_OPEN = {"/": "Open its bearing", "/drive": "Open its drive", "/contact": "Open its contact"}
-
-# States of points whose own words say too little.
-_STATES = {
-    "do not use": 'solved, but "do not use"',
-    "no value": "solved, without this number",
-    "failed": "refused or failed",
-}
 
 # Most points whose table is written anew at each look while points are being solved.
 _FEW = 200
@@ -381,7 +358,7 @@ class MapPart:
             with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
                 self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
                 self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
-            self._keys.on("keydown", self._pressed, js_handler=_KEYS)
+            self._keys.on("keydown", self._pressed, js_handler=page_parts.script("map_keys"))
             self._keys.set_visibility(False)
             self._point = ui.element("div").classes("point").props('aria-live="polite" data-testid="point"')
             self._warnings = ui.element("div")
@@ -524,7 +501,7 @@ class MapPart:
                     with ui.element("li"):
                         ui.label(text)
             if self._address:
-                name = _OPEN[self._address.partition("?")[0]]
+                name = page_parts.page_texts("open")[self._address.partition("?")[0]]
                 link = ui.link(f"{name} (new tab)", self._address, new_tab=True)
                 link.props('data-testid="open-point"')
             else:
@@ -541,7 +518,8 @@ _BUTTON = """
 
 def _told(view: SweepView) -> str:
     """How many points have which state, and how their contacts are computed."""
-    some = (f"{count} {_STATES.get(state, state)}" for state, count in view.counts.items())
+    words = page_parts.page_texts("states")
+    some = (f"{count} {words.get(state, state)}" for state, count in view.counts.items())
     return f"Points: {', '.join(some)}. {view.accuracy}".rstrip()
 
 
@@ -550,13 +528,6 @@ _PATH = "/sweep"
 # Shortest time between two looks at the database [s]; where reading takes longer, looks are rarer.
 _LOOK = 1.0
 _SHARE = 4.0
-
-# Files of a sweep that can be downloaded: name, label and what it is for tests.
-_DOWNLOADS = (
-    ("sweep.sqlite", "Database (SQLite)", "download-sqlite"),
-    ("sweep.csv", "Table (CSV)", "download-csv"),
-    ("sweep.nc", "Table (NetCDF)", "download-netcdf"),
-)
 
 
 def add(work: Work) -> None:
@@ -702,8 +673,7 @@ class SweepPage:
         with card("Run"):
             self.plan = ui.label().props('data-testid="plan" aria-live="polite"')
             with ui.element("div").classes("buttons"):
-                self.run = ui.button("Run", on_click=self._run, color=None).classes("primary")
-                self.run.props("no-caps unelevated data-testid=solve")
+                self.run = page_parts.button("Run", "solve", self._run, "no-caps unelevated", primary=True)
                 self.stop = ui.button("Stop", on_click=self._stop)
                 self.stop.props("no-caps outline data-testid=cancel").set_enabled(False)
                 self.clear = ui.button("Clear results", on_click=self._clear)
@@ -718,7 +688,8 @@ class SweepPage:
             with ui.element("div").classes("buttons"):
                 button = ui.button("Sweep file (TOML)", on_click=self._download_toml)
                 button.props("no-caps outline data-testid=download-toml")
-                self.downloads = [self._download_of(*about) for about in _DOWNLOADS]
+                files = page_parts.page_texts("downloads")["sweep"]
+                self.downloads = [self._download_of(*about) for about in files]
             ui.label("ehlectric sweep sweep.toml runs this file; the files are those that it writes.")
         Downloads(self.session, "sweep", self._finished_folder, only_made=True)
 
@@ -731,7 +702,7 @@ class SweepPage:
         """Whether the map shows the sweep of the present inputs."""
         return self._ran is not None and same_sweep(self._ran, sweep_file(self.session.inputs))
 
-    def _download_of(self, name: str, label: str, test_id: str) -> ui.button:
+    def _download_of(self, test_id: str, label: str, name: str) -> ui.button:
         async def download() -> None:
             try:
                 names = await self.session.work.quick(SWEEP_FILES, self.folder)
@@ -752,7 +723,7 @@ class SweepPage:
         """Solve the open points; those that the database has are kept."""
         self.failure.text = ""
         try:
-            self._job = self.session.start(SWEEP_SOLVED, self._table(), self.folder, self.workers)
+            self._job = self.session.work.start(SWEEP_SOLVED, self._table(), self.folder, self.workers)
         except LostError as error:
             self.failure.text = str(error)
             return
