@@ -22,7 +22,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.results import ELEMENT_KEYS
+from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
