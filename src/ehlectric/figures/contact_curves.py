@@ -102,14 +102,16 @@ def breakdown_voltages(result: AnyContact) -> Array:
     return voltages
 
 
-def breakdown(result: AnyContact) -> Axes:
+def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> Axes:
     """Draw the local breakdown voltage over x/b beside the applied voltage; for a point contact over y/b too.
 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
     """
     lines = _lines(result)
-    panels = new_panels(len(lines), 1, (6.3, 0.9 + 2.5 * len(lines)))
+    if axes is None:
+        axes = new_panels(len(lines), 1, (6.3, 0.9 + 2.5 * len(lines)))
+    panels = [axes] if isinstance(axes, Axes) else axes
     for ax, (axis, at, voltages, on) in zip(panels, lines, strict=True):
         _voltage_line(result, ax, at[on], voltages[on])
         label_position(result, ax, axis)
@@ -194,13 +196,13 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def meter(result: AnyContact) -> Axes:
+def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the capacitance between the bodies up to a distance from the contact.
 
     Returns axes with the sum over distance, with the gap outside the film's domain filled as the case says,
     and between air and oil; lines mark the edge of the Hertz zone and the nearest edge of the domain.
     """
-    (ax,) = new_panels(1, 1, (6.3, 3.6))
+    ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
     assert isinstance(result.case, Case) and result.meter is not None
     profile = meter_profile(Metered(result.case, result.conditions, result.film, result.field))
     factor, unit = unit_for(result.meter.capacitance, "F", least=1.0)
@@ -241,11 +243,16 @@ _WINDOW, _HEAT = (-1.75, 1.25), "inferno"
 _LEAST_RANGE = 0.1
 
 
-def temperature(result: AnyContact) -> Axes:
+def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress.
+
+    On given axes only the temperature across the film is drawn.
 
     Returns axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
     """
+    if ax is not None:
+        _map(result, ax)
+        return ax
     above, middle, below = new_panels(3, 1, (6.3, 7.2))
     _map(result, above)
     _panel(result, contact_profiles.temperature, middle)

@@ -391,12 +391,12 @@ _SHOWN = 95.0
 _LINE_WINDOW = (-1.4, 1.4)
 
 
-def spots(result: AnyContact) -> Axes:
+def spots(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. Returns axes of the map
     of a point contact, or of the profile of a line contact; thicker films than those of 95 % of the Hertz
     zone have the last colour, or are cut off.
     """
-    return _map(result) if isinstance(result, PointResult) else _profile(result)
+    return _map(result, ax) if isinstance(result, PointResult) else _profile(result, ax)
 
 
 def _thick(result: AnyContact) -> float:
@@ -408,9 +408,9 @@ def _thick(result: AnyContact) -> float:
     return float(np.percentile(around if around.size else film.thickness, _SHOWN))
 
 
-def _map(result: PointResult) -> Axes:
+def _map(result: PointResult, ax: Axes | None) -> Axes:
     film, window = result.film, film_window(result)
-    (ax,) = map_panels(result, 1, window, rows=1)
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     top = _thick(result)
     factor, unit = unit_for(top, "m", least=1.0)
     at, limits = (film.x, film.y), (0.0, factor * top)
@@ -428,8 +428,8 @@ def _map(result: PointResult) -> Axes:
     return ax
 
 
-def _profile(result: Result) -> Axes:
-    ax = axes_or_new(None)
+def _profile(result: Result, ax: Axes | None) -> Axes:
+    ax = axes_or_new(ax)
     draw_panel(film_thickness(Line.through(result, 1.0 / result.conditions.half_width)), ax)
     top = 1.15 * _thick(result) * unit_for(film_scale(result), "m")[0]
     ax.set(xlim=_LINE_WINDOW, ylim=(-0.03 * top, top))

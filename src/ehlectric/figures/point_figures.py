@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -151,14 +151,14 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
     return lines
 
 
-def cuts(result: PointResult) -> Axes:
+def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw pressure, film and field on cuts along entrainment (left) and across it (right).
 
     The cuts run through the centre and through the minimum film, or for the field through its maximum.
 
     Returns the first axes, with the pressure along entrainment.
     """
-    axes = new_panels(3, 2, (7.0, 6.6))
+    axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
     for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
         for along, ax, window in zip("xy", axes[2 * number :], film_window(result), strict=False):
             draw(result, ax, along=along)
@@ -223,14 +223,14 @@ def _levelled(result: PointResult, cut: Cut) -> Array:
     return levelled
 
 
-def field_sections(result: PointResult) -> Axes:
+def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw two sections of the film through the maximum field, along entrainment and across it.
 
     The colours show the field strength. Both sections have the same scale of heights.
 
     Returns the first axes, with the section along entrainment.
     """
-    axes = new_panels(2, 1, (6.3, 5.6))
+    axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):
         field_section(result, ax, along=along)
     highest = max(ax.get_ylim()[1] for ax in axes)
@@ -257,10 +257,10 @@ _BELOW_RIDGE = 0.95
 _CAVITATED = "#e3e6ea"
 
 
-def film_map(result: PointResult) -> Axes:
+def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     """Draw a map of the film thickness with lines of equal thickness, and mark the minimum."""
     film, window = result.film, film_window(result)
-    (ax,) = map_panels(result, 1, window, rows=1)
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = film_unit(result)
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
@@ -298,12 +298,12 @@ def _in_metres(result: PointResult, window: tuple[Range, Range]) -> tuple[Range,
     return (b * left, b * right), (b * low, b * high)
 
 
-def pressure_map(result: PointResult) -> Axes:
+def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched. Returns axes
     with the map, and a colour bar beside them.
     """
     film, window = result.film, film_window(result)
-    (ax,) = map_panels(result, 1, window, rows=1)
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     hertz = result.conditions.max_pressure
     factor, unit = unit_for(max(film.max_pressure, hertz), "Pa")
     nodes = (film.x, film.y)
@@ -347,12 +347,12 @@ def _cavitated(result: PointResult, ax: Axes) -> Patch:
     return Patch(label="cavitated", hatch="////", facecolor=_CAVITATED, edgecolor=GREY, linewidth=0.0)
 
 
-def field_map(result: PointResult, *, section: str = "mid-film") -> Axes:
+def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
     """Draw a map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
     Returns axes with the map and its colour bar, which ends at the largest field of all three sections.
     """
     field, window = result.field, field_window(result)
-    (ax,) = map_panels(result, 1, window, rows=1)
+    ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
     factor, unit = unit_for(field.max_strength, "V/m")
     strength = _strength(result, section)
     at = (field.x, field.y)
@@ -388,7 +388,7 @@ def _largest(result: PointResult) -> Array:
     return extreme_positions(field.x, field.y, _strength(result, field.max_strength_wall))
 
 
-def field_deviation(result: PointResult) -> Axes:
+def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw maps of the deviation of the field strength from the thin-gap estimate V12/h.
 
     The maps are of both walls and of mid-film; one map serves both walls where they are alike.
@@ -400,14 +400,14 @@ def field_deviation(result: PointResult) -> Axes:
     ends = _ends(panels, region, _DEVIATIONS_BEYOND)
     first, middle, second = panels.values()
     apart = np.abs(first - second)[region if np.any(region) else ...]
-    if np.percentile(apart, 100.0 - _DEVIATIONS_BEYOND) < _ALIKE * ends[1]:
+    if axes is None and np.percentile(apart, 100.0 - _DEVIATIONS_BEYOND) < _ALIKE * ends[1]:
         panels = {"surface 1, and 2 alike": first, "mid-film": middle}
     label = "deviation of the field from $V_{12}/h$ [‰]"
     at = (field.x, field.y)
-    return _compared(result, at, panels, window=window, ends=ends, label=label, clipped=True)
+    return _compared(result, axes, at, panels, window=window, ends=ends, label=label, clipped=True)
 
 
-def roughness(result: PointResult) -> Axes:
+def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film. Returns
     the first axes, with the heights; peaks of either surface are positive.
     """
@@ -421,7 +421,7 @@ def roughness(result: PointResult) -> Axes:
     along, across = ((x / b >= low) & (x / b <= high) for x, (low, high) in zip(at, window, strict=True))
     ends = _ends(panels, np.outer(along, across), _HEIGHTS_BEYOND)
     label = f"height, change of the film [{unit}]" if len(panels) == 2 else f"height [{unit}]"
-    first = _compared(result, at, panels, window=window, ends=ends, label=label)
+    first = _compared(result, axes, at, panels, window=window, ends=ends, label=label)
     entrainment(result, first)
     return first
 
@@ -440,6 +440,7 @@ def _ends(panels: Mapping[str, Array], region: Mask, beyond: float) -> Range:
 
 def _compared(
     result: PointResult,
+    axes: Sequence[Axes] | None,
     position: tuple[Array, Array],
     panels: Mapping[str, Array],
     *,
@@ -450,7 +451,7 @@ def _compared(
 ) -> Axes:
     """Draw maps with the same colours and one colour bar, inside the Hertz ellipse only if ``clipped``."""
     number = len(panels)
-    axes = map_panels(result, number, window)
+    axes = map_panels(result, number, window) if axes is None else axes
     look: dict[str, Any] = {"colours": "RdBu_r", "limits": ends, "window": window, "number": number}
     for ax, (name, values) in zip(axes, panels.items(), strict=True):
         mesh = draw_map(result, ax, position, values, **look)

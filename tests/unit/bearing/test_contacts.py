@@ -329,9 +329,9 @@ def test_a_6208_is_where_its_contacts_are_known_to_be(inner):
     """M of 1300 to 10 000 and L of 10 to 23 at 870 N, estimated apart from this package."""
     ring, solver = of(BALLS, inner=inner)
     case = contact_case(ring, 870.0, solver)
-    formulas = resolve_point(case).formulas
-    assert 1300.0 < formulas.moes_m < 10_000.0
-    assert 10.0 < formulas.moes_l < 23.0
+    groups = resolve_point(case).contact
+    assert 1300.0 < groups.moes_m < 10_000.0
+    assert 10.0 < groups.moes_l < 23.0
 
 
 def powers(loads):
