@@ -4,14 +4,62 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.page_warnings import Told
 from ehlectric.cases.defaults import Contacts
 from ehlectric.quantities.units import known_factor, si_unit, split
+
+
+@dataclass(frozen=True)
+class PageWarning:
+    """Warning of a result."""
+
+    # code, severity and text: as of ``ehlectric.errors.ResultWarning``
+    code: str
+    severity: str
+    text: str
+    # Keys of the quantities that it concerns, next to which a page shows it; empty for a
+    # warning that concerns the whole result.
+    concerns: tuple[str, ...] = ()
+    meaning: str = ""  # meaning of the code in one sentence, without numbers
+
+
+# Severities in the order in which they are counted.
+SEVERITIES = ("severe", "warning", "note")
+
+
+def concerning(warnings: Iterable[PageWarning], number: str) -> tuple[PageWarning, ...]:
+    """Warnings that concern a number."""
+    return tuple(one for one in warnings if number in one.concerns)
+
+
+def limited_to(warnings: Iterable[PageWarning], keys: Collection[str]) -> tuple[PageWarning, ...]:
+    """Warnings of which each names those quantities alone that a page shows; the others stand in a list."""
+    return tuple(replace(one, concerns=tuple(key for key in one.concerns if key in keys)) for one in warnings)
+
+
+def unplaced(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
+    """Warnings that concern no single number, which stand in a list below the numbers."""
+    return tuple(one for one in warnings if not one.concerns)
+
+
+def counts(warnings: Iterable[PageWarning]) -> str:
+    """Numbers of warnings by their severity.
+
+    Examples
+    --------
+    >>> counts([PageWarning("partial-film", "warning", "thin"), PageWarning("speed-high", "warning", "fast")])
+    '2 warnings'
+    >>> counts([])
+    'no warnings'
+    """
+    severities = [one.severity for one in warnings]
+    names = {"severe": "severe warning", "warning": "warning", "note": "note"}
+    found = [(severities.count(one), names[one]) for one in SEVERITIES if one in severities]
+    return ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for n, name in found) or "no warnings"
 
 
 @dataclass(frozen=True)
@@ -63,7 +111,7 @@ class Written:
     folder: str
     names: tuple[str, ...]
     failure: str = ""  # what was not solved; empty where all was
-    warnings: tuple[Told, ...] = ()
+    warnings: tuple[PageWarning, ...] = ()
 
 
 def file_title(title: object) -> str:
@@ -105,7 +153,7 @@ class MotionAnswer:
     at_least_film: int  # instant of the movie with the thinnest film
     at_largest_field: int  # instant of the movie with the largest field
     rows: tuple[tuple[str, str], ...]  # rows of the key figures: name, value and unit; a heading has no value
-    warnings: tuple[Told, ...]
+    warnings: tuple[PageWarning, ...]
     folder: str
 
 
@@ -139,7 +187,7 @@ class SurfaceAnswer:
     heads: tuple[str, ...]  # heads of the table of statistics, with units
     rows: tuple[tuple[str, ...], ...]  # row of this table for every processing step; empty for an exact shape
     figures: tuple[StepFigure, ...]  # figure after every processing step; a single one of an exact shape
-    warnings: tuple[Told, ...]  # warnings about the file, the steps and the grid
+    warnings: tuple[PageWarning, ...]  # warnings about the file, the steps and the grid
     lines: Mapping[str, int]  # number of rows and of columns of a map from a file; empty for other surfaces
     # Moments and summits after the last processing step; None for an exact shape.
     summits: SummitsTable | None = None
@@ -232,7 +280,7 @@ class SweepView:
     accuracy: str = ""
     level: str = ""  # level of the verdict; empty where no point has a margin
     text: str = ""
-    warnings: tuple[Told, ...] = field(default=())
+    warnings: tuple[PageWarning, ...] = field(default=())
 
 
 @dataclass(frozen=True)
@@ -303,7 +351,7 @@ class Side:
     level: str  # level of the verdict, without solving
     text: str
     results: tuple[Result, ...]
-    warnings: tuple[Told, ...] = ()
+    warnings: tuple[PageWarning, ...] = ()
     films: tuple[Film, ...] = ()
     method: str = ""  # how the results were obtained, and their error
 
@@ -401,16 +449,16 @@ def _effect(first: Result | None, second: Result | None) -> Effect:
     return Effect(first, second, change if math.isfinite(change) else None)
 
 
-def only_in(first: Side, second: Side) -> list[Told]:
+def only_in(first: Side, second: Side) -> list[PageWarning]:
     """Warnings that the first case has, and the second has not in any words."""
-    codes = {told.code for told in second.warnings}
-    return [told for told in first.warnings if told.code not in codes]
+    codes = {warning.code for warning in second.warnings}
+    return [warning for warning in first.warnings if warning.code not in codes]
 
 
-def in_both(first: Side, second: Side) -> list[Told]:
+def in_both(first: Side, second: Side) -> list[PageWarning]:
     """Warnings of the first case that the second has, too."""
-    codes = {told.code for told in second.warnings}
-    return [told for told in first.warnings if told.code in codes]
+    codes = {warning.code for warning in second.warnings}
+    return [warning for warning in first.warnings if warning.code in codes]
 
 
 @dataclass(frozen=True)
@@ -424,7 +472,7 @@ class Number:
     note: str = ""  # what a reader must know of the number
     bound: str = ""  # sign of the bound where the value is one only
     known: bool = True
-    told: tuple[Told, ...] = ()
+    warnings: tuple[PageWarning, ...] = ()
 
     @property
     def with_unit(self) -> str:
@@ -493,7 +541,7 @@ class PageAnswer:
     how: str  # how the answer was computed, and how far off it may be
     shown: tuple[Number, ...]  # numbers that the page shows large
     lines: tuple[Line, ...]  # all rows that the command prints
-    warnings: tuple[Told, ...]  # warnings, with the numbers of ``shown`` that they concern
+    warnings: tuple[PageWarning, ...]  # warnings, with the numbers of ``shown`` that they concern
     # Of a bearing "load" and "film", and with a whole answer "breakdown" and "capacitance" over the speed; of
     # a simulated drive "voltages", "histogram", "spectrum", "remedies", "discharge-voltage" and others. Empty
     # where the films are not converged.
@@ -532,7 +580,7 @@ class ContactAnswer:
     text: str  # the verdict in sentences
     numbers: tuple[Number, ...]  # main numbers; none where a solved film is not converged
     rows: tuple[Line, ...]  # table that the command prints
-    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
+    warnings: tuple[PageWarning, ...]  # warnings that concern no single one of the numbers
 
 
 @dataclass(frozen=True)

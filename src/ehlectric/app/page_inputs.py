@@ -158,7 +158,7 @@ class History:
     before: list[Inputs] = field(default_factory=list)
     after: list[Inputs] = field(default_factory=list)
     # Called after every change, as by the buttons that undo.
-    told: list[Callable[[], None]] = field(default_factory=list, compare=False)
+    listeners: list[Callable[[], None]] = field(default_factory=list, compare=False)
     _last: _Step | None = field(default=None, compare=False, repr=False)
 
     def push(self, inputs: Inputs) -> None:
@@ -203,7 +203,7 @@ class History:
         return self.now
 
     def _tell(self) -> None:
-        for tell in self.told:
+        for tell in self.listeners:
             tell()
 
 

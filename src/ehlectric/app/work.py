@@ -129,9 +129,9 @@ class Remaining:
     Examples
     --------
     >>> left = Remaining()
-    >>> left.told("time steps", 0, 200, now=0.0), left.told("time steps", 50, 200, now=60.0)
+    >>> left.text_of("time steps", 0, 200, now=0.0), left.text_of("time steps", 50, 200, now=60.0)
     ('', 'about 3 min left')
-    >>> left.told("drawing", 1, 2, now=61.0)
+    >>> left.text_of("drawing", 1, 2, now=61.0)
     ''
     """
 
@@ -141,7 +141,7 @@ class Remaining:
     done: int = 0
     since: float = 0.0  # time at which it was first seen [s]
 
-    def told(self, text: str, done: int, of: int, *, now: float) -> str:
+    def text_of(self, text: str, done: int, of: int, *, now: float) -> str:
         """Words about the time that is left; empty where it is not known yet."""
         if (text, of) != (self.text, self.of) or done < self.done:
             self.text, self.of, self.done, self.since = text, of, done, now
@@ -190,7 +190,7 @@ class Job:
         """Note the process in which the job runs."""
         self._worker, self.state, self.text = worker, "running", "starting"
 
-    def told(self, done: int, of: int, text: str) -> None:
+    def report(self, done: int, of: int, text: str) -> None:
         """Note its progress."""
         self.done, self.of, self.text = done, of, text
 
@@ -335,7 +335,7 @@ class Work:
 
     async def _run(self, job: Job, worker: Worker) -> None:
         assert job.call is not None
-        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, *job.call, job.told)
+        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, *job.call, job.report)
         try:
             outcome = await asyncio.wait_for(asyncio.shield(asked), self.limits.seconds)
         except TimeoutError:

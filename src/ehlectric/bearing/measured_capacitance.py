@@ -625,5 +625,6 @@ def _film_warnings(case: BearingCase, error: float | None) -> tuple[ResultWarnin
         return ()
     text = f"{OF_CONTACTS[case.contacts]}: films may be {percent(error)} off, and so may film factors"
     if case.contacts == "formula":
-        text += '; contacts = "solved" takes minutes and has no such error'
-    return (ResultWarning(f"{case.contacts}-contacts", text),)
+        more = 'contacts = "solved" takes minutes and has no such error'
+        return (ResultWarning("formula-contacts", f"{text}; {more}"),)
+    return (ResultWarning("atlas-contacts", text),)

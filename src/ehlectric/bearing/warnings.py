@@ -82,11 +82,12 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     contacts = solution.case.contacts
     if is_quick(solution.case):
-        how, more = "from the atlas of films", ""
+        off = f"film thicknesses may be wrong by {error_text(solution)}, and fields are V/h_min"
         if contacts == "formula":
-            how, more = "by formula", '; use contacts = "solved" for design'
-        text = f"contacts {how}: film thicknesses may be wrong by {error_text(solution)}"
-        yield ResultWarning(f"{contacts}-contacts", f"{text}, and fields are V/h_min{more}")
+            text = f'contacts by formula: {off}; use contacts = "solved" for design'
+            yield ResultWarning("formula-contacts", text)
+        else:
+            yield ResultWarning("atlas-contacts", f"contacts from the atlas of films: {off}")
     yield film_note(solution)
     yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)

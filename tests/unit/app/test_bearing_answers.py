@@ -6,9 +6,9 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.answers import BearingAnswer
+from ehlectric.app.answers import BearingAnswer, PageWarning, concerning, counts, unplaced
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
-from ehlectric.app.compute.answer_parts import told_of
+from ehlectric.app.compute.answer_parts import page_warnings_of
 from ehlectric.app.compute.bearing_answers import (
     answer_of,
     bearing_case,
@@ -19,7 +19,6 @@ from ehlectric.app.compute.bearing_answers import (
     solve_contacts,
     whole_quick_answer,
 )
-from ehlectric.app.page_warnings import Told, beside, counts, elsewhere
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
@@ -157,7 +156,7 @@ def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
     assert quick.level == "grey"
     capacitance, shaft = quick.number("bearing.capacitance"), quick.number("bearing.shaft_voltage")
     assert (capacitance.bound, "≤" in capacitance.note) == ("≤", True)
-    assert "capacitance-bound" in [told.code for told in capacitance.told]
+    assert "capacitance-bound" in [told.code for told in capacitance.warnings]
     assert (shaft.known, shaft.text) == (False, "none")
     assert not quick.number("bearing.margin").known
 
@@ -167,11 +166,11 @@ def test_touching_surfaces_have_no_voltage_and_no_green():
     assert quick.level == "red"
     first = quick.number("bearing.first_break")
     assert not first.known
-    codes = [told.code for told in first.told]
+    codes = [told.code for told in first.warnings]
     assert "touching" in codes
     assert "isothermal-film" not in codes, "there is no voltage that it would bound"
-    assert "touching" in [told.code for told in quick.number("bearing.capacitance").told]
-    assert "touching" in [told.code for told in quick.number("bearing.lambda_ratio").told]
+    assert "touching" in [told.code for told in quick.number("bearing.capacitance").warnings]
+    assert "touching" in [told.code for told in quick.number("bearing.lambda_ratio").warnings]
 
 
 def test_warnings_concern_quantities_of_the_book():
@@ -181,33 +180,33 @@ def test_warnings_concern_quantities_of_the_book():
 
 @pytest.mark.slow
 def test_warnings_stand_beside_the_numbers_they_concern(quick):
-    found = {number.key: [told.code for told in number.told] for number in quick.shown}
+    found = {number.key: [told.code for told in number.warnings] for number in quick.shown}
     assert found["bearing.capacitance"] == ["atlas-contacts"]
     for key in ("bearing.first_break", "bearing.margin", "bearing.lambda_ratio"):
         assert found[key] == ["atlas-contacts", "isothermal-film"]
     placed = {code for codes in found.values() for code in codes}
-    assert placed | {told.code for told in elsewhere(quick.warnings)} == {t.code for t in quick.warnings}
+    assert placed | {told.code for told in unplaced(quick.warnings)} == {t.code for t in quick.warnings}
 
 
 @pytest.mark.slow
 def test_places_are_numbers_that_the_page_shows(quick):
-    places = {key for told in quick.warnings for key in told.beside}
+    places = {key for told in quick.warnings for key in told.concerns}
     assert places
     assert places <= {number.key for number in quick.shown}
 
 
 def test_severe_warnings_come_first_and_each_once():
     warnings = [ResultWarning("speed-high", "fast"), ResultWarning("not-converged", "no")] * 2
-    told = told_of(warnings)
+    told = page_warnings_of(warnings)
     assert [one.code for one in told] == ["not-converged", "speed-high"]
     assert counts(told) == "1 severe warning, 1 warning"
-    assert beside(told, "bearing.margin") == told[:1]
-    assert elsewhere(told) == told[1:]
+    assert concerning(told, "bearing.margin") == told[:1]
+    assert unplaced(told) == told[1:]
 
 
 @pytest.mark.slow
 def test_films_that_are_not_converged_are_no_numbers_and_no_figures(summary):
-    told = (Told("not-converged", "severe", "no solution", CODES["not-converged"].concerns),)
+    told = (PageWarning("not-converged", "severe", "no solution", CODES["not-converged"].concerns),)
     for number in shown_numbers(summary | {"converged": False}, told, whole=True):
         assert not number.known
         assert number.bound == ""
@@ -312,7 +311,9 @@ def test_the_words_of_a_margin_below_one_are_those_of_the_level():
     ):
         assert (answer.level, word in answer.judged.lead) == (level, True)
         assert word in answer.judged.meaning
-        (told,) = (one for one in answer.number("bearing.margin").told if one.code == "breakdown-expected")
+        (told,) = (
+            one for one in answer.number("bearing.margin").warnings if one.code == "breakdown-expected"
+        )
         assert word in told.meaning
         names = [str(trace.get("name")) for trace in answer.figures["breakdown"].plot["data"]]
         assert [name for name in names if name in ("breakdown likely", "breakdown expected")] == [

@@ -174,7 +174,7 @@ def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     assert (view.level, "must not be used" in view.text) == ("grey", True)
     assert len(view.numbers) == 6
     for one in view.numbers:
-        assert "severe" in [told.severity for told in one.told], one.key
+        assert "severe" in [told.severity for told in one.warnings], one.key
     severe = [set(cause.concerns) for cause in CODES.values() if cause.severity == "severe"]
     shown = {one.key for one in view.numbers}
     assert severe
@@ -202,7 +202,7 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
     else:
         inputs = contact_start(geometry)
     view = solve_at_once(dict(inputs.table), str(tmp_path))
-    told = [*view.warnings, *(one for shown in view.numbers for one in shown.told)]
+    told = [*view.warnings, *(one for shown in view.numbers for one in shown.warnings)]
     assert [one.code for one in told if one.severity != "note"] == []
     assert view.level != "grey"
 
@@ -319,7 +319,7 @@ def test_length_of_a_line_contact_is_left_when_it_becomes_a_point():
 def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
     table = table_of("ball_contact", grid={"nodes": 129, "inlet": -2.5, "side": 2.0})
     view = solve_at_once(table, str(tmp_path))
-    codes = {one.key: [told.code for told in one.told] for one in view.numbers}
+    codes = {one.key: [told.code for told in one.warnings] for one in view.numbers}
     (code,) = {code for found in codes.values() for code in found if code.startswith("domain-")}
     assert code in codes["film.minimum_thickness"]
     assert code in codes["film.central_thickness"]

@@ -259,7 +259,7 @@ def test_a_choke_is_simulated(tmp_path):
 def test_warnings_have_a_place():
     answer = quick(**{"circuit.machine": None})
     names = {one.key for one in answer.shown}
-    assert all(set(one.beside) <= names for one in answer.warnings)
+    assert all(set(one.concerns) <= names for one in answer.warnings)
 
 
 def test_estimated_capacitances_are_told_beside_them():
@@ -277,5 +277,5 @@ def test_estimated_capacitances_are_told_beside_them():
     }
     answer = quick(circuit={"machine": geometry})
     assert "capacitances-estimated" in [
-        one.code for one in answer.number("circuit.winding_rotor_capacitance").told
+        one.code for one in answer.number("circuit.winding_rotor_capacitance").warnings
     ]

@@ -131,7 +131,7 @@ def test_values_are_found_and_changed_by_dotted_key():
 def test_undo_and_redo_tell_of_every_change():
     told = []
     history = History(Inputs({"a": 1}))
-    history.told.append(lambda: told.append(history.now.value("a")))
+    history.listeners.append(lambda: told.append(history.now.value("a")))
     history.push(Inputs({"a": 2}))
     history.push(Inputs({"a": 2}))
     history.push(Inputs({"a": 3}))

@@ -13,8 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import Judged, Line, Number
-from ehlectric.app.page_warnings import SEVERITIES, Told
+from ehlectric.app.answers import SEVERITIES, Judged, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.input_keys import describe
@@ -81,15 +80,15 @@ def concerned(key: str) -> str:
 
 
 def with_warnings(
-    numbers: Iterable[Number], told: Sequence[Told]
-) -> tuple[tuple[Number, ...], tuple[Told, ...]]:
+    numbers: Iterable[Number], warnings: Sequence[PageWarning]
+) -> tuple[tuple[Number, ...], tuple[PageWarning, ...]]:
     """Numbers with the warnings that concern them, and the warnings that concern none of them."""
     placed = tuple(
-        replace(one, told=tuple(each for each in told if concerned(one.key) in each.beside))
+        replace(one, warnings=tuple(each for each in warnings if concerned(one.key) in each.concerns))
         for one in numbers
     )
     keys = {concerned(one.key) for one in placed}
-    return placed, tuple(each for each in told if not keys & set(each.beside))
+    return placed, tuple(each for each in warnings if not keys & set(each.concerns))
 
 
 # Keys that name a file wherever they stand, as ``roughness.file`` and the varied ``roughness.1.file``, and
@@ -216,7 +215,7 @@ def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
     return tuple(Line(row.name, row.text, row.alarm) for row in rows)
 
 
-def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, ...]:
+def page_warnings_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[PageWarning, ...]:
     """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
 
     Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
@@ -227,8 +226,8 @@ def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, .
         about = CODES[one.code]
         likely = level == "yellow" and one.code == "breakdown-expected"
         meaning = "The margin is below 1: breakdown is likely." if likely else about.meaning
-        found.append(Told(one.code, one.severity, one.text, about.concerns, meaning))
-    return tuple(sorted(found, key=lambda told: SEVERITIES.index(told.severity)))
+        found.append(PageWarning(one.code, one.severity, one.text, about.concerns, meaning))
+    return tuple(sorted(found, key=lambda warning: SEVERITIES.index(warning.severity)))
 
 
 def field_help(keys: Iterable[str]) -> dict[str, str]:

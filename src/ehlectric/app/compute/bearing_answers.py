@@ -18,7 +18,10 @@ from ehlectric.app.answers import (
     Figure,
     Judged,
     Number,
+    PageWarning,
     Table,
+    concerning,
+    limited_to,
 )
 from ehlectric.app.charts.bearing_charts import (
     SPEED_HEADS,
@@ -30,8 +33,15 @@ from ehlectric.app.charts.bearing_charts import (
     load_figure,
     speed_rows,
 )
-from ehlectric.app.compute.answer_parts import UNUSABLE, cards, case_of, judged_of, lines_of, told_of, unknown
-from ehlectric.app.page_warnings import Told, beside, within
+from ehlectric.app.compute.answer_parts import (
+    UNUSABLE,
+    cards,
+    case_of,
+    judged_of,
+    lines_of,
+    page_warnings_of,
+    unknown,
+)
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.result import BearingResult, solve_bearing
@@ -88,13 +98,15 @@ def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
 _BOUNDS = ("isothermal-film", "smooth-film")
 
 
-def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> tuple[Number, ...]:
+def shown_numbers(
+    summary: Mapping[str, Any], warnings: tuple[PageWarning, ...], *, whole: bool
+) -> tuple[Number, ...]:
     """Numbers at the top of the page, with their warnings, and why some are missing.
 
     Without a ``whole`` answer the summary lacks the table ``margin``, which follows.
     """
     rows = {row.key: row for row in total_rows(summary)}
-    missing = _missing(summary, told, rows, whole=whole)
+    missing = _missing(summary, warnings, rows, whole=whole)
     known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
     found = []
     for key in (key for key in BEARING_CARDS if key in known):
@@ -102,8 +114,8 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
             RANGE_FOLLOWS if key == "bearing.margin" and not whole and summary["inputs"].get("ranges") else ""
         )
         note = "; ".join(filter(None, [follows, known[key].note]))
-        near = tuple(one for one in beside(told, key) if known[key].known or one.code not in _BOUNDS)
-        number = replace(known[key], note=note, told=near)
+        near = tuple(one for one in concerning(warnings, key) if known[key].known or one.code not in _BOUNDS)
+        number = replace(known[key], note=note, warnings=near)
         if number.known and not summary["converged"]:
             number = replace(number, bound="", note=UNUSABLE, known=False)
         found.append(number)
@@ -111,11 +123,11 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
 
 
 def _missing(
-    summary: Mapping[str, Any], told: tuple[Told, ...], rows: Mapping[str, Row], *, whole: bool
+    summary: Mapping[str, Any], warnings: tuple[PageWarning, ...], rows: Mapping[str, Row], *, whole: bool
 ) -> dict[str, Number]:
     """Numbers that have no value, with the reasons, by key."""
     totals, speed = summary["bearing"], "margin.critical_speed"
-    broken, shaft = _no_voltage(summary), _no_shaft(summary, told)
+    broken, shaft = _no_voltage(summary), _no_shaft(summary, warnings)
     reasons = {
         "bearing.first_break": broken,
         "bearing.shaft_voltage": shaft,
@@ -145,11 +157,11 @@ def _no_voltage(summary: Mapping[str, Any]) -> str:
     return "the ceramic elements insulate, and their own breakdown is not computed"
 
 
-def _no_shaft(summary: Mapping[str, Any], told: tuple[Told, ...]) -> str:
+def _no_shaft(summary: Mapping[str, Any], warnings: tuple[PageWarning, ...]) -> str:
     """Reason why there is no shaft voltage."""
     if "motor" not in summary["inputs"]:
         return "no motor is given"
-    if any(one.code == "capacitance-bound" for one in told):
+    if any(one.code == "capacitance-bound" for one in warnings):
         return "the capacitance of the ceramic elements is an upper bound only"
     return "the surfaces touch"
 
@@ -255,13 +267,13 @@ def solve_contacts(
     of a contact was killed four times.
     """
 
-    def told(done: int, of: int, _: str) -> None:
+    def report(done: int, of: int, _: str) -> None:
         progress(done, of, "contacts")
 
     # A core is left for the pages.
     workers = max(1, cores() - 1)
     case = bearing_case(table, session=session)
-    outcome = run_bearing(case, folder, told, contacts="solved", workers=workers)
+    outcome = run_bearing(case, folder, report, contacts="solved", workers=workers)
     progress(0, 0, "speeds and ranges")
     return answer_of(outcome.result, whole=True, changes=_changes(case, outcome.summary))
 
@@ -299,7 +311,7 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         bound = capacitance_is_bound(result.solution)
         over = OverSpeed.of(points, own, level=verdict.level)
         figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
-    told = within(told_of(warnings, verdict.level), BEARING_CARDS)
+    placed = limited_to(page_warnings_of(warnings, verdict.level), BEARING_CARDS)
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
@@ -309,13 +321,13 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         text=verdict.text,
         judged=judged(verdict),
         how=_how(result),
-        shown=shown_numbers(summary, told, whole=whole),
+        shown=shown_numbers(summary, placed, whole=whole),
         numbers=summary["bearing"],
         margin=summary.get("margin"),
         contact_rows=tuple(summary["contacts"]),
         lines=lines_of(total_rows(summary)),
         figures=figures,
-        warnings=told,
+        warnings=placed,
         seconds=summary["seconds"],
         differences=changes,
         effects=effects_table(summary, verdict.level),

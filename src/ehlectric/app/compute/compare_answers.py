@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import Film, Result, Side
-from ehlectric.app.compute.answer_parts import case_of, told_of
+from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
 from ehlectric.app.compute.contact_answers import verdict_by_formula
 from ehlectric.bearing.solution import error_text
@@ -46,7 +46,7 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
         level=verdict.level,
         text=verdict.text,
         results=tuple(_results(check_rows(summary))),
-        warnings=told_of(result.warnings, verdict.level),
+        warnings=page_warnings_of(result.warnings, verdict.level),
         films=tuple(_over_position(summary)),
         method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
     )
@@ -61,7 +61,7 @@ def _contact(case: Case) -> Side:
         level=level,
         text=text,
         results=tuple(_results(_outcomes_first(meaning.rows))),
-        warnings=told_of(meaning.warnings),
+        warnings=page_warnings_of(meaning.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
 

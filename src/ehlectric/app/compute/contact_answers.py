@@ -10,7 +10,7 @@ from typing import Any
 from ehlectric.app.answers import ContactCheck, ContactView, Shown
 from ehlectric.app.charts.line_charts import Lengths, line_figures, spot_position
 from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
-from ehlectric.app.compute.answer_parts import cards, case_of, lines_of, told_of, with_warnings
+from ehlectric.app.compute.answer_parts import cards, case_of, lines_of, page_warnings_of, with_warnings
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
@@ -57,7 +57,7 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
-    numbers, others = with_warnings(cards(meaning.rows, keys), told_of(meaning.warnings))
+    numbers, others = with_warnings(cards(meaning.rows, keys), page_warnings_of(meaning.warnings))
     return ContactCheck(
         title=meaning.title,
         geometry=case.contact.geometry,
@@ -150,7 +150,7 @@ def view_of(result: Result | PointResult) -> ContactView:
     rows, touching = result_rows(result), result.spots is not None
     large = TOUCHING_CARDS if touching else CONTACT_CARDS
     shown = cards(rows, large) if result.converged else []
-    found, others = with_warnings([*shown, *cards(rows, SPOT_CARDS)], told_of(result.warnings))
+    found, others = with_warnings([*shown, *cards(rows, SPOT_CARDS)], page_warnings_of(result.warnings))
     numbers, spots = found[: len(shown)], found[len(shown) :]
     whole = result if isinstance(result, PointResult) and result.converged else None
     return ContactView(

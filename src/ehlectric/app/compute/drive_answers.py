@@ -7,9 +7,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
-from ehlectric.app.compute.answer_parts import UNUSABLE, card, drive_of, judged_of, lines_of, told_of, unknown
-from ehlectric.app.page_warnings import Told, beside, within
+from ehlectric.app.answers import DriveAnswer, Judged, Number, PageWarning, Table, concerning, limited_to
+from ehlectric.app.compute.answer_parts import (
+    UNUSABLE,
+    card,
+    drive_of,
+    judged_of,
+    lines_of,
+    page_warnings_of,
+    unknown,
+)
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
@@ -39,7 +46,7 @@ from ehlectric.tables.drive_tables import (
 )
 
 
-def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tuple[Number, ...]:
+def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, ...]) -> tuple[Number, ...]:
     """Numbers of a drive that its page shows large, of those in a sheet, with warnings."""
     whole = {row.key: row for row in whole_rows(summary, sheet)}
     ends = _pairs(summary, sheet)
@@ -47,13 +54,13 @@ def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tup
     found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
     if not summary.get("converged", True):
         found = [replace(one, note=UNUSABLE, known=False) for one in found]
-    return tuple(replace(one, told=beside(told, one.key)) for one in found)
+    return tuple(replace(one, warnings=concerning(warnings, one.key)) for one in found)
 
 
-def merged(told: Iterable[Told]) -> tuple[Told, ...]:
+def merged(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
     """Warnings of which those of one code, as of both bearings, are one with both texts."""
-    found: dict[str, Told] = {}
-    for one in told:
+    found: dict[str, PageWarning] = {}
+    for one in warnings:
         before = found.get(one.code)
         found[one.code] = one if before is None else replace(before, text=f"{before.text}. {one.text}")
     return tuple(found.values())
@@ -153,8 +160,8 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
     found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
-    told = merged(told_of(found))
-    shown = drive_numbers(summary, DRIVE_CHECK, told)
+    warnings = merged(page_warnings_of(found))
+    shown = drive_numbers(summary, DRIVE_CHECK, warnings)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
     solved = "; the simulation solves them" if _is_solved(case) else ""
@@ -166,7 +173,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         shown=shown,
         ends=ends_table(summary, DRIVE_CHECK),
         lines=lines_of(prepared_rows(summary)),
-        warnings=within(told, {one.key for one in shown}),
+        warnings=limited_to(warnings, {one.key for one in shown}),
     )
 
 
@@ -189,8 +196,8 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     # A core is left for the pages.
     outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
-    told = merged(told_of(outcome.warnings))
-    shown = drive_numbers(summary, DRIVE, told)
+    warnings = merged(page_warnings_of(outcome.warnings))
+    shown = drive_numbers(summary, DRIVE, warnings)
     progress(0, 0, "drawing")
     return DriveAnswer(
         title=case.title,
@@ -200,7 +207,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
         shown=shown,
         ends=ends_table(summary, DRIVE),
         lines=lines_of(drive_rows(summary)),
-        warnings=within(told, {one.key for one in shown}),
+        warnings=limited_to(warnings, {one.key for one in shown}),
         remedies=remedies_table(summary),
         figures=drive_figures(outcome.result) if summary["converged"] else {},
         seconds=summary["seconds"],

@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.app.answers import MotionAnswer
 from ehlectric.app.charts.motion_charts import history, instants, least_films, movie, texts, units
-from ehlectric.app.compute.answer_parts import case_of, told_of
+from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, warnings_of
 from ehlectric.motion.result import MotionResult
@@ -76,6 +76,6 @@ def _answer(place: Path, failure: str) -> MotionAnswer:
         at_least_film=int(np.argmin(least_films(found)[chosen])),
         at_largest_field=int(np.argmax(found.values("max_strength")[chosen])),
         rows=tuple((row.name, row.text) for row in run_rows(summary)),
-        warnings=told_of(warnings_of(summary)),
+        warnings=page_warnings_of(warnings_of(summary)),
         folder=str(place),
     )

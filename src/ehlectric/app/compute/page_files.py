@@ -11,7 +11,14 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Download, Uploaded, Written
-from ehlectric.app.compute.answer_parts import kind_of, names_in, run_case_of, sweep_of, told_of, with_names
+from ehlectric.app.compute.answer_parts import (
+    kind_of,
+    names_in,
+    page_warnings_of,
+    run_case_of,
+    sweep_of,
+    with_names,
+)
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
@@ -186,7 +193,7 @@ def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progr
     shutil.rmtree(out, ignore_errors=True)
     outcome = RUNS[kind].run(case, out, progress, **options)
     names = tuple(path.name for path in outcome.files)
-    return Written(str(out), names, outcome.failure or "", told_of(outcome.warnings))
+    return Written(str(out), names, outcome.failure or "", page_warnings_of(outcome.warnings))
 
 
 def packed(out: Path, what: Download, table: Mapping[str, Any], title: str, folder: Path) -> str:

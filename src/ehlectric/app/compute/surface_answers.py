@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import StepFigure, SummitsTable, SurfaceAnswer
+from ehlectric.app.answers import PageWarning, StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.charts.surface_charts import line_figure, map_figure, profile_figure
-from ehlectric.app.compute.answer_parts import told_of, with_own_files
+from ehlectric.app.compute.answer_parts import page_warnings_of, with_own_files
 from ehlectric.app.compute.contact_answers import FORMULA_BY_GEOMETRY
-from ehlectric.app.page_warnings import Told
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
@@ -49,7 +48,7 @@ _CONTINUED = {
 }
 
 
-def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickness) -> Told | None:
+def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickness) -> PageWarning | None:
     """Warning about heights whose root mean square is above the film thickness of a formula."""
     film = formula.central_thickness
     if not rough.steps or film is None:
@@ -65,13 +64,15 @@ def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickne
         f"{name} is {_times(ratio)} times the film thickness ({_length(heights)}, against "
         f"{_length(film)} by formula), so the surfaces would touch: {advice}"
     )
-    return Told("", "warning", text)
+    return PageWarning("", "warning", text)
 
 
-def plainly(told: Told, table: Roughness, rough: RoughSurface | RoughMap, domain: Domain) -> Told:
+def plainly(
+    warning: PageWarning, table: Roughness, rough: RoughSurface | RoughMap, domain: Domain
+) -> PageWarning:
     """Warning, of which that about a surface far shorter than the domain has its lengths in plain words."""
-    if told.code != "roughness-continued":
-        return told
+    if warning.code != "roughness-continued":
+        return warning
     last = rough.steps[-1][1]
     lengths: tuple[tuple[float, float], ...]
     if isinstance(last, Map):
@@ -82,13 +83,13 @@ def plainly(told: Told, table: Roughness, rough: RoughSurface | RoughMap, domain
     length, needed = min(lengths, key=lambda pair: pair[0] / pair[1])
     copies = needed / length
     if copies < _COPIES or table.extend not in _CONTINUED:
-        return told
+        return warning
     text = (
         f"The {what} is {_length(length)} long and the domain {_length(needed)}: about {_times(copies)} "
         f"{_CONTINUED[table.extend]}, so the contact has the same heights again and again; "
         f"use a longer {what}"
     )
-    return replace(told, text=text)
+    return replace(warning, text=text)
 
 
 def _times(ratio: float) -> str:
@@ -154,28 +155,30 @@ class _Contact:
         self.domain: Domain = domain_of(case, self.conditions)
         self.rough = self.kind.rough(case.roughness, self.domain) if rough is None else [rough]
 
-    def warnings(self) -> tuple[Told, ...]:
+    def warnings(self) -> tuple[PageWarning, ...]:
         spacings = spacings_of(self.case, self.conditions)
         found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         thin = too_rough(
             table, rough, formulas_of(self.conditions)[FORMULA_BY_GEOMETRY[self.case.contact.geometry]]
         )
-        told = tuple(plainly(one, table, rough, self.domain) for one in told_of(found))
-        return told if thin is None else (thin, *told)
+        shown = tuple(plainly(one, table, rough, self.domain) for one in page_warnings_of(found))
+        return shown if thin is None else (thin, *shown)
 
 
-def _of_contact(case: Mapping[str, Any], rough: Any) -> tuple[Told, ...]:
+def _of_contact(case: Mapping[str, Any], rough: Any) -> tuple[PageWarning, ...]:
     """Warnings about a measured surface in its contact; a note where the contact is not valid yet."""
     try:
         return _Contact(Case.from_written(case), rough).warnings()
     except InputError as error:
-        note = Told("", "note", f"not compared with the grid of the contact, whose inputs are wrong: {error}")
-        return (*told_of(rough.warnings), note)
+        note = PageWarning(
+            "", "note", f"not compared with the grid of the contact, whose inputs are wrong: {error}"
+        )
+        return (*page_warnings_of(rough.warnings), note)
 
 
 def _answer(
-    table: Roughness, rough: RoughSurface | RoughMap, warnings: tuple[Told, ...], domain: Domain | None
+    table: Roughness, rough: RoughSurface | RoughMap, warnings: tuple[PageWarning, ...], domain: Domain | None
 ) -> SurfaceAnswer:
     described = plain(rough.describe())
     if not rough.steps:

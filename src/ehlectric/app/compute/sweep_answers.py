@@ -16,6 +16,7 @@ from ehlectric.app.answers import (
     Axis,
     Chart,
     ChartPoint,
+    PageWarning,
     PointState,
     SweepChoices,
     SweepPlan,
@@ -25,12 +26,11 @@ from ehlectric.app.answers import (
 )
 from ehlectric.app.charts.sweep_charts import figure_of
 from ehlectric.app.compute import answer_parts
-from ehlectric.app.compute.answer_parts import run_case_of, told_of
+from ehlectric.app.compute.answer_parts import page_warnings_of, run_case_of
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field
 from ehlectric.app.page_inputs import Inputs, number_of_text
-from ehlectric.app.page_warnings import Told
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.amounts import Amount, Count
@@ -62,7 +62,7 @@ from ehlectric.sweep.warnings import sweep_warnings
 _SAMPLE = 50
 
 # Most warnings of a point that a map tells when the pointer is on it.
-_MOST_TOLD = 3
+_MOST_WARNINGS = 3
 
 
 def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
@@ -95,13 +95,13 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         accuracy=_accuracy(results),
         level="" if verdict is None else verdict.level,
         text="" if verdict is None else verdict.text,
-        warnings=tuple(map(_without_code, told_of(sweep_warnings(results)))),
+        warnings=tuple(map(_without_code, page_warnings_of(sweep_warnings(results)))),
     )
 
 
-def _without_code(told: Told) -> Told:
+def _without_code(warning: PageWarning) -> PageWarning:
     """Warning on a kind of warnings without the code of this kind, which only files and commands need."""
-    return replace(told, text=_CODE.sub(lambda found: f"{found[1]}: ", told.text))
+    return replace(warning, text=_CODE.sub(lambda found: f"{found[1]}: ", warning.text))
 
 
 _CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
@@ -206,9 +206,9 @@ def _point(
         texts += [] if margin is None else [f"Margin: {margin:.3g}"]
     else:
         texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
-    told = [warning for warning in told_of(point.warnings) if warning.severity != "note"]
-    texts += [f"{warning.severity}: {warning.text}" for warning in told[:_MOST_TOLD]]
-    texts += [f"and {len(told) - _MOST_TOLD} more warnings"] if len(told) > _MOST_TOLD else []
+    serious = [warning for warning in page_warnings_of(point.warnings) if warning.severity != "note"]
+    texts += [f"{warning.severity}: {warning.text}" for warning in serious[:_MOST_WARNINGS]]
+    texts += [f"and {len(serious) - _MOST_WARNINGS} more warnings"] if len(serious) > _MOST_WARNINGS else []
     if value is None or state != "solved":
         return ChartPoint(point.number, state, tuple(texts))
     limit = row.get(about.voltage) if shown == about.value else None

@@ -21,7 +21,7 @@ from ehlectric.app.form_fields.field import (
 from ehlectric.app.form_fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
-from ehlectric.quantities.inputs import form
+from ehlectric.quantities.inputs import REPLACED, form
 from ehlectric.quantities.units import rounded, split
 
 # Groups of alternatives of a drive: inputs have the keys of one row of each.
@@ -154,14 +154,12 @@ _OF_DRIVE = tuple(
     group_of("drive", title, _SHOWN, _LISTS, when=_CONDITIONS.get(title, always)) for title in form("drive")
 )
 
-# Keys of a bearing that the table "drive" replaces, by those of the drive.
-_REPLACED = {"bearing.inner_speed": "drive.speed", "bearing.temperature": "drive.temperature"}
-
 
 def _fields_at(group: Group, end: str) -> Iterator[Field]:
+    """Fields of a bearing at one end; those that the drive replaces are hidden where it gives them."""
     for field in group.fields:
-        if field.key in _REPLACED:
-            yield field_at(field, end, when=equal(_REPLACED[field.key], None), strict=True)
+        if field.key in REPLACED:
+            yield field_at(field, end, when=equal(REPLACED[field.key], None), strict=True)
         elif field.key != "discharge.peak_current":
             # The simulation computes the current of a discharge.
             yield field_at(field, end)

@@ -10,12 +10,11 @@ from typing import Any, ClassVar, Generic, Literal, TypeVar
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import Figure, Judged, Number, PageAnswer, Table
+from ehlectric.app.answers import Figure, Judged, Number, PageAnswer, PageWarning, Table, counts, unplaced
 from ehlectric.app.calls import Call
 from ehlectric.app.following import Following
 from ehlectric.app.form_fields.field import Group
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.page_warnings import Told, counts, elsewhere
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
@@ -281,10 +280,10 @@ class NumberBox:
         self._label.text, self._note.text = number.label, number.note
         self._value.text = number.with_unit
         self._value.classes(replace="value" if number.known else "value unknown")
-        self._told.content = "".join(map(_told, number.told))
+        self._told.content = "".join(map(_told, number.warnings))
 
 
-def _told(one: Told) -> str:
+def _told(one: PageWarning) -> str:
     """Warning with its meaning in sight, and its text with numbers behind it."""
     word = SEVERITY_WORDS[one.severity]
     if not one.meaning:
@@ -332,9 +331,9 @@ class WarningList:
             self._list = ui.html("", sanitize=False)
             self._none = ui.label().classes("soft")
 
-    def show(self, every: tuple[Told, ...]) -> None:
+    def show(self, every: tuple[PageWarning, ...]) -> None:
         """Show the count of all warnings, and a list of those that concern no single number."""
-        listed = elsewhere(every)
+        listed = unplaced(every)
         others = len(every) - len(listed)
         where = f" ({others} beside the numbers)" if others else ""
         self._head.text = f"This result has {counts(every)}{where}"

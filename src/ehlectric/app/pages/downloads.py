@@ -73,7 +73,7 @@ class Downloads:
             self._box = JobBox(session, self._ended, lambda error: self._tell(error=str(error)))
             self._status = ui.label().classes("told-status").props('role="status"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
-        session.history.told.append(self.look)
+        session.history.listeners.append(self.look)
         self.look()
 
     def _file_buttons(self) -> None:

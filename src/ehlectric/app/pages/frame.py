@@ -185,7 +185,7 @@ class Toolbar:
             self._status = ui.label().classes("told-status").props('role="status"')
             self._toast = ui.label().classes("toast").props('role="status" data-testid="toast"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-file"')
-        session.history.told.append(self._look)
+        session.history.listeners.append(self._look)
         self._look()
 
     async def undo(self) -> None:

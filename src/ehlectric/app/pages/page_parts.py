@@ -14,9 +14,8 @@ from weakref import WeakMethod
 from nicegui import ui
 from nicegui.element import Element
 
-from ehlectric.app.answers import Line, Number
+from ehlectric.app.answers import Line, Number, PageWarning
 from ehlectric.app.calls import Call
-from ehlectric.app.page_warnings import Told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
 from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
@@ -219,7 +218,7 @@ def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
 
 
 def _number(one: Number) -> None:
-    found = {told.severity for told in one.told}
+    found = {warning.severity for warning in one.warnings}
     worst = next((level for level in ("severe", "warning") if level in found), "")
     with ui.element("div").classes(f"number {worst}"):
         ui.label(one.label).classes("label")
@@ -231,8 +230,8 @@ def _number(one: Number) -> None:
             ui.label(BOUNDS[one.bound]).classes("bound")
         if one.note:
             ui.label(one.note).classes("remark")
-        for told in one.told:
-            ui.label(told.text).classes(f"told {told.severity}")
+        for warning in one.warnings:
+            ui.label(warning.text).classes(f"told {warning.severity}")
 
 
 def light_shown(level: str, text: str) -> Light:
@@ -254,10 +253,10 @@ def light(level: str, text: str, *, testid: str = "verdict") -> None:
             ui.label(shown.rest).classes("sentences")
 
 
-def warnings(told: Iterable[Told]) -> None:
+def warnings(shown: Iterable[PageWarning]) -> None:
     """List of warnings."""
     with ui.element("ul").classes("warnings"):
-        for one in told:
+        for one in shown:
             with ui.element("li").classes(one.severity):
                 ui.label(SEVERITY_WORDS[one.severity]).classes("severity")
                 ui.label(one.text)
@@ -344,7 +343,7 @@ class JobBox:
         if job is None:
             return
         self._bar.props(f"value={job.done / job.of:.4f}" if job.of else "", remove="" if job.of else "value")
-        left = self._remaining.told(job.text, job.done, job.of, now=monotonic())
+        left = self._remaining.text_of(job.text, job.done, job.of, now=monotonic())
         count = f"{job.text}: {job.done} of {job.of}" if job.of else job.text
         self._text.text = ", ".join(filter(None, [count, left]))
         if job.over:
