@@ -324,7 +324,7 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
         done = ehlectric("check", path)
         assert (done.returncode, done.stderr) == (0, "")
         for text in (
-            "semi-axis a across entrainment",
+            "semi-axis across entrainment",
             "central film (Hamrock-Dowson)",
             "minimum film (Chittenden et al.)",
         ):

@@ -80,7 +80,7 @@ def test_a_bearing_is_checked_by_formula(ehlectric, files):
     """E9: the numbers of the check are those of the run by formula, and the table says what they are."""
     checked = ehlectric("check", "bearing.toml")
     assert checked.returncode == 0, checked.stderr
-    for text in ("3000 rpm", "70 °C", "20 mPa s", "Hertz pressure", "accuracy of all", "30 % off"):
+    for text in ("3000 rpm", "70 °C", "20 mPa s", "Hertz pressure", "films of the contacts", "30 % off"):
         assert text in words_of(checked)
     summary = json.loads(ehlectric("check", "bearing.toml", "--json").stdout)
     assert ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots", "-q").returncode == 0

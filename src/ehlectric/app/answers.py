@@ -37,7 +37,7 @@ def concerning(warnings: Iterable[PageWarning], number: str) -> tuple[PageWarnin
 
 
 def limited_to(warnings: Iterable[PageWarning], keys: Collection[str]) -> tuple[PageWarning, ...]:
-    """Warnings of which each names those quantities alone that a page shows; the others stand in a list."""
+    """Warnings whose ``concerns`` are limited to the quantities that a page shows."""
     return tuple(replace(one, concerns=tuple(key for key in one.concerns if key in keys)) for one in warnings)
 
 

@@ -65,7 +65,7 @@ def listen(host: str, port: int | None) -> socket.socket:
         except socket.gaierror:
             raise InputError("--host", got=host, takes="an address of this machine") from None
         except OSError as error:
-            reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
+            reason = (error.strerror or str(error)).partition(" (while attempting")[0].lower()
             if error.errno == errno.EADDRNOTAVAIL:
                 raise InputError("--host", got=host, takes="an address of this machine") from None
             taken = error.errno == errno.EADDRINUSE

@@ -144,5 +144,6 @@ def gap_breakdown(discharge: Discharge, thickness: N) -> N:
 
     The strength is the one at ambient pressure.
     """
-    strength = float(dielectric_strength(discharge, np.zeros(1))[0]) if discharge.has_strength else np.inf
-    return strength * thickness
+    if not discharge.has_strength:
+        return thickness * 0.0 + np.inf
+    return float(dielectric_strength(discharge, np.zeros(1))[0]) * thickness

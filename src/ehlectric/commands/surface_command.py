@@ -15,8 +15,6 @@ from ehlectric.commands.options import (
 from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
 from ehlectric.errors import InputError, shown
 
-_UNITS = "such as um or nm, for a file that does not state it"
-
 
 @command("surface")
 def surface(

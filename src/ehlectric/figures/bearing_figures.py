@@ -20,10 +20,10 @@ from ehlectric.bearing.circuit import shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
-from ehlectric.bearing.speed_curves import nearly_equal
 from ehlectric.figures.contact_findings import with_unit
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.draw import line_look
+from ehlectric.figures.speed_panels import SHAFT, breakdown_lines
 from ehlectric.figures.style import (
     axes_or_new,
     figure_of,
@@ -33,20 +33,11 @@ from ehlectric.figures.style import (
     page_size,
     round_numbers,
 )
-from ehlectric.quantities.palette import BLACK, BLUE, GREEN, GREY, OCHRE, ORANGE
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Text: value with three digits and a prefixed unit, in which it is at least 1.
 prefixed = partial(with_unit, least=1.0)
-
-# Colour, dash and width [pt] of a line.
-Look = tuple[str, str, float]
-
-# Lines of the voltages of the whole bearing in all figures. The voltages are often equal, so the line drawn
-# first is the wider one.
-FIRST: Look = (BLACK, "solid", 1.1)
-THROUGH: Look = (OCHRE, "solid", 3.0)
-SHAFT: Look = (GREEN, "dash", 1.4)
 
 # Height of a line of a label at the right edge, as a part of the height of axes that are an inch high.
 _LINE = 0.155
@@ -342,13 +333,6 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     _elements(result, ax)
     legend_above(ax, [line for line in ax.get_lines() if line.get_marker() != "None"], columns=4)
     return ax
-
-
-def breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
-    """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
-    if nearly_equal(first, through):
-        return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
-    return [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
 
 
 def _levels(result: BearingResult, ax: Axes) -> None:

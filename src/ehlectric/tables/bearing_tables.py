@@ -179,7 +179,7 @@ def film_factor_note(summary: Summary) -> str:
         return "(isothermal, fully flooded)"
     factor = _bearing(summary)["film_factor"]
     if supply == "flooded":
-        return f"({VALUES['heat'].get(factor, 'given')})"
+        return f"({_HEAT.get(factor, 'given')})"
     other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
     return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
 
@@ -369,12 +369,8 @@ _WORDS = Words(
         "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
         "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
         "bearing.regime": _regime_note,
-        "bearing.inner_contact_time_share": lambda s: (
-            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
-        ),
-        "bearing.outer_contact_time_share": lambda s: (
-            f", by {VALUES['contact_model'][s['bearing']['contact_model']]}"
-        ),
+        "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
+        "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.shaft_voltage": _shaft_note,
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,

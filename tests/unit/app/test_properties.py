@@ -24,6 +24,7 @@ OWN = {
     "keys",
     "unit",
     "ends[0]",
+    "look",
     "ends[1]",
     "prefix",
     "one.key",

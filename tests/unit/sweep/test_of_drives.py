@@ -121,7 +121,7 @@ def test_a_map_is_drawn_of_the_discharges_unless_another_value_is_named(folder, 
 @pytest.mark.slow
 def test_axes_of_figures_have_names_and_units(results):
     ax = value_map(results, SPEED, LOAD, "non_drive_end.peak_voltage")
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed [rpm]", r"radial load $F_\mathrm{r}$ [kN]")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("rotor speed [rpm]", r"radial load $F_\mathrm{r}$ [kN]")
     assert (
         value_lines(results, SPEED, LOAD, RATE).get_ylabel() == "discharges per second, both bearings [1/s]"
     )

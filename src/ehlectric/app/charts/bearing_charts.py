@@ -13,8 +13,8 @@ from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scat
 from ehlectric.bearing.solution import regime
 from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
 from ehlectric.cases.defaults import OF_CONTACTS
-from ehlectric.figures.breakdown_over_speed import breakdown_panel, capacitance_panel, speed_axis
 from ehlectric.figures.data import Panel, Upright, is_wide
+from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
 from ehlectric.quantities.units import rpm, rpm_text
 

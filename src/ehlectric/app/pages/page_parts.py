@@ -155,7 +155,9 @@ def button(
     text: str, test: str, click: Callable[[], Any], look: str = "flat no-caps", *, primary: bool = False
 ) -> ui.button:
     """Button without a colour, or the main one of its part of the page."""
-    made = ui.button(text, on_click=click, color=None).props(f'{look} data-testid="{test}"')
+    made = ui.button(text, on_click=click, color=None).props(look)
+    # A test identifier may hold a text of a user, which must not be parsed as properties.
+    made.props["data-testid"] = test
     return made.classes("primary") if primary else made
 
 

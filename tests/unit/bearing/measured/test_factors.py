@@ -223,8 +223,9 @@ def test_solved_contacts_enter_by_their_ratio_to_the_atlas(case, monkeypatch):
     exact = np.array([at.at(0.7).capacitance for at in points])
     solve = measured_capacitance.solution_of_prepared
 
-    def thicker(solved_case, prepared, **_):
-        assert solved_case.contacts == "solved"
+    def thicker(solved_case, prepared, **options):
+        if solved_case.contacts != "solved":
+            return solve(solved_case, prepared, **options)
         factor = 1.05 * prepared.conditions.film_factor
         return solve(solved_case.replace({"contacts": "atlas"}), with_film_factor(prepared, factor))
 

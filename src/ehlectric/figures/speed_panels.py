@@ -1,0 +1,129 @@
+"""Panels of a bearing over its speed: breakdown and shaft voltage, and capacitance, for files and pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.speed_curves import (
+    Curves,
+    Speed,
+    Speeds,
+    critical_speed_of,
+    is_coated,
+    nearly_equal,
+    value_of,
+)
+from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
+from ehlectric.quantities.palette import BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
+from ehlectric.quantities.units import RPM, unit_for
+from ehlectric.quantities.units import rpm_text as text_of_speed
+
+# Colour, dash and width [pt] of a line.
+Look = tuple[str, str, float]
+
+# Lines of the voltages of the whole bearing in all figures. The voltages are often equal, so the line drawn
+# first is the wider one.
+FIRST: Look = (BLACK, "solid", 1.1)
+THROUGH: Look = (OCHRE, "solid", 3.0)
+SHAFT: Look = (GREEN, "dash", 1.4)
+
+
+def breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
+    """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
+    if nearly_equal(first, through):
+        return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
+    return [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
+
+
+def speed_axis(curves: Curves) -> Along:
+    """Axis of the speed of a bearing."""
+    return Along("speed of the inner ring", "rpm", log=is_wide(curves.speed))
+
+
+def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely: str = "expected") -> Panel:
+    """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
+    first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
+    drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
+    for name, values, look in breakdown_lines(first, through):
+        key = "first_break" if values is first else "through_breakdown"
+        drawn += _curves(curves, key, name.replace("\n", " "), look)
+    critical, marked = critical_speed_of(curves), []
+    if critical is not None:
+        at = critical / RPM
+        drawn.append(_mark(critical, curves.at("shaft_voltage", critical), ORANGE, "ring"))
+        marked.append(Upright(f"critical speed {text_of_speed(critical)} rpm", at, ORANGE, "dot"))
+    if own is not None and (value := value_of(own[1], "first_break")) is not None:
+        drawn.append(_mark(own[0], value, BLACK, "star"))
+    nodes, low = curves.between("first_break")
+    _, high = curves.between("shaft_voltage")
+    danger = Area(f"breakdown {likely}", nodes / RPM, high > low, ORANGE, 0.2, (low, high))
+    everything = np.concatenate([first, through, shaft])
+    return Panel(
+        f"{'shaft' if is_coated(points) else 'bearing'} voltage",
+        "V",
+        drawn,
+        1.1 * float(np.nanmax(everything, initial=0.0)),
+        areas=(*([danger] if np.any(danger.within) else []), *_contacts_open(curves)),
+        uprights=marked,
+        log=is_wide(everything),
+    )
+
+
+def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
+    """Capacitance, with its range from air to oil around the films; the curve of the bearing is bold."""
+    nodes, air = curves.between("capacitance_air")
+    _, oil = curves.between("capacitance_oil")
+    factor, unit = unit_for(float(np.nanmax(oil)), "F", least=1.0)
+    fills = {str(summary["inputs"]["bearing"]["fill"]) for _, summary in points}
+    drawn: list[Curve] = []
+    for fill in ("oil", "air"):
+        bold = fills == {fill}
+        look: Look = (BLUE, "solid", 1.4 if bold else 0.7)
+        drawn += _curves(curves, f"capacitance_{fill}", f"{fill} around the films", look, factor, dots=bold)
+    if fills not in ({"oil"}, {"air"}):
+        drawn += _curves(curves, "capacitance", "this bearing", (BLACK, "solid", 1.4), factor)
+    if own is not None:
+        drawn.append(_mark(own[0], factor * own[1]["bearing"]["capacitance"], BLACK, "star"))
+    everything = factor * np.concatenate([curves[key] for key in ("capacitance_oil", "capacitance_air")])
+    band = Area("", nodes / RPM, np.isfinite(oil - air), BLUE, 0.15, (factor * air, factor * oil))
+    return Panel(
+        "capacitance",
+        unit,
+        drawn,
+        1.1 * float(np.nanmax(everything)),
+        areas=(band, *_contacts_open(curves)),
+        log=is_wide(everything),
+    )
+
+
+def _curves(
+    curves: Curves, key: str, name: str, look: Look, factor: float = 1.0, *, dots: bool = True
+) -> Iterator[Curve]:
+    """Line between the speeds and dots at them; none where no speed has a value."""
+    if np.any(np.isfinite(curves[key])):
+        nodes, between = curves.between(key)
+        yield Curve(name, nodes / RPM, factor * between, *look)
+        if dots:
+            yield Curve("", curves.speed / RPM, factor * curves[key], look[0], marker="dots")
+
+
+def _mark(speed: float, value: float, colour: str, marker: str) -> Curve:
+    return Curve("", np.array([speed / RPM]), np.array([value]), colour, marker=marker)
+
+
+def _contacts_open(curves: Curves) -> Iterator[Area]:
+    """Speeds with a lambda ratio below 1 and, fainter, below 3: they must not read as safe."""
+    nodes, ratio = curves.between("lambda_ratio")
+    for low, high, name, colour, opacity in (
+        (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
+        (CONDUCTING, PARTIAL, "λ from 1 to 3: contacts at times", MIDDLE_GREY, 0.15),
+    ):
+        within = (ratio >= low) & (ratio < high)
+        # Up to the next node, so that no gap is left between both.
+        within[1:] |= within[:-1] & np.isfinite(ratio[1:])
+        if np.any(within):
+            yield Area(name, nodes / RPM, within, colour, opacity, hatched=high == CONDUCTING)
