@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import ClassVar, Generic, TypeAlias, TypeVar
@@ -596,8 +596,12 @@ class ContactCurve(Values):
 
     def at(self, load: Array) -> ContactValues[Array]:
         """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        rows = np.stack(self.stack().columns(), axis=-1)
-        return ContactValues(*_interpolated(self.loads, rows, load))
+        return ContactValues(*self._law(load))
+
+    @cached_property
+    def _law(self) -> Callable[[Array], Array]:
+        """Quantities, shape (n, k), over k loads [N]."""
+        return _interpolated(self.loads, np.stack(self.stack().columns(), axis=-1))
 
     @cached_property
     def counted(self) -> ContactCurve:
@@ -619,20 +623,25 @@ class ContactCurve(Values):
         for k in range(1, loads.size - 1):
             known = np.isfinite(values[k]) & [True, loads[k] >= _LIGHT * loads[-1]]
             others = np.delete(values[:, known], k, axis=0)
-            left = _interpolated(np.delete(loads, k), others, loads[k : k + 1])
+            left = _interpolated(np.delete(loads, k), others)(loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
         return float(worst)
 
 
-def _interpolated(loads: Array, values: Array, load: Array) -> Array:
-    """Values at k loads [N], shape (n, k), interpolated from those at m loads [N], shape (m, n).
+def _interpolated(loads: Array, values: Array) -> Callable[[Array], Array]:
+    """Function of k loads [N] that interpolates values at m loads [N], shape (m, n), with a result (n, k).
 
     The interpolation is monotone in the logarithms of both. Beyond the ends the values are those at the ends.
     A column with any infinite value is infinite.
     """
     finite = np.all(np.isfinite(values), axis=0)
-    found = np.repeat(np.where(finite, values[0], np.inf)[:, np.newaxis], np.size(load), axis=1)
-    if loads.size > 1:
-        between = PchipInterpolator(np.log(loads), np.log(values[:, finite]))
-        found[finite] = np.exp(between(np.log(np.clip(load, loads[0], loads[-1])))).T
-    return found
+    ends = np.where(finite, values[0], np.inf)[:, np.newaxis]
+    between = PchipInterpolator(np.log(loads), np.log(values[:, finite])) if loads.size > 1 else None
+
+    def at(load: Array) -> Array:
+        found = np.repeat(ends, np.size(load), axis=1)
+        if between is not None:
+            found[finite] = np.exp(between(np.log(np.clip(load, loads[0], loads[-1])))).T
+        return found
+
+    return at
