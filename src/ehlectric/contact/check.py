@@ -22,6 +22,7 @@ from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, reach_of
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
+from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
@@ -81,7 +82,7 @@ class PreparedContact:
 
     def warnings(self) -> Iterator[ResultWarning]:
         """Warnings before the solution: about the operating conditions, rough surfaces and the refinement."""
-        yield from self.kind.case_warnings(self.case, self.conditions)
+        yield from case_warnings(self.case, self.conditions)
         yield from self.surface_warnings(self.case)
         if self.reach is not None:
             yield from self.reach.warnings()

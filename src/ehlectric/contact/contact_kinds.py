@@ -24,7 +24,6 @@ from ehlectric.contact.contact_solution import (
 )
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import (
-    case_warnings,
     line_result_warnings,
     point_result_warnings,
 )
@@ -61,7 +60,6 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
     solve_field: Callable[[ProblemT], FieldT]
     # Function that yields warnings about the operating conditions, before the solution.
-    case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
     # Setup, film, field -> warnings about the solution.
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
     # formulas and regime: published film-thickness formulas by name, and the function that names the
@@ -134,7 +132,6 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
     solve_film=solve_film,
     field_problem=problems.field_problem,
     solve_field=solve_field,
-    case_warnings=case_warnings,
     result_warnings=line_result_warnings,
     formulas=film_line.FORMULAS,
     regime=film_line.regime,
@@ -159,7 +156,6 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     solve_film=solve_point_film,
     field_problem=problems.point_field_problem,
     solve_field=_whole_field,
-    case_warnings=case_warnings,
     result_warnings=point_result_warnings,
     formulas=film_point.FORMULAS,
     regime=film_point.regime,

@@ -28,7 +28,7 @@ from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, spot_warnings
-from ehlectric.contact.warnings import accuracy_warnings, film_warnings
+from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_warnings
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
@@ -213,7 +213,7 @@ def solve_prepared(
         coarser=coarser,
         field=field,
         warnings=(
-            *kind.case_warnings(case, conditions),
+            *case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(contact.case, film),

@@ -9,14 +9,13 @@ each with half the nodes of a line contact or a quarter of those of a point cont
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.film_error import lowest
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.moving_patch import MovingFilm
-from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.motion_touching import Toucher
 from ehlectric.motion.moving_contact import TransientContact
@@ -55,7 +54,7 @@ class Companion:
         self._step = STRIDE * contact.schedule.step
         self._scale = contact.problem.scales.thickness
         self._contact = contact
-        self._moving = MovingFilm(on_every_second_node(contact.problem), contact.moving_gap)
+        self._moving = MovingFilm(contact.problem.halved(), contact.moving_gap)
 
     def start(self) -> History | None:
         """Stationary film before the motion; None where it does not converge."""
@@ -100,9 +99,3 @@ class Companion:
     @cached_property
     def _toucher(self) -> Toucher:
         return Toucher(self._contact, self._moving.film.level.mesh)
-
-
-def on_every_second_node(problem: FilmProblem) -> FilmProblem:
-    """Problem on a grid with half the intervals along both axes; half of an odd number is rounded up."""
-    width = None if problem.width is None else problem.width.coarser()
-    return replace(problem, nodes=problem.nodes // 2 + 1, width=width)

@@ -11,6 +11,7 @@ from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import about_share, unresolved_share
+from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
@@ -37,9 +38,9 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
 
     They concern the case, its surfaces, its time steps and the film with stationary roughness.
     """
-    kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
+    conditions, travelled = contact.conditions, contact.travelled
     domain, spacings = domain_of(travelled, conditions), spacings_of(contact.case, conditions)
-    yield from kind.case_warnings(contact.case, conditions)
+    yield from case_warnings(contact.case, conditions)
     yield from surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
     yield from starvation_warnings(contact.case, conditions, still.film)
