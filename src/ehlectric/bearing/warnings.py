@@ -93,11 +93,8 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     of_base = library_viscosity(solution.case.lubricant)
     if of_base is not None:
         at = f"{solution.case.bearing.oil_temperature - 273.15:.4g} °C"
-        text = (
-            f"the viscosity is the {1e3 * of_base:.4g} mPa s of base {solution.case.lubricant.base!r} in the "
-            f"library, at any temperature; give lubricant.viscosity at {at}, or [lubricant.temperature]"
-        )
-        yield ResultWarning("viscosity-of-base", text)
+        base = solution.case.lubricant.base
+        yield ResultWarning.of("viscosity-of-base", viscosity=1e3 * of_base, base=base, temperature=at)
     elif viscosity_over_temperature(solution.case.lubricant) is None:
         given = [f"bearing.{key}" for key in solution.case.bearing.temperatures()]
         ignored = f"{' and '.join(given)} {'is' if len(given) == 1 else 'are'} ignored"
@@ -116,11 +113,7 @@ def _cold(bearing: Bearing) -> Iterator[ResultWarning]:
     """Warnings of temperatures at which the viscosity is extrapolated far."""
     for key, temperature in bearing.temperatures().items():
         if temperature < _COLD:
-            text = (
-                f"bearing.{key} is {temperature - 273.15:.3g} °C: the viscosity is extrapolated from 40 and "
-                "100 °C and may be wrong by a large factor; give lubricant.viscosity at this temperature"
-            )
-            yield ResultWarning("temperature-low", text)
+            yield ResultWarning.of("temperature-low", key=key, celsius=temperature - 273.15)
 
 
 def library_viscosity(oil: Lubricant) -> float | None:
@@ -141,41 +134,22 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
     turns, celsius = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
     factor = turns * 1e3 * bearing.pitch_diameter
     if factor > _MOST_SPEED:
-        yield ResultWarning(
-            "speed-high",
-            f"{turns:.4g} rpm and a pitch diameter of {1e3 * bearing.pitch_diameter:.4g} mm: n d_m is "
-            f"{factor:.3g} mm/min, and ordinary oil-lubricated bearings run below {_MOST_SPEED:g}; is the "
-            "unit of bearing.inner_speed right?",
-        )
+        pitch = 1e3 * bearing.pitch_diameter
+        yield ResultWarning.of("speed-high", speed=turns, pitch=pitch, factor=factor, limit=_MOST_SPEED)
     load, rating = math.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
     if load < _LEAST_LOAD * rating:
-        yield ResultWarning(
-            "load-low",
-            f"the load of {load:.3g} N is below a thousandth of the static load rating, about "
-            f"{rating:.2g} N; is the unit of the load right?",
-        )
+        yield ResultWarning.of("load-low", load=load, rating=rating)
     for key, temperature in bearing.temperatures().items():
         if not _COLDEST <= temperature - 273.15 <= _HOTTEST:
-            yield ResultWarning(
-                "temperature-extreme",
-                f"bearing.{key} is {temperature - 273.15:.4g} °C: ordinary bearing steel and oils are for "
-                f"{_COLDEST:g} to {_HOTTEST:g} °C",
-            )
+            limits = {"coldest": _COLDEST, "hottest": _HOTTEST}
+            yield ResultWarning.of("temperature-extreme", key=key, celsius=temperature - 273.15, **limits)
     if viscosity > _MOST_VISCOUS:
-        yield ResultWarning(
-            "viscosity-high",
-            f"the oil has {viscosity:.3g} Pa s at {celsius:.4g} °C: above {_MOST_VISCOUS:g} Pa s it hardly "
-            "flows, and the contacts are not fully flooded",
-        )
+        yield ResultWarning.of("viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS)
     yield from class_warnings(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
-        yield ResultWarning(
-            "viscosity-grade",
-            f"ISO VG {oil.iso_vg} is {low:.4g} to {high:.4g} mm²/s at 40 °C; computed with the middle"
-            f"{_index_of(oil)}",
-        )
+        yield ResultWarning.of("viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=_index_of(oil))
 
 
 def _index_of(oil: OilTemperature) -> str:
@@ -202,11 +176,7 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
     yield from _contact_of_asperities(solution)
     if capacitance_is_bound(solution):
-        yield ResultWarning(
-            "capacitance-bound",
-            "the elements are ceramic: the capacitance is an upper bound, computed as for conducting "
-            "elements, and no shaft voltage follows from it; give bearing.element_capacitance",
-        )
+        yield ResultWarning.of("capacitance-bound")
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
     field = known(mul, film_voltage(solution), per_volt)
     first = None if breakdown is None else breakdown.shaft_first_break
@@ -222,8 +192,7 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     yield from leakage_warnings(solution)
     yield from current_warnings(solution)
     if solution.case.discharge.weibull is not None and insulating(solution):
-        text = "first and ring-to-ring breakdown voltages are those at a probability of 63.2 % (Weibull)"
-        yield ResultWarning("weibull-voltage", text)
+        yield ResultWarning.of("weibull-voltage")
 
 
 def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterator[ResultWarning]:
@@ -236,44 +205,27 @@ def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterato
     if coating is not None and assumed:
         shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
         values = ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in assumed.items())
-        yield ResultWarning(
-            "coating-assumed",
-            f"the coating {coating.base!r} has assumed values, {values}; give those of your data sheet in "
-            "[bearing.coating]",
-        )
+        yield ResultWarning.of("coating-assumed", coating=coating.base, values=values)
     withstands = shaft_path(solution).coating_breakdown
     if withstands is not None and shaft is not None and withstands < shaft:
-        yield ResultWarning(
-            "coating-breakdown",
-            f"the coating breaks down at {withstands:.3g} V, and the shaft voltage is {shaft:.3g} V: once a "
-            "film has broken down, the coating carries nearly all of it; use a thicker coating",
-        )
+        yield ResultWarning.of("coating-breakdown", withstands=withstands, shaft=shaft)
 
 
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warning of surfaces that touch all or some of the time."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
-    touching = f"lambda is {lambda_text(solution)}: surfaces"
+    ratio = lambda_text(solution)
     if state == "conducting":
-        text = (
-            f"{touching} touch, and contacts close and open all the time: they discharge at a low voltage as "
-            "they open, and arcs are likely; no breakdown voltage and no shaft voltage is computed for them, "
-            "which does not mean that the bearing is safe; a higher speed or viscosity separates the surfaces"
-        )
-        yield ResultWarning("touching", text)
+        yield ResultWarning.of("touching", "steel", ratio=ratio)
     elif state == "touching":
-        yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
+        yield ResultWarning.of("touching", "ceramic", ratio=ratio)
     elif state == "partial film" and ceramic:
-        yield ResultWarning("partial-film", f"{touching} may touch")
+        yield ResultWarning.of("partial-film", "ceramic", ratio=ratio)
     else:
         duty = duty_of(solution)
         if state == "partial film" or duty.regime != "capacitive":
-            text = (
-                f"{touching} may touch at times, and contacts discharge at a lower voltage as they open, "
-                f"which is not computed; they touch from ring to ring {time_text(duty.touching_time_share)}; "
-                "breakdown voltages are upper bounds"
-            )
-            yield ResultWarning("partial-film", text)
+            share = time_text(duty.touching_time_share)
+            yield ResultWarning.of("partial-film", "steel", ratio=ratio, share=share)
 
 
 def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:
@@ -293,13 +245,8 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
         if load > 0.0:
-            yield ResultWarning(
-                "shoulder-reached",
-                f"{name} ring: the contact ellipse at {load:.3g} N would extend to "
-                f"{math.degrees(reached):.1f} deg, but the groove ends at {math.degrees(shoulder):.1f} deg: "
-                "the shoulder truncates the ellipse, and the pressure at this edge is not modelled; check "
-                "load and clearance",
-            )
+            angles = {"reached": math.degrees(reached), "shoulder": math.degrees(shoulder)}
+            yield ResultWarning.of("shoulder-reached", ring=name, load=load, **angles)
 
 
 def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
@@ -309,17 +256,12 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
     at, room = position.equilibrium, clearance
     most = int(np.argmax(at.inner_load))
     films = sum(float(ring.values.central_thickness[most]) for ring in position.rings)
-    beside = "a clearance of"
+    compared = "a clearance of"
     if room <= 0.0:
         # Preloaded elements have no clearance: the films are compared with the elastic approach.
-        room, beside = float(at.inner_approach[most] + at.outer_approach[most]), "an elastic approach of"
+        room, compared = float(at.inner_approach[most] + at.outer_approach[most]), "an elastic approach of"
     if films > TAKEN * room:
-        yield ResultWarning(
-            "clearance-taken-up",
-            f"both films of the most loaded element are {1e6 * films:.2g} µm together, compared with "
-            f"{beside} {1e6 * room:.2g} µm: the loads are computed for dry contacts, and such "
-            "films change them; treat loads and films as estimates",
-        )
+        yield ResultWarning.of("clearance-taken-up", films=1e6 * films, compared=compared, room=1e6 * room)
 
 
 def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:
