@@ -65,7 +65,7 @@ def listen(host: str, port: int | None) -> socket.socket:
         except socket.gaierror:
             raise InputError("--host", got=host, takes="an address of this machine") from None
         except OSError as error:
-            reason = (error.strerror or str(error)).partition(" (while attempting")[0].lower()
+            reason = (error.strerror or str(error)).lower()
             if error.errno == errno.EADDRNOTAVAIL:
                 raise InputError("--host", got=host, takes="an address of this machine") from None
             taken = error.errno == errno.EADDRINUSE
@@ -76,6 +76,17 @@ def listen(host: str, port: int | None) -> socket.socket:
 
 
 def _bound(host: str, port: int) -> socket.socket:
-    family, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
-    dual = family == socket.AF_INET6 and socket.has_dualstack_ipv6()
-    return socket.create_server(address, family=family, dualstack_ipv6=dual)
+    family, kind, protocol, _, address = socket.getaddrinfo(
+        host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+    )[0]
+    bound = socket.socket(family, kind, protocol)
+    try:
+        if os.name == "posix":
+            # A port whose server has just ended is free; on Windows this would share a port in use.
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        bound.bind(address)
+        bound.listen()
+    except OSError:
+        bound.close()
+        raise
+    return bound

@@ -151,26 +151,40 @@ class HotOil:
 
         ``pressure`` [Pa] has the shape (...), ``temperature`` [K] the shape (..., ) or (nz, ...).
         """
-        parts = [(*oil.log_viscosity(pressure), np.log(oil.viscosity)) for oil in self.oils]
-        return self._between(
-            [(value + offset, slope) for value, slope, offset in parts], pressure, temperature
-        )
+
+        def law(oil: Oil) -> tuple[Array, Array]:
+            value, slope = oil.log_viscosity(pressure)
+            return value + np.log(oil.viscosity), slope
+
+        return self._between(law, pressure, temperature)
 
     def density(self, pressure: Array, temperature: Array) -> Property:
         """Density [kg/m^3]; pressure and temperature as for ``log_viscosity``."""
-        parts = [(*oil.density_ratio(pressure), oil.density) for oil in self.oils]
-        of_oils = [(unit * ratio, unit * slope) for ratio, slope, unit in parts if unit is not None]
-        return self._between(of_oils, pressure, temperature)
+
+        def law(oil: Oil) -> tuple[Array, Array]:
+            value, slope = oil.density_ratio(pressure)
+            assert oil.density is not None
+            return oil.density * value, oil.density * slope
+
+        return self._between(law, pressure, temperature)
 
     def thermal_conductivity(self, pressure: Array, temperature: Array) -> Property:
         """Thermal conductivity [W/(m K)]; pressure and temperature as for ``log_viscosity``."""
-        laws = (oil.thermal_conductivity_law for oil in self.oils)
-        return self._between([law(pressure) for law in laws if law is not None], pressure, temperature)
+
+        def law(oil: Oil) -> tuple[Array, Array]:
+            assert oil.thermal_conductivity_law is not None
+            return oil.thermal_conductivity_law(pressure)
+
+        return self._between(law, pressure, temperature)
 
     def heat_capacity(self, pressure: Array, temperature: Array) -> Property:
         """Volumetric heat capacity [J/(m^3 K)]; pressure and temperature as for ``log_viscosity``."""
-        laws = (oil.heat_capacity_law for oil in self.oils)
-        return self._between([law(pressure) for law in laws if law is not None], pressure, temperature)
+
+        def law(oil: Oil) -> tuple[Array, Array]:
+            assert oil.heat_capacity_law is not None
+            return oil.heat_capacity_law(pressure)
+
+        return self._between(law, pressure, temperature)
 
     @cached_property
     def _to_coefficients(self) -> Array:
@@ -178,12 +192,14 @@ class HotOil:
         n = len(self.oils)
         return np.asarray(np.linalg.inv(chebyshev.chebvander(chebyshev.chebpts1(n), n - 1)), dtype=np.float64)
 
-    def _between(self, of_oils: list[tuple[Array, Array]], pressure: Array, temperature: Array) -> Property:
-        """Property at temperatures, from its values and derivatives by pressure of each oil."""
+    def _between(
+        self, law: Callable[[Oil], tuple[Array, Array]], pressure: Array, temperature: Array
+    ) -> Property:
+        """Property at temperatures, from the values and derivatives by pressure that a law has for an oil."""
         values = np.empty((len(self.oils), *pressure.shape))
         slopes = np.empty_like(values)
-        for k, (value, slope) in zip(range(len(self.oils)), of_oils, strict=True):
-            values[k], slopes[k] = value, slope
+        for k, oil in enumerate(self.oils):
+            values[k], slopes[k] = law(oil)
         half = 0.5 * (self.highest - self.lowest)
         return Property(
             np.tensordot(self._to_coefficients, values, axes=1),

@@ -69,11 +69,12 @@ class MotionResult(Shown, MotionRun):
         """Title, time steps, minimum film and maximum field on one line."""
         steps = self.dataset.sizes["step"] - 1
         strongest = amount(float(np.max(self.values("max_strength"))), "V/m")
+        field = MOTION_BOOK[self.case.contact.geometry]["field.max_strength"]
         return headline(
             self.case.title,
             f"{self.case.contact.geometry} contact with moving roughness",
             f"{steps} time steps to {amount(float(self.values('time')[-1]), 's')}",
             f"minimum film {amount(float(np.min(self.values('minimum_thickness'))), 'm')}",
-            f"maximum field {MOTION_BOOK['line']['field.max_strength'].bounded(strongest)}",
+            f"maximum field {field.bounded(strongest)}",
             "complete" if self.complete else "NOT COMPLETE",
         )
