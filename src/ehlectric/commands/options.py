@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypedDict, TypeVar, get_type_hints
+from typing import Annotated, Any, TypeAlias, TypedDict, TypeVar, get_type_hints
 
 import typer
 
@@ -43,21 +43,29 @@ def chosen(option: str, value: str, names: Sequence[str]) -> str:
     return value
 
 
-F = TypeVar("F", bound=Callable[..., None])
+# Values of a parameter: all of them, or a function that lists those that complete what was typed.
+Values: TypeAlias = Sequence[str] | Callable[..., list[str]]
+
+_Command = TypeVar("_Command", bound=Callable[..., None])
 
 # Texts of all commands and of their parameters, and the functions of the commands.
 TEXTS = data_file("ehlectric.commands", "command_texts.toml")
 COMMANDS: dict[str, Callable[..., None]] = {}
 
 
-def command(name: str, /, **complete: Callable[..., list[str]]) -> Callable[[F], F]:
-    """Decorator of a command, whose parameters get their texts; ``complete`` lists the values of some."""
+def command(name: str, /, **values: Values) -> Callable[[_Command], _Command]:
+    """Decorator of a command, whose parameters get their texts.
+
+    ``values`` has the values of some parameters, or a function that completes them, where they are no texts
+    of the file. In a help text, {values} stands for all of them.
+    """
     texts = {**TEXTS["shared"], **TEXTS["commands"][name].get("parameters", {})}
 
-    def described(function: F) -> F:
+    def described(function: _Command) -> _Command:
         function.__annotations__ = {
-            key: Annotated[kind, _parameter(texts[key], complete.get(key))] if key in texts else kind
+            key: Annotated[kind, _parameter(texts[key], values.get(key))]
             for key, kind in get_type_hints(function).items()
+            if key != "return"
         }
         COMMANDS[name] = function
         return function
@@ -65,18 +73,18 @@ def command(name: str, /, **complete: Callable[..., list[str]]) -> Callable[[F],
     return described
 
 
-def _parameter(
-    texts: Mapping[str, Any], complete: Callable[..., list[str]] | None
-) -> typer.models.ParameterInfo:
-    """Argument or option with its texts; ``complete`` lists its values where the texts do not."""
+def _parameter(texts: Mapping[str, Any], values: Values | None) -> typer.models.ParameterInfo:
+    """Argument or option with its texts, whose ``values`` a shell completes."""
     options = dict(texts)
     kind = typer.Argument if options.pop("argument", False) else typer.Option
     names = options.pop("names", ())
+    values = options.pop("values", values)
     if "files" in options:
-        complete = files_ending(*options.pop("files"))
-    elif "values" in options:
-        complete = one_of(*options.pop("values"))
-    made: typer.models.ParameterInfo = kind(*names, autocompletion=complete, **options)
+        values = files_ending(*options.pop("files"))
+    elif values is not None and not callable(values):
+        options["help"] = options["help"].replace("{values}", ", ".join(values))
+        values = one_of(*values)
+    made: typer.models.ParameterInfo = kind(*names, autocompletion=values, **options)
     return made
 
 

@@ -34,7 +34,7 @@ def template(kind: str) -> Path:
     return (examples_folder() if folder == "examples" else _HERE / folder) / name
 
 
-@command("init")
+@command("init", kind=tuple(TEMPLATES))
 def init(
     path: Path = Path("case.toml"),
     kind: str = "line",

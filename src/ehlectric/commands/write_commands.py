@@ -49,7 +49,7 @@ def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool
 _FORMATS = ("html", "pdf")
 
 
-@command("report")
+@command("report", formats=_FORMATS)
 def report(
     result: Path, output: Path | None = None, formats: list[str] | None = None, quiet: bool = False
 ) -> None:
@@ -98,7 +98,7 @@ def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
 KINDS = ("contact", "bearing", "drive", "sweep")
 
 
-@command("schema")
+@command("schema", kind=KINDS)
 def schema(kind: str, output: Path | None = None) -> None:
     """Print the JSON Schema of a kind of file: keys with their texts, units, bounds and examples.
 
