@@ -217,14 +217,14 @@ class BearingResult(Shown):
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         capacitance = amount(self.capacitance(), "F")
         if capacitance_is_bound(self.solution):
-            capacitance = BEARING_KEYS["bearing.capacitance"].bounded(capacitance)
+            capacitance = BEARING_KEYS["bearing.capacitance"].with_sign(capacitance)
         first = BEARING_KEYS["bearing.first_break"]
         return headline(
             self.case.title,
             self.case.bearing.base or self.case.bearing.kind,
             f"{rpm(self.case.bearing.inner_speed):.4g} rpm",
             f"capacitance {capacitance}",
-            None if voltage is None else f"first breakdown {first.bounded(f'{voltage:.4g} V')}",
+            None if voltage is None else f"first breakdown {first.with_sign(f'{voltage:.4g} V')}",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",
             "converged" if self.converged else "NOT CONVERGED",
         )

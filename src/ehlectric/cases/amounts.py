@@ -223,7 +223,7 @@ class Count:
 N = TypeVar("N", Amount, Count)
 
 
-def bounded(kind: type[N], entry: object) -> N:
+def with_bounds(kind: type[N], entry: object) -> N:
     """Amount or count with the unit and the bounds of an entry of the book, or of a parameter of a law."""
     names = (field.name for field in fields(kind))
     return kind(**{name: getattr(entry, name) for name in names})
@@ -237,4 +237,4 @@ def amount_at(key: str) -> Amount:
     >>> amount_at("bearing.bore").least
     0.0001
     """
-    return bounded(Amount, input_at(key))
+    return with_bounds(Amount, input_at(key))

@@ -18,7 +18,7 @@ from scipy.optimize import bisect
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, bounded
+from ehlectric.cases.amounts import Amount, with_bounds
 from ehlectric.cases.library.library_oils import LibraryOil, Source, library_oil, values_of
 from ehlectric.cases.oil_inputs import (
     LAWS,
@@ -581,7 +581,7 @@ def _of_file(path: Path) -> NamedOil:
     kelvins = [
         _parsed(TEMPERATURE, tables, name, key) for name, keys in _TEMPERATURES.items() for key in keys
     ]
-    conductivity = _parsed(bounded(Amount, CONDUCTIVITY), tables, "discharge", "conductivity")
+    conductivity = _parsed(with_bounds(Amount, CONDUCTIVITY), tables, "discharge", "conductivity")
     if conductivity is not None:
         # It holds in place of that of the oil, as in a solution.
         others = {key: value for key, value in table.items() if key not in _CONDUCTION}

@@ -24,7 +24,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, InitErrorDetails
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount, Amounts, amount_at, bounded
+from ehlectric.cases.amounts import Amount, Amounts, amount_at, with_bounds
 from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import Table, details_of, nearest
 from ehlectric.errors import InputError, shown
@@ -129,7 +129,7 @@ class PermittivityTable(Table, book="lubricant.permittivity_table"):
 
     temperature: tuple[float, ...]
     relative_permittivity: Annotated[
-        tuple[float, ...], Amounts(bounded(Amount, RELATIVE_PERMITTIVITY), least=2)
+        tuple[float, ...], Amounts(with_bounds(Amount, RELATIVE_PERMITTIVITY), least=2)
     ]
 
     @model_validator(mode="after")
@@ -141,7 +141,7 @@ class ConductivityTable(Table, book="lubricant.conductivity_table"):
     """Measured electrical conductivity over temperature; its logarithm is interpolated over 1/T."""
 
     temperature: tuple[float, ...]
-    conductivity: Annotated[tuple[float, ...], Amounts(bounded(Amount, CONDUCTIVITY), least=2)]
+    conductivity: Annotated[tuple[float, ...], Amounts(with_bounds(Amount, CONDUCTIVITY), least=2)]
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -358,7 +358,7 @@ class Properties(Table, book="lubricant"):
     viscosity_law: Annotated[str, law_name(VISCOSITY_LAWS)]
     density_law: Annotated[str, law_name(DENSITY_LAWS)]
     permittivity_law: Annotated[str, law_name(PERMITTIVITY_LAWS)] = "clausius-mossotti"
-    relative_permittivity: Annotated[float, bounded(Amount, RELATIVE_PERMITTIVITY)] | None = None
+    relative_permittivity: Annotated[float, with_bounds(Amount, RELATIVE_PERMITTIVITY)] | None = None
     permittivity_table: PermittivityTable | None = None
     conductivity_law: Annotated[str, law_name(CONDUCTIVITY_LAWS)] | None = None
     conductivity_table: ConductivityTable | None = None
@@ -396,7 +396,7 @@ class Properties(Table, book="lubricant"):
         schema = super().__get_pydantic_json_schema__(core, handler)
         for name, parameter in law_parameters().items():
             if name not in schema["properties"]:
-                quantity = bounded(Amount, parameter)
+                quantity = with_bounds(Amount, parameter)
                 schema["properties"][name] = quantity.__get_pydantic_json_schema__(core, handler)
         for name, laws in LAWS.items():
             schema["properties"][name]["enum"] = list(laws)
@@ -442,7 +442,7 @@ class Properties(Table, book="lubricant"):
             known[name] = field
             for parameter in law_parameters(name).values() if name in LAWS else ():
                 if parameter.name not in cls.model_fields:
-                    annotation = Annotated[float, bounded(Amount, parameter)]
+                    annotation = Annotated[float, with_bounds(Amount, parameter)]
                     known[parameter.name] = FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
         return known
 
@@ -501,7 +501,7 @@ def _parsed(
             if name not in known:
                 errors.append(InitErrorDetails(type="extra_forbidden", loc=(name,), input=value))
             elif value is not None:
-                parsed[name] = bounded(Amount, known[name]).parse(value)
+                parsed[name] = with_bounds(Amount, known[name]).parse(value)
         except ValueError as error:
             errors.append(
                 InitErrorDetails(type="value_error", loc=(name,), input=value, ctx={"error": error})

@@ -26,7 +26,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
-from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, bounded
+from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, with_bounds
 from ehlectric.cases.key_names import ADVICE, ALIASES, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.quantities.inputs import inputs
@@ -63,16 +63,20 @@ def _with_bounds(annotation: str, table: str, key: str) -> Any:
     """Annotation of a field; that of a number gets the unit and the bounds of the book."""
     plain = annotation.removesuffix(" | None")
     if plain not in _NUMBERS:
+        if "float" in annotation and not annotation.startswith("Annotated["):
+            raise TypeError(
+                f"{table}.{key}: {annotation} has no bounds of the book; write {' or '.join(_NUMBERS)}"
+            )
         return annotation
     about = inputs()[table][key]
     number: Any
     match plain:
         case "float":
-            number = Annotated[float, bounded(Amount, about)]
+            number = Annotated[float, with_bounds(Amount, about)]
         case "int":
-            number = Annotated[int, bounded(Count, about)]
+            number = Annotated[int, with_bounds(Count, about)]
         case _:
-            number = Annotated[tuple[float, ...], Amounts(bounded(Amount, about), least=2)]
+            number = Annotated[tuple[float, ...], Amounts(with_bounds(Amount, about), least=2)]
     return number if plain == annotation else number | None
 
 

@@ -68,7 +68,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         film, touching = self.film, self.spots
         least = f"minimum film {amount(film.minimum_thickness, 'm')}"
         field = CONTACT_BOOK[self.conditions.geometry]["field.max_strength"]
-        strongest: str | None = f"maximum field {field.bounded(amount(self.field.max_strength, 'V/m'))}"
+        strongest: str | None = f"maximum field {field.with_sign(amount(self.field.max_strength, 'V/m'))}"
         if touching is not None:
             # Minimum film and maximum field are those of the boundary film.
             least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"

@@ -75,6 +75,6 @@ class MotionResult(Shown, MotionRun):
             f"{self.case.contact.geometry} contact with moving roughness",
             f"{steps} time steps to {amount(float(self.values('time')[-1]), 's')}",
             f"minimum film {amount(float(np.min(self.values('minimum_thickness'))), 'm')}",
-            f"maximum field {field.bounded(strongest)}",
+            f"maximum field {field.with_sign(strongest)}",
             "complete" if self.complete else "NOT COMPLETE",
         )

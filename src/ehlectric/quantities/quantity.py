@@ -46,12 +46,12 @@ class Quantity:
     # Text in place of a value that a summary has as null; if it is empty, such a value is not shown.
     null: str = field(default="", kw_only=True)
 
-    def bounded(self, text: str) -> str:
+    def with_sign(self, text: str) -> str:
         """Text of a value after the sign of its bound.
 
         Examples
         --------
-        >>> Quantity("maximum field", "V/m", bound="≥").bounded("2 V/µm")
+        >>> Quantity("maximum field", "V/m", bound="≥").with_sign("2 V/µm")
         '≥ 2 V/µm'
         """
         return " ".join(filter(None, [self.bound, text]))
