@@ -8,7 +8,6 @@ Reynolds equation at these nodes is that oil.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
@@ -734,29 +733,31 @@ def spot_warnings(
     spots = spots_of(film)
     share = load_share_of(conditions, spots)
     before = None if coarser is None else coarser.load_share
-    what = "spot, which carries" if spots.number == 1 else "spots, which carry"
+    carried = "spot, which carries" if spots.number == 1 else "spots, which carry"
     yield ResultWarning.of(
-        "asperities-touch", "stationary", spots=spots.number, carried=what, share=about_share(share, before)
+        "asperities-touch",
+        "stationary",
+        spots=spots.number,
+        carried=carried,
+        share=about_share(share, before),
     )
-    change = math.nan if before is None else share - before
-    grids = "a coarser grid", "a grid with half the nodes"
-    yield from unresolved_share("the load share", share, before, change, grids)
-
-
-def unresolved_share(
-    what: str, share: float, coarser: float | None, change: float, grids: tuple[str, str]
-) -> Iterator[ResultWarning]:
-    """Warning that a load share depends on the grid, or is not known on a coarser one.
-
-    ``grids`` are words for the coarser grid, where the share is not known there and where it is.
-    """
-    if coarser is None:
-        before = f"is not known on {grids[0]}"
-    elif abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
-        before = f"was {about_share(coarser, share)} on {grids[1]}"
+    share_text = "the load share"
+    if before is None:
+        yield ResultWarning.of(
+            "load-share-unresolved", what=share_text, before="is not known on a coarser grid"
+        )
     else:
-        return
-    yield ResultWarning.of("load-share-unresolved", what=what, before=before)
+        grid = "a grid with half the nodes"
+        yield from changed_share(share_text, share, before, share - before, grid)
+
+
+def changed_share(
+    what: str, share: float, coarser: float, change: float, grid: str
+) -> Iterator[ResultWarning]:
+    """Warning that a load share depends on the grid: its change from a coarser ``grid`` is large."""
+    if abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
+        before = f"was {about_share(coarser, share)} on {grid}"
+        yield ResultWarning.of("load-share-unresolved", what=what, before=before)
 
 
 def _edge_gap(film: Film | PointFilm) -> float:

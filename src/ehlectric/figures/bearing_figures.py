@@ -341,7 +341,7 @@ def _levels(result: BearingResult, ax: Axes) -> None:
     first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
     levels = [] if shaft is None else [("shaft voltage", shaft, SHAFT)]
     lines = breakdown_lines(np.array([first]), np.array([through]))
-    levels += [(name, float(value), look) for name, (value,), look in lines]
+    levels += [(name, float(value), look) for _, name, (value,), look in lines]
     for name, value, look in levels:
         ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
     label_ends(ax, [(value, f"{name}\n{volts(value)}", look[0]) for name, value, look in levels])
@@ -410,11 +410,12 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     path = shaft_path(result.solution)
     through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
     lines = breakdown_lines(first, through)
-    for name, values, look in lines:
+    for _, name, values, look in lines:
         _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
     shaft = result.shaft_voltage
     ends = [
-        (float(values[0]), f"{name}\nmin. {volts(np.min(values))}", look[0]) for name, values, look in lines
+        (float(values[0]), f"{name}\nmin. {volts(np.min(values))}", look[0])
+        for _, name, values, look in lines
     ]
     if shaft is not None:
         ax.axhline(shaft, label="shaft voltage", **line_look(*SHAFT))

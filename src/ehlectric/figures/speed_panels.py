@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,11 +33,23 @@ THROUGH: Look = (OCHRE, "solid", 3.0)
 SHAFT: Look = (GREEN, "dash", 1.4)
 
 
-def breakdown_lines(first: Array, through: Array) -> list[tuple[str, Array, Look]]:
-    """Names, voltages and looks of first and ring-to-ring breakdown; one line where they are equal."""
+class BreakdownLine(NamedTuple):
+    """Line of a breakdown voltage of a bearing."""
+
+    key: str  # of the curves over the speed
+    name: str
+    values: Array  # voltages [V]
+    look: Look
+
+
+def breakdown_lines(first: Array, through: Array) -> list[BreakdownLine]:
+    """Lines of the first and of the ring-to-ring breakdown [V]; one line where they are equal."""
     if nearly_equal(first, through):
-        return [("first and\nring-to-ring\nbreakdown", first, FIRST)]
-    return [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
+        return [BreakdownLine("first_break", "first and\nring-to-ring\nbreakdown", first, FIRST)]
+    return [
+        BreakdownLine("through_breakdown", "ring-to-ring\nbreakdown", through, THROUGH),
+        BreakdownLine("first_break", "first\nbreakdown", first, FIRST),
+    ]
 
 
 def speed_axis(curves: Curves) -> Along:
@@ -48,9 +61,8 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely
     """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
     drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
-    for name, values, look in breakdown_lines(first, through):
-        key = "first_break" if values is first else "through_breakdown"
-        drawn += _curves(curves, key, name.replace("\n", " "), look)
+    for line in breakdown_lines(first, through):
+        drawn += _curves(curves, line.key, line.name.replace("\n", " "), line.look)
     critical, marked = critical_speed_of(curves), []
     if critical is not None:
         at = critical / RPM

@@ -239,9 +239,11 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
         left, right = new_panels(1, 2, (8.4, high))
         distribution(results, analysis, left)
         parts(results, analysis, right)
-        dropped = f"{analysis.dropped} of {analysis.rows} rows dropped: not solved"
-        doubtful = f"{analysis.doubtful} of {analysis.used} used rows have points that must not be used"
-        more = [dropped] * bool(analysis.dropped) + [doubtful] * bool(analysis.doubtful)
+        more = []
+        if analysis.dropped:
+            more.append(f"{analysis.dropped} of {analysis.rows} rows dropped: not solved")
+        if analysis.doubtful:
+            more.append(f"{analysis.doubtful} of {analysis.used} used rows have points that must not be used")
         name_figure(left, results, of_sensitivity(results, analysis), ", ".join(more))
     return figure_of(left)
 

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import about_share, unresolved_share
+from ehlectric.contact.touching import about_share, changed_share
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
@@ -89,7 +89,11 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
         share=about_share(share, coarser),
     )
     grid = "every second node with twice the time step"
-    yield from unresolved_share("the mean load share", share, coarser, found.share_change, (grid, grid))
+    what = "the mean load share"
+    if coarser is None:
+        yield ResultWarning.of("load-share-unresolved", what=what, before=f"is not known on {grid}")
+    else:
+        yield from changed_share(what, share, coarser, found.share_change, grid)
 
 
 def _passed(contact: TransientContact, surface: int) -> float:

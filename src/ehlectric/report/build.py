@@ -23,7 +23,7 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of
+from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of, lead_of
 from ehlectric.report.report_facts import alarms_of, cell_table, part_of, row_tables, warning_block
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.report.sweep_report import sweep_part
@@ -82,6 +82,8 @@ def _contact(result: Any) -> Part:
         result,
         kind=f"{result.case.contact.geometry} contact",
         command="run",
+        lead=lead_of(result),
+        verdict=result.verdict,
         numbers=tuple(row_tables(result_rows(result), "Overview")),
         details=details_of(summary, result.to_xarray().attrs.get("date", "")),
     )
@@ -93,6 +95,8 @@ def _motion(result: MotionResult) -> Part:
         result,
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
+        lead=lead_of(result),
+        verdict=None,
         unsolved=SENTENCES["ended_early"],
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
         details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
@@ -116,6 +120,8 @@ def _bearing(result: BearingResult) -> Part:
         result,
         kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
+        lead=lead_of(result),
+        verdict=result.verdict,
         numbers=tuple(row_tables(total_rows(summary), "Overview")),
         further=(contacts,),
         details=details_of(summary, ""),

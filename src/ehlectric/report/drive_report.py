@@ -85,14 +85,16 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
 def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
     """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
     first, second = case.bearings
-    alike = first == second and not apart
+    places = list(zip(ENDS, ENDS, case.bearings, strict=True))
+    if first == second and not apart:
+        places = [(BOTH, ENDS[0], first)]
     decides_strength = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
-    for name, end, bearing in zip((BOTH,) if alike else ENDS, ENDS, case.bearings, strict=False):
+    for name, end, bearing in places:
         given = flattened(bearing.to_dict())
-        decides = {key: why for key, why in TEXTS["decided_by_bearing"].items() if key in given}
-        decides |= {key: decides_strength for key in given if key.startswith("discharge.weibull.")}
-        for key, why in decides.items():
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", why
+        scatter = {key: decides_strength for key in given if key.startswith("discharge.weibull.")}
+        for key, why in (TEXTS["decided_by_bearing"] | scatter).items():
+            if key in given:
+                yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", why
         if any(key.startswith("discharge.strength_table.") for key in given):
             yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides_strength
 

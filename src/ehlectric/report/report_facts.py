@@ -9,12 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import figure, figure_names
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row
-from ehlectric.report.report_content import Part, Picture, Table, Text, WarningLine, Warnings, lead_of
+from ehlectric.report.report_content import (
+    Block,
+    Part,
+    Picture,
+    Section,
+    Table,
+    Text,
+    WarningLine,
+    Warnings,
+)
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 
 if TYPE_CHECKING:
@@ -141,21 +151,37 @@ def pictures_of(
         yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
 
 
-def part_of(result: Any, *, unsolved: str = SENTENCES["unsolved"], **further: Any) -> Part:
+def part_of(
+    result: Any,
+    *,
+    kind: str,
+    command: str,
+    lead: str,
+    verdict: Verdict | None,
+    numbers: tuple[Block, ...],
+    details: dict[str, str],
+    before: tuple[Section, ...] = (),
+    further: tuple[Section, ...] = (),
+    unsolved: str = SENTENCES["unsolved"],
+) -> Part:
     """Part of a report about a single result, with what is the same for all kinds of results.
 
-    ``unsolved`` is the sentence on a result that is not converged. ``further`` are the values of the kind of
-    result, by the attributes of ``Part``.
+    ``unsolved`` is the sentence on a result that is not converged; the others are attributes of ``Part``.
     """
-    shared = {
-        "lead": lead_of(result),
-        "failure": "" if result.converged else unsolved,
-        "verdict": getattr(result, "verdict", None),
-        "warnings": result.warnings,
-        "pictures": tuple(pictures_of(result, converged=result.converged)),
-        "toml": result.case.to_toml(),
-    }
-    return Part(**shared | further)
+    return Part(
+        kind=kind,
+        command=command,
+        lead=lead,
+        failure="" if result.converged else unsolved,
+        verdict=verdict,
+        warnings=result.warnings,
+        before=before,
+        numbers=numbers,
+        pictures=tuple(pictures_of(result, converged=result.converged)),
+        further=further,
+        details=details,
+        toml=result.case.to_toml(),
+    )
 
 
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:

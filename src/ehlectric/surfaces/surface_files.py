@@ -793,26 +793,33 @@ def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | N
     if any(content.startswith(magic) and mark in content for magic, mark in _WORKBOOKS):
         raise InputError(path, "is a workbook of a spreadsheet program; save the sheet as CSV")
     suffix = path.suffix.lower()
-    surface = None
     if suffix == ".x3p" or content.startswith(b"PK\x03\x04"):
-        heights = read_x3p(path, content)
+        surface = _of_map(path, read_x3p(path, content), x_unit, z_unit)
     elif suffix == ".al3d" or content.startswith(b"AliconaImaging"):
-        heights = read_al3d(path, content)
+        surface = _of_map(path, read_al3d(path, content), x_unit, z_unit)
     elif is_text(content):
-        try:
-            text = read_text(path, content, x_unit, z_unit)
-            surface = Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
-        except NoProfileError as error:
-            heights = _read_other(path, error.text)
+        surface = _of_text(path, content, x_unit, z_unit)
     else:
-        heights = _read_other(path)
-    if surface is None:
-        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-            if unit is not None:
-                raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
-        surface = Surface(*heights, str(path))
+        surface = _of_map(path, _read_other(path), x_unit, z_unit)
     _check_scale(surface)
     return surface
+
+
+def _of_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> Surface:
+    """Surface of a text: a profile, or another format that the package SurfaceTopography reads."""
+    try:
+        text = read_text(path, content, x_unit, z_unit)
+    except NoProfileError as error:
+        return _of_map(path, _read_other(path, error.text), x_unit, z_unit)
+    return Surface(text.heights[np.newaxis], text.spacing, None, str(path), text.warnings)
+
+
+def _of_map(path: Path, heights: HeightMap, x_unit: str | None, z_unit: str | None) -> Surface:
+    """Surface of a height map, whose file has units of its own. Raises InputError if a unit is given."""
+    for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
+        if unit is not None:
+            raise InputError(name, got=f"{unit!r}, but {path} is in a format that has its own unit")
+    return Surface(*heights, str(path))
 
 
 def _content(path: Path) -> bytes:

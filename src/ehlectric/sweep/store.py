@@ -122,10 +122,17 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
     rows = file.execute(
         f"SELECT {_COLUMNS_OF_POINTS} FROM points LEFT JOIN results USING (key) ORDER BY number"
     ).fetchall()
-    settings["case"] = case = case_of(settings, swept_case_of_dict)
-    settings["axes"] = {key: tuple(values) for key, values in settings["axes"].items()}
-    settings["ranges"] = {key: Range(**over) for key, over in settings["ranges"].items()}
-    results = SweepResults(points=tuple(_points(rows, case)), **settings)
+    case = case_of(settings, swept_case_of_dict)
+    results = SweepResults(
+        case=case,
+        design=settings["design"],
+        axes={key: tuple(values) for key, values in settings["axes"].items()},
+        ranges={key: Range(**over) for key, over in settings["ranges"].items()},
+        samples=settings["samples"],
+        points=tuple(_points(rows, case)),
+        seed=settings["seed"],
+        title=settings["title"],
+    )
     _check_design(results)
     return results
 
@@ -302,12 +309,19 @@ _VERSION = 1
 # Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
 _FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
 # Error codes of SQLite that say nothing of the content of a file, but that it is locked, or of its disk.
-_UNUSABLE = tuple(
-    getattr(sqlite3, f"SQLITE_{name}")
-    for name in (
-        *("PERM", "ABORT", "BUSY", "LOCKED", "READONLY", "INTERRUPT"),
-        *("IOERR", "FULL", "CANTOPEN", "PROTOCOL", "AUTH", "NOLFS"),
-    )
+_UNUSABLE = (
+    sqlite3.SQLITE_PERM,
+    sqlite3.SQLITE_ABORT,
+    sqlite3.SQLITE_BUSY,
+    sqlite3.SQLITE_LOCKED,
+    sqlite3.SQLITE_READONLY,
+    sqlite3.SQLITE_INTERRUPT,
+    sqlite3.SQLITE_IOERR,
+    sqlite3.SQLITE_FULL,
+    sqlite3.SQLITE_CANTOPEN,
+    sqlite3.SQLITE_PROTOCOL,
+    sqlite3.SQLITE_AUTH,
+    sqlite3.SQLITE_NOLFS,
 )
 
 # Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory

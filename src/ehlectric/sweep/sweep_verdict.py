@@ -151,12 +151,13 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     else:
         supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
         heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied
-        kinds = ["isothermal"] * (not heated) + ["fully flooded"] * (not supplied)
+        neglected = {"isothermal": not heated, "fully flooded": not supplied}
+        kinds = [kind for kind, holds in neglected.items() if holds]
     bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
-    varies = _strength_varies(results)
-    text = (
-        f"{bound}{'the dielectric strength is an assumption' if varies else assumption_of(case.discharge)}."
-    )
+    strength = assumption_of(case.discharge)
+    if _strength_varies(results):
+        strength = "the dielectric strength is an assumption"
+    text = f"{bound}{strength}."
     yield text[0].upper() + text[1:]
 
 

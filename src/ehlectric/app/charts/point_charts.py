@@ -248,16 +248,16 @@ def _film_map(result: PointResult) -> _Map:
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
     least = factor * film.minimum_thickness
     return _Map(
-        "film-map",
-        "Film thickness",
-        (film.x, film.y),
-        factor * film.thickness,
-        unit,
-        (least, max(highest, 1.001 * least)),
-        FILM_COLOURS,
-        film.minimum_position,
-        "" if touches(result) else f"minimum film, {least:.4g} {unit}",
-        f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
+        name="film-map",
+        title="Film thickness",
+        axes=(film.x, film.y),
+        values=factor * film.thickness,
+        unit=unit,
+        limits=(least, max(highest, 1.001 * least)),
+        colours=FILM_COLOURS,
+        mark=film.minimum_position,
+        marked="" if touches(result) else f"minimum film, {least:.4g} {unit}",
+        caption=f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
     )
 
 
@@ -267,15 +267,15 @@ def _pressure_map(result: PointResult) -> _Map:
     i, j = np.unravel_index(np.argmax(film.pressure), film.pressure.shape)
     most = factor * film.max_pressure
     return _Map(
-        "pressure-map",
-        "Pressure",
-        (film.x, film.y),
-        factor * film.pressure,
-        unit,
-        (0.0, most),
-        PRESSURE_COLOURS,
-        (float(film.x[i]), float(film.y[j])),
-        f"maximum pressure, {most:.4g} {unit}",
+        name="pressure-map",
+        title="Pressure",
+        axes=(film.x, film.y),
+        values=factor * film.pressure,
+        unit=unit,
+        limits=(0.0, most),
+        colours=PRESSURE_COLOURS,
+        mark=(float(film.x[i]), float(film.y[j])),
+        marked=f"maximum pressure, {most:.4g} {unit}",
     )
 
 
@@ -284,18 +284,19 @@ def _field_map(result: PointResult) -> _Map:
     scale = field_scale(result)
     factor, unit = unit_for(scale, "V/m")
     low = factor * _least_field(result)
+    below = f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
+    beyond = BEYOND if touches(result) else ""
     return _Map(
-        "field-map",
-        "Maximum field across the film",
-        (field.x, field.y),
-        factor * np.max(field.strength, axis=-1),
-        unit,
-        (low, factor * scale),
-        FIELD_COLOURS,
-        field.max_strength_position,
-        "" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
-        f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
-        + (f" {BEYOND}" if touches(result) else ""),
+        name="field-map",
+        title="Maximum field across the film",
+        axes=(field.x, field.y),
+        values=factor * np.max(field.strength, axis=-1),
+        unit=unit,
+        limits=(low, factor * scale),
+        colours=FIELD_COLOURS,
+        mark=field.max_strength_position,
+        marked="" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
+        caption=f"{below} {beyond}".strip(),
     )
 
 

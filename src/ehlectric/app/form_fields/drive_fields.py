@@ -178,13 +178,15 @@ _TITLES = {
 }
 _OPENED = ("Bearing", "Operation")
 
+# Groups of the page of a bearing by their titles.
+_OF_BEARING = {group.title: group for group in BEARING_GROUPS}
+
 
 def _bearing(end: str, name: str) -> Iterator[Group]:
     """Groups of the bearing at an end; a drive needs a strength, so that its group is always on."""
-    for group in BEARING_GROUPS:
-        if group.title not in _TITLES:
-            continue
-        title, fields = f"{name}: {_TITLES[group.title]}", tuple(_fields_at(group, end))
+    for bearing_title, words in _TITLES.items():
+        group = _OF_BEARING[bearing_title]
+        title, fields = f"{name}: {words}", tuple(_fields_at(group, end))
         opened = group.title in _OPENED and end == DRIVE_END
         found = group_at(group, end, title, fields, opened=opened)
         if group.title == "Breakdown":
@@ -213,5 +215,5 @@ DRIVE_GROUPS = (
     *_bearing(DRIVE_END, "Drive end"),
     OTHER,
     *_bearing(NON_DRIVE_END, "Non-drive end"),
-    BEARING_GROUPS[-1],
+    _OF_BEARING["Title"],
 )
