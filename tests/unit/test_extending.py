@@ -3,7 +3,6 @@
 import math
 import re
 import shutil
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,8 +12,8 @@ from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
+from ehlectric.contact import solver
 from ehlectric.contact.conditions import resolve
-from ehlectric.contact.contact_kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line, film_point
@@ -298,14 +297,14 @@ def test_the_map_names_files_and_tests_that_are_there():
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
     """A code in the list, and a generator that gives it: results, summary and files carry it."""
     monkeypatch.setattr(errors, "CODES", {**errors.CODES, "fast": errors.Cause("The contact is fast.")})
-    before = LINE.case_warnings
+    before = solver.case_warnings
 
     def case_warnings(setup, conditions):
         yield from before(setup, conditions)
         if conditions.entrainment_speed > 3.0:
             yield ResultWarning("fast", f"the surfaces move at {conditions.entrainment_speed:g} m/s")
 
-    monkeypatch.setitem(KINDS, "line", replace(LINE, case_warnings=case_warnings))
+    monkeypatch.setattr(solver, "case_warnings", case_warnings)
     fast = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 801}})
     summary = solve(fast).summary()
     told = dict(zip(summary["warning_codes"], summary["warnings"], strict=True))

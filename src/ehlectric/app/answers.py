@@ -309,7 +309,7 @@ class Result:
     text: str  # value as shown, without its unit
     unit: str = ""
     note: str = ""
-    bound: str = ""  # sign of the bound where the number is one only
+    bound: str = ""  # "≤" for an upper bound, "≥" for a lower one; empty otherwise
     main: bool = False
     # Dotted key of the quantity, by which results are compared; empty for a result that has none.
     key: str = ""
@@ -470,7 +470,7 @@ class Number:
     text: str  # the number as it is shown, or why there is none
     unit: str = ""
     note: str = ""  # what a reader must know of the number
-    bound: str = ""  # sign of the bound where the value is one only
+    bound: str = ""  # "≤" for an upper bound, "≥" for a lower one; empty otherwise
     known: bool = True
     warnings: tuple[PageWarning, ...] = ()
 

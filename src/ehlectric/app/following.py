@@ -16,7 +16,7 @@ _QUIET = 0.3
 
 
 class OnlyLast:
-    """Coroutine function that runs once at a time: of the calls meanwhile only the last waits."""
+    """Coroutine function that runs one call at a time; of the calls made meanwhile only the last is kept."""
 
     def __init__(self, run: Callable[..., Awaitable[None]]) -> None:
         self._run = run

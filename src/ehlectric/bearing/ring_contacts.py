@@ -119,7 +119,7 @@ class RingContacts(Generic[G_co]):
 class BallContact:
     """Contact of a ball with a ring under a load."""
 
-    length: ClassVar[float] = 1.0  # by which results of a line contact, which are per length, are multiplied
+    length: ClassVar[float] = 1.0  # results of a point contact are not per length
 
     ring: RingContacts[BallBearing]
     load: float  # [N]

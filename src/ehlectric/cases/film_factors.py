@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-# Probability of the interval, and degrees of freedom of a standard deviation that is known.
-CONFIDENCE, _MANY = 0.95, 1e9
+CONFIDENCE = 0.95  # probability of an interval
+# Degrees of freedom of a standard deviation that is known.
+_KNOWN = 1e9
 
 # Texts that say where the statistical part of an interval is from.
 STATED, RAISED, SCATTER = "stated uncertainty", "stated uncertainty, raised to the scatter", "scatter only"
@@ -90,7 +91,7 @@ def mean_factor(
         scatter = math.sqrt(float(np.sum(((logs - mean) / stated) ** 2)) / (n - 1)) if n > 1 else None
         raised = scatter is not None and scatter > 1.0
         statistical = own * (scatter or 1.0) if raised else own
-        basis, degrees = RAISED if raised else STATED, _MANY
+        basis, degrees = RAISED if raised else STATED, _KNOWN
     parts = [float(np.vdot(weights, change)) for change in (shared or {}).values()]
     systematic = math.hypot(*parts) if parts else 0.0
     low, high = _interval(mean, statistical, systematic, degrees)
@@ -104,7 +105,7 @@ def _interval(
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide, normal = (float(student.ppf(at, one)) for one in (degrees, _MANY))
+    wide, normal = (float(student.ppf(at, one)) for one in (degrees, _KNOWN))
     half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 

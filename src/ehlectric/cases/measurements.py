@@ -201,7 +201,7 @@ def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[
 
 def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> MeasuredCapacitance:
     """Parallel capacitance of all rows of a measurement, with its uncertainty. Columns of the measurement
-    count more than ``uncertainty``. Raises InputError if the measurement has neither, or has both.
+    are used in place of ``uncertainty``. Raises InputError if the measurement has neither, or has both.
     """
     if measured.has("capacitance") and measured.has("impedance"):
         raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")

@@ -68,7 +68,7 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
 
 
 # Functions of the oil's relative permittivity and the oil fraction that give the relative permittivity of the
-# gap, shape (...), by the name of the filling: oil alone; fingers of oil from wall to wall with gas between
+# gap, by the name of the filling: oil alone; fingers of oil from wall to wall with gas between
 # them, in parallel; layers of oil on the walls with gas between them, in series.
 OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
     "full": lambda permittivity, _fraction: permittivity,

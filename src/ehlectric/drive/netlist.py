@@ -38,9 +38,10 @@ from ehlectric.version import __version__
 # Beginning of the first line of every file that is written here, by which it is recognised.
 SIGNATURE = "* ehlectric "
 
-# Meanings, notes and test benches, and the width of a comment [characters].
+# Meanings, notes and test benches.
 TEXTS = data_file("ehlectric.drive", "netlist_texts.toml")
-_WIDTH = 100
+
+_WIDTH = 100  # of a comment [characters]
 
 # Letters that texts of ehlectric have, in ASCII: not every simulator reads UTF-8.
 _LETTERS = str.maketrans(

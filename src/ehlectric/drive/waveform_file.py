@@ -129,7 +129,8 @@ def clipped_levels(values: Array) -> dict[float, int]:
 
     A plateau with noise touches its extremes in short runs only. A waveform without any noise that consists
     of its two extremes and a few samples between them is taken for a computed square wave, not for a clipped
-    one. The voltages are not constant, shape (n,). The numbers are by voltage [V].
+    one. ``values`` are voltages [V], shape (n,), not all equal. Returns the number of samples at each clipped
+    voltage [V]; empty where nothing is clipped.
 
     Examples
     --------

@@ -461,7 +461,7 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax.set_ylabel(r"magnitude $|Z|$ [Ω]")
     low, high = INVERTER
     text = "switching frequency to voltage edges\nof a common inverter"
-    note(ax, (low * high) ** 0.5, 0.95, text, unit="x", ha="center", va="top", color=ORANGE)
+    note(ax, (low * high) ** 0.5, 0.95, text, data_axis="x", ha="center", va="top", color=ORANGE)
     for at in read_at(result):
         value = magnitude_at(_impedance(result), at)
         ax.plot([at], [value], ls="none", marker="o", ms=4.5, color=BLUE)
@@ -533,7 +533,7 @@ def _over_frequency(result: BearingResult, ax: Axes) -> None:
     if impedance.corner > _NOTED:
         ax.axvline(impedance.corner, color=GREY, lw=0.9, ls="--")
         text = f" corner of the oil alone,\n $1/(2\\pi\\tau)$ = {prefixed(impedance.corner, 'Hz')}"
-        note(ax, impedance.corner, 0.04, text, unit="x", color=GREY)
+        note(ax, impedance.corner, 0.04, text, data_axis="x", color=GREY)
     _mark_period(result, ax)
     ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))
     ax.grid(color="0.9", lw=0.6)
@@ -549,7 +549,7 @@ def _mark_period(result: BearingResult, ax: Axes) -> None:
     text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(time, 's')}"
     if ax.get_yscale() == "log":
         # Above the name of the corner frequency, and in the upper panel only.
-        note(ax, at, 0.24, text, unit="x", color=ORANGE)
+        note(ax, at, 0.24, text, data_axis="x", color=ORANGE)
 
 
 def _low(impedance: Impedance) -> float:

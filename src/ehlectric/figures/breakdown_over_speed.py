@@ -80,7 +80,7 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
     at = units.rpm(critical)
     inside = (ax.transData + ax.transAxes.inverted()).transform((at, 1.0))[0] < _RIGHTMOST
     side = "left" if inside else "right"
-    note(ax, at, 0.03, f" {rpm_text(critical)} ", unit="x", ha=side, va="bottom", color=ORANGE)
+    note(ax, at, 0.03, f" {rpm_text(critical)} ", data_axis="x", ha=side, va="bottom", color=ORANGE)
 
 
 def rpm_text(speed: float) -> str:

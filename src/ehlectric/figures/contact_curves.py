@@ -226,7 +226,7 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)
         look: dict[str, Any] = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
-        note(ax, 1e3 * edge, 0.98, f" {name}", unit="x", **look)
+        note(ax, 1e3 * edge, 0.98, f" {name}", data_axis="x", **look)
     ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
     ax.set_xlim(at[0], at[-1])
     ax.xaxis.set_major_formatter("{x:g}")

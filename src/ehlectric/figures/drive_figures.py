@@ -234,8 +234,9 @@ def time_above(result: DriveResult, ax: Axes) -> None:
         ax.plot(factor * edges[known], values[known], color=COLOURS[b], lw=1.1, ls=("-", (0, (5, 2)))[b])
         above = 100.0 * record.above[b] / record.duration
         seen = above > 0.0
-        mark: dict[str, Any] = ({"marker": "o", "ms": 8.0, "mfc": "white"}, {"marker": "s", "ms": 4.0})[b]
-        ax.plot(factor * record.limits[seen], above[seen], color=COLOURS[b], ls="none", **mark)
+        marker, size, face = (("o", 8.0, "white"), ("s", 4.0, COLOURS[1]))[b]
+        at = factor * record.limits[seen]
+        ax.plot(at, above[seen], color=COLOURS[b], ls="none", marker=marker, ms=size, mfc=face)
     _log_share(ax, shares)
     for volts in _breakdowns(result):
         ax.axvline(factor * volts, **THRESHOLD)
@@ -381,7 +382,7 @@ def energies(result: DriveResult, ax: Axes) -> None:
                     [factor * end["energy_mean"]], [_place(row, b)], marker="os"[b], color=COLOURS[b], ms=5.0
                 )
         if not any(end["events"] for end in pair):
-            note(ax, 0.03, row, "no discharge", unit="y", va="center", color=GREY)
+            note(ax, 0.03, row, "no discharge", data_axis="y", va="center", color=GREY)
     positive = [factor * value for value in found if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
         _log_axis(ax.xaxis, 0.5 * min(positive), 2.0 * max(positive), ticks=5)

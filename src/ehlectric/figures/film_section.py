@@ -97,7 +97,8 @@ def fill_section(
 ) -> ContourSet:
     """Fill the gap between two walls with the colours of values, and draw the walls.
 
-    The arguments are those of ``draw_section``.
+    ``colours`` is the name of a colour map, whose ends are at ``limits``. With ``under``, values below them
+    are left without colour.
     """
     along = np.broadcast_to(x[:, np.newaxis], heights.shape)
     levels = np.linspace(*limits, 401)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -109,7 +108,7 @@ def _values(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
             ax.fill_between(at, *ends, color=BLUE, alpha=0.18, lw=0.0)
         text = f"computed, film factor {factors.mean.value:.3g}"
         ax.plot(at, factor * columns["fitted"][order][fitted], color=BLUE, label=text)
-    _dots(scale, ax, measured, columns.get(f"{key}_uncertainty"), factor)
+    _dots(scale, ax, measured, columns.get(f"{key}_uncertainty"), factor, "measured")
     shown = np.concatenate([measured, factor * columns["computed"]])
     log = is_wide(shown)
     name = "capacitance" if electric else "central film thickness"
@@ -135,9 +134,12 @@ def _factors(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
     ax.set_ylabel("film factor")
 
 
-def _dots(scale: _Scale, ax: Axes, values: Array, error: Array | None, factor: float = 1.0) -> None:
+def _dots(
+    scale: _Scale, ax: Axes, values: Array, error: Array | None, factor: float = 1.0, label: str = ""
+) -> None:
     """Draw measured values with the bars of their 95 % intervals, and label the lower axis."""
     bars = None if error is None else _TWO_SIDED * factor * error
-    look: dict[str, Any] = {"color": ORANGE, "ls": "none", "marker": "o", "ms": 3.5, "lw": 0.9}
-    ax.errorbar(scale.values, values, yerr=bars, label="measured", **look)
+    ax.errorbar(
+        scale.values, values, yerr=bars, color=ORANGE, ls="none", marker="o", ms=3.5, lw=0.9, label=label
+    )
     scale_axis(ax.xaxis, scale.text, values=scale.values, log=scale.log)

@@ -153,12 +153,19 @@ def outlined(width: float, colour: str = "white") -> list[AbstractPathEffect]:
     return [cast("AbstractPathEffect", withStroke(linewidth=width, foreground=colour))]
 
 
-def note(ax: Axes, x: float, y: float, text: str, *, unit: str = "", **look: Any) -> None:
-    """Write a small text at a place in parts of the axes; ``unit`` names an axis, "x" or "y", of whose unit
-    the position along it is.
-    """
+def note(
+    ax: Axes,
+    x: float,
+    y: float,
+    text: str,
+    *,
+    data_axis: str = "",
+    fontsize: float | str = "small",
+    **look: Any,
+) -> None:
+    """Write a small text at a place in parts of the axes; along ``data_axis``, "x" or "y", in data units."""
     places = {"": ax.transAxes, "x": ax.get_xaxis_transform(), "y": ax.get_yaxis_transform()}
-    ax.text(x, y, text, transform=places[unit], **({"fontsize": "small"} | look))
+    ax.text(x, y, text, transform=places[data_axis], fontsize=fontsize, **look)
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

@@ -19,7 +19,7 @@ from ehlectric.film.film_error import (
     upstream_deficits,
 )
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import filled_state, levels_of, nested_iteration, on_grid
+from ehlectric.film.nested import filled_state, grid_problem, levels_of, nested_iteration
 from ehlectric.film.newton import GridSolution, Progress, State
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
@@ -334,10 +334,10 @@ def _flooded_on_grids(
     problem: FilmProblem, flooded: list[GridSolution], coarsest: int
 ) -> list[tuple[FilmProblem, GridSolution]]:
     """Problem and flooded film on each grid with more nodes than ``coarsest``, from the coarsest on."""
-    on_grid = {solution.level.nodes: solution for solution in flooded}
+    by_nodes = {solution.level.nodes: solution for solution in flooded}
     grids = []
-    while problem.nodes in on_grid and problem.nodes > coarsest:
-        grids.append((problem, on_grid[problem.nodes]))
+    while problem.nodes in by_nodes and problem.nodes > coarsest:
+        grids.append((problem, by_nodes[problem.nodes]))
         problem = problem.halved()
     return grids[::-1]
 
@@ -349,7 +349,7 @@ def _starved_problem(
     levels = levels_of(problem)
     mesh = levels[0].mesh
     return StarvedProblem(
-        on_grid(problem, levels, progress, finest=finest, times=_MORE),
+        grid_problem(problem, levels, progress, finest=finest, times=_MORE),
         order=problem.wedge_order,
         flooded=flooded,
         dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),

@@ -30,7 +30,7 @@ from ehlectric.film.film_solver import RefinedSolution, refined_solution
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.nested import interpolated_state, levels_of, on_grid
+from ehlectric.film.nested import grid_problem, interpolated_state, levels_of
 from ehlectric.film.newton import GridProblem, GridSolution, NewtonStep, Progress, State, Status, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
@@ -85,7 +85,7 @@ class OuterIteration:
     """Outer iteration on one grid."""
 
     problem: FilmProblem
-    on_grid: GridProblem  # grid, coarser grids of its preconditioner, and stopping rule of the film
+    posed: GridProblem  # grid, coarser grids of its preconditioner, and stopping rule of the film
     finer: int  # number of finer grids that follow
     # Whether properties are evaluated again at the pressure of each film, and changes count as they are and
     # not as parts of a geometric sequence: slower, and it converges for hotter films.
@@ -101,7 +101,7 @@ class OuterIteration:
     @property
     def level(self) -> Level:
         """Grid of the film."""
-        return self.on_grid.level
+        return self.posed.level
 
     @property
     def physics(self) -> Physics:
@@ -156,7 +156,7 @@ class OuterIteration:
         """
         flow = self.flow(state, heat)
         fluid = replace(self.problem.fluid, flow=flow)
-        posed = replace(self.on_grid, fluid=fluid, tolerance=tolerance, max_iterations=steps)
+        posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if filled is None:
             line = self.problem.width is None
             solution = newton(posed, state, min_iterations=1, eliminate_spike=spike and line)
@@ -232,7 +232,7 @@ class OuterIteration:
             if filled is not None:
                 most *= _CARRYING
             solution, flow, _ = self.film(
-                state, None, steps=most, tolerance=self.on_grid.tolerance, spike=spike, filled=filled
+                state, None, steps=most, tolerance=self.posed.tolerance, spike=spike, filled=filled
             )
             return HeatedGrid(solution, None, flow, 0)
         heat = self.start(thermal) if heat is None else heat
@@ -242,7 +242,7 @@ class OuterIteration:
         rises, films, central, ends = list[float](), list[float](), np.inf, False
         for loop in range(_LOOPS):
             steps, tolerance = (
-                (most, self.on_grid.tolerance) if ends else (_STEPS, max(self.on_grid.tolerance, _LOOSE))
+                (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, _LOOSE))
             )
             if filled is not None:
                 steps *= _CARRYING
@@ -581,7 +581,7 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmPr
 
 def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
     """Outer iteration on the grid of a problem."""
-    posed = on_grid(problem, levels_of(problem), progress, finest=finer == 0)
+    posed = grid_problem(problem, levels_of(problem), progress, finest=finer == 0)
     return OuterIteration(problem, posed, finer)
 
 

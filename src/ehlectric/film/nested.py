@@ -132,7 +132,7 @@ def _conserving(
 
     ``times`` multiplies the largest number of Newton steps of a film.
     """
-    posed = on_grid(problem, levels, progress, times=times)
+    posed = grid_problem(problem, levels, progress, times=times)
     return conserving_film(posed, start, problem.wedge_order)
 
 
@@ -167,7 +167,7 @@ def _mixed(
     elif coarse is not None:
         near = interpolated_state(level, coarse)
     finest = level.nodes == problem.nodes
-    posed = on_grid(problem, levels, progress, times=_MIXED if finest else _MIXED_COARSE)
+    posed = grid_problem(problem, levels, progress, times=_MIXED if finest else _MIXED_COARSE)
     # A film whose surfaces touch needs all grids.
     posed = replace(posed, levels=levels)
     conserving = Conserving(posed, problem.asperities, problem.wedge_order)
@@ -242,7 +242,7 @@ def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     return grids
 
 
-def on_grid(
+def grid_problem(
     problem: FilmProblem,
     levels: list[Level],
     progress: Progress | None,
@@ -252,8 +252,9 @@ def on_grid(
 ) -> GridProblem:
     """Film to be solved on the first of ``levels``, with ``times`` the number of Newton steps of the problem.
 
-    The tolerance is that of the problem on its own grid or, if ``finest`` is given, where that is true, and
-    larger on coarser grids. A small line contact is solved directly, without coarser grids.
+    The finest grid has the tolerance of the problem; coarser grids have a larger one. ``finest`` says whether
+    this is the finest grid; by default, the grid with the problem's number of nodes is. A small line contact
+    is solved directly, without coarser grids.
     """
     finest = levels[0].nodes == problem.nodes if finest is None else finest
     tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
@@ -305,7 +306,7 @@ def _newton_on(
     """
     return partial(
         newton,
-        on_grid(problem, levels, progress),
+        grid_problem(problem, levels, progress),
         # The residual of an interpolated film may be small although the film is that of the coarser grid.
         min_iterations=1,
         # The spike of a point contact is a ridge, of which no single line can be solved separately.

@@ -133,7 +133,7 @@ class StarvedFilm:
 class StarvedProblem:
     """Starved film to be solved on one grid, with the flooded film."""
 
-    on_grid: GridProblem  # lubricant, grids and stopping rule
+    posed: GridProblem  # lubricant, grids and stopping rule
     order: int  # order of the wedge term where the film is filled
     flooded: GridSolution
     dry_pressure: Array  # Hertz pressure P, shape (nx, ny)
@@ -141,7 +141,7 @@ class StarvedProblem:
     @property
     def level(self) -> Level:
         """Grid to solve on."""
-        return self.on_grid.level
+        return self.posed.level
 
     @property
     def flooded_mass(self) -> float:
@@ -175,7 +175,7 @@ class StarvedProblem:
 
     def _newton(self, layer: Array, state: State, filled: Mask) -> StarvedFilm:
         supply = Supply(self.flooded.final.coefficients.density[0] * layer, self.order)
-        return StarvedFilm(*starved_newton(self.on_grid, state, filled, supply), layer)
+        return StarvedFilm(*starved_newton(self.posed, state, filled, supply), layer)
 
     def _from_flooded(self, layer: Array) -> tuple[State, Mask]:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""
@@ -184,7 +184,7 @@ class StarvedProblem:
 
     def _from_dry(self, layer: Array) -> tuple[State, Mask]:
         """Dry contact at a distance as large as the layer."""
-        pressure = np.maximum(self.dry_pressure, self.on_grid.fluid.ambient_pressure)
+        pressure = np.maximum(self.dry_pressure, self.posed.fluid.ambient_pressure)
         state = State.of(self.level, pressure, 0.0)
         return self._lowered(layer, state, self.level.mesh.inner)
 

@@ -77,8 +77,8 @@ class Companion:
     def after(self, step: int, history: History | None) -> History | None:
         """Films of the companion after a step of the run, from its ``history`` before.
 
-        They are those of the history after a step between two steps of the companion. None where a step of
-        the companion does not converge, now or before.
+        Between two steps of the companion its films are returned unchanged. None if the companion does not
+        converge, now or before.
         """
         if history is None or step % STRIDE:
             return history

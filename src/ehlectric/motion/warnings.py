@@ -83,7 +83,7 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
     share, coarser = found.mean_share, found.coarser
     yield ResultWarning.of(
         "asperities-touch",
-        "moving" if found.filled else "short run",
+        "moving" if found.filled else "short_run",
         percent=100.0 * found.time_share,
         steps=found.steps,
         share=about_share(share, coarser),

@@ -264,6 +264,10 @@ class Group:
     when: When = always  # whether the group belongs to given inputs
 
 
+# Note of a group whose first values are assumptions.
+_ASSUMED = "The first values are assumptions: replace them with your own."
+
+
 def group_of(
     form_name: str,
     title: str,
@@ -271,10 +275,10 @@ def group_of(
     lists: Mapping[str, When] = MappingProxyType({}),
     **more: Any,
 ) -> Group:
-    """Group of a form as the book has it, each field after the list of alternatives that stands before it.
+    """Group of a form of ``form_fields.toml``, each field after the list of alternatives that precedes it.
 
-    ``shown`` has for the key of a field what the book does not have of it, such as the condition under which
-    it is shown; ``lists`` the conditions of lists of alternatives by the key before which they stand.
+    ``shown`` has further attributes of fields by their keys, such as when a field is shown; ``lists`` has the
+    condition under which each list of alternatives is shown.
     """
     fields: list[Field] = []
     for key in form(form_name)[title]:
@@ -282,7 +286,10 @@ def group_of(
             if name in form_data("alternatives"):
                 fields.append(list_of_ways(name, lists.get(key, always)))
         fields.append(field_of(key, **shown.get(key, {})))
-    return Group(title, tuple(fields), **(form_data("groups").get(title, {}) | more))
+    about = dict(form_data("groups").get(title, {}))
+    if about.pop("assumed", False):
+        about["note"] = f"{_ASSUMED} {about.get('note', '')}".strip()
+    return Group(title, tuple(fields), **(about | more))
 
 
 # Most digits of a number in a box; one with more, such as that of a point of a sweep, is rounded there.
