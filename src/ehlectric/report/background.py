@@ -220,7 +220,7 @@ _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name
 
 
 def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
-    """Varied keys, with the keys of both bearings that one stands for; and whether one bearing varies alone."""
+    """Varied keys, with the keys of both bearings that one stands for; whether only one bearing varies."""
     keys = {one for key in varied for one in (key, *of_both_ends(key))}
     return keys, any(end_and_key(key)[0] in ENDS for key in varied)
 
