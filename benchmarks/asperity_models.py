@@ -95,7 +95,7 @@ class Surface:
             undeformed=undeformed,
             pressed=surface_moments(Map(band.spacing_x, band.spacing_y, pressed)),
             modulus=point.reduced_modulus,
-            pressure=conditions.total_load / zone,
+            pressure=conditions.carried_load / zone,
             zone=zone,
             masjedi_khonsari=share.asperity_share,
         )

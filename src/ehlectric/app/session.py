@@ -108,8 +108,7 @@ class Session:
         self.work = work.share()
         self.history = History(inputs)
         self._server = work
-        # Temporary folder; None where the session has none yet, and so no uploaded files.
-        self.made_folder: Path | None = None
+        self._folder: Path | None = None
         self._closed = False
         # Names that users gave to uploaded files, and sizes of files that are being stored [bytes], by path.
         self._names: dict[str, str] = {}
@@ -121,6 +120,11 @@ class Session:
         return self.history.now
 
     @property
+    def made_folder(self) -> Path | None:
+        """Temporary folder of the session; None where it has none yet, and so no uploaded files."""
+        return self._folder
+
+    @property
     def folder(self) -> Path:
         """Temporary folder of the session, which only this user can read; made when first used.
 
@@ -128,9 +132,9 @@ class Session:
         """
         if self._closed:
             raise LostError("the page was closed")
-        if self.made_folder is None:
-            self.made_folder = self._server.scratch.new()
-        return self.made_folder
+        if self._folder is None:
+            self._folder = self._server.scratch.new()
+        return self._folder
 
     def name_of(self, file: str) -> str:
         """Name of a file as its user knows it."""
@@ -168,6 +172,6 @@ class Session:
         """End the jobs, and remove the folder."""
         self._closed = True
         self.work.close()
-        if self.made_folder is not None:
-            shutil.rmtree(self.made_folder, ignore_errors=True)
-            self.made_folder = None
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder = None

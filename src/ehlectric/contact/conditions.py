@@ -137,6 +137,11 @@ class SharedConditions(ABC):
         """Reduced radius along entrainment [m]."""
 
     @property
+    @abstractmethod
+    def carried_load(self) -> float:
+        """Load [N]; of a line contact, load per length [N/m]."""
+
+    @property
     def velocity_parameter(self) -> float:
         """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
@@ -187,7 +192,7 @@ class Conditions(SharedConditions):
         return self.reduced_radius
 
     @property
-    def total_load(self) -> float:
+    def carried_load(self) -> float:
         """Load per length [N/m]."""
         return self.load_per_length
 
@@ -234,7 +239,7 @@ class PointConditions(SharedConditions):
         return self.radius_x
 
     @property
-    def total_load(self) -> float:
+    def carried_load(self) -> float:
         """Load [N]."""
         return self.load
 

@@ -142,8 +142,17 @@ def _chart(results: SweepResults, shown: str) -> Chart:
         if value is not None and not point.doubtful
     ]
     scale = _scale(label.unit, usable)
+    inputs = {key: (named(key, results.case), _input_scale(results, key)) for key in results.varied}
     points = tuple(
-        _point(results, point, scale, shown, row) for point, row in zip(results.points, rows, strict=True)
+        _point(
+            point,
+            value,
+            margin=_margin(row, about),
+            limit=_limit(row, about, shown),
+            named_scale=(name, scale),
+            inputs=inputs,
+        )
+        for point, value, row in zip(results.points, values, rows, strict=True)
     )
     critical = f"margin 1: {about.name} = {about.voltage_name}"
     some = any(point.margin is not None for point in points)
@@ -190,19 +199,30 @@ def _margin(row: Mapping[str, Any], about: Breakdown) -> float | None:
     return float(value / voltage) if is_number(value) and is_number(voltage) and voltage else None
 
 
+def _limit(row: Mapping[str, Any], about: Breakdown, shown: str) -> float | None:
+    """Value at which a point breaks down: the voltage beside a breakdown voltage, 1 beside a margin."""
+    if shown == about.value:
+        return row.get(about.voltage)
+    return 1.0 if shown == about.margin else None
+
+
 def _point(
-    results: SweepResults, point: Point, scale: Scale, shown: str, row: Mapping[str, Any]
+    point: Point,
+    value: float | None,
+    *,
+    margin: float | None,
+    limit: float | None,
+    named_scale: tuple[str, Scale],
+    inputs: Mapping[str, tuple[str, Scale]],
 ) -> ChartPoint:
-    """Point of a chart of a value, of which ``row`` has the numbers of its summary."""
-    about = breakdown_of(results.case, shown)
-    value, margin = row.get(shown) if is_number(row.get(shown)) else None, _margin(row, about)
-    state = _state(point, value)
-    texts = [
-        f"{named(key, results.case)}: {_input_scale(results, key).text(item)}"
-        for key, item in point.inputs.items()
-    ]
+    """Point of a chart of a value, with the names and scales of the value and of the inputs."""
+    state, (name, scale) = _state(point, value), named_scale
+    texts = []
+    for key, item in point.inputs.items():
+        label, of_input = inputs[key]
+        texts.append(f"{label}: {of_input.text(item)}")
     if value is not None and state == "solved":
-        texts.append(f"{named(shown, results.case)}: {scale.text(float(value))}")
+        texts.append(f"{name}: {scale.text(float(value))}")
         texts += [] if margin is None else [f"Margin: {margin:.3g}"]
     else:
         texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
@@ -211,9 +231,6 @@ def _point(
     texts += [f"and {len(serious) - _MOST_WARNINGS} more warnings"] if len(serious) > _MOST_WARNINGS else []
     if value is None or state != "solved":
         return ChartPoint(point.number, state, tuple(texts))
-    limit = row.get(about.voltage) if shown == about.value else None
-    if shown == about.margin and margin is not None:
-        limit = 1.0
     voltage = None if limit is None else float(scale.of(limit))
     return ChartPoint(point.number, state, tuple(texts), float(scale.of(value)), margin, voltage)
 
