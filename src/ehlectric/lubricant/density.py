@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +15,16 @@ from ehlectric.lubricant.law import Law, parameters_of, required
 # Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
 # no contact compresses a liquid to its half.
 LEAST_VOLUME = 0.5
+
+
+class TaitState(TypedDict):
+    """Parameters of ``tait``, which laws take that follow its volume."""
+
+    tait_k0_prime: float
+    tait_k00: float
+    tait_beta_k: float
+    tait_expansion: float
+    reference_temperature: float
 
 
 def tait(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.density import LEAST_VOLUME, tait, tait_pressure
+from ehlectric.lubricant.density import LEAST_VOLUME, TaitState, tait, tait_pressure
 from ehlectric.lubricant.law import (
     GLASS_VISCOSITY,
     Law,
@@ -31,7 +32,7 @@ def doolittle(
     doolittle_b: float,
     doolittle_r0: float,
     doolittle_epsilon: float,
-    **state: float,
+    **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Doolittle's free-volume law, and its derivative by pressure.
 
@@ -87,7 +88,7 @@ class _Doolittle:
         doolittle_b: float,
         doolittle_r0: float,
         doolittle_epsilon: float,
-        **state: float,
+        **state: Unpack[TaitState],
     ) -> None:
         self.viscosity, self.epsilon = doolittle_viscosity, doolittle_epsilon
         self.b, self.r0, self.state = doolittle_b, doolittle_r0, state
@@ -140,7 +141,7 @@ def doolittle_ambient(
     doolittle_b: float,
     doolittle_r0: float,
     doolittle_epsilon: float,
-    **state: float,
+    **state: Unpack[TaitState],
 ) -> Array:
     """Viscosity at zero pressure after Doolittle's free-volume law.
 

@@ -8,20 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.density import tait
+from ehlectric.lubricant.density import TaitState, tait
 from ehlectric.lubricant.law import Law, parameters_of, required
 
 # Largest pressure [Pa] and temperature [K] of the measurements behind the laws of Larsson et al.
 LARSSON_PRESSURE, LARSSON_TEMPERATURE = 1.1e9, 380.15
 
 
-def volume(pressure: ArrayLike, temperature: Array, state: dict[str, float]) -> tuple[Array, Array]:
+def volume(pressure: ArrayLike, temperature: Array, state: TaitState) -> tuple[Array, Array]:
     """Volume over that at zero pressure and the reference temperature, and its derivative by pressure."""
     ratio, slope = tait(pressure, temperature, **state)
     ambient = 1.0 + state["tait_expansion"] * (temperature - state["reference_temperature"])
@@ -97,7 +98,7 @@ def scaled_thermal_conductivity(
     scaling_k_exponent: float,
     scaling_a: float,
     scaling_q: float,
-    **state: float,
+    **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Thermal conductivity as a function of temperature and volume, and its derivative by pressure.
 
@@ -223,7 +224,7 @@ def scaled_heat_capacity(
     scaling_c_base: float,
     scaling_c_factor: float,
     scaling_c_exponent: float,
-    **state: float,
+    **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity as a function of temperature and volume, and its derivative by pressure.
 

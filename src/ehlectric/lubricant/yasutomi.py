@@ -79,9 +79,12 @@ def yasutomi_viscosity(
     *,
     yasutomi_glass_viscosity: float,
     yasutomi_glass_temperature: float,
+    yasutomi_a1: float,
+    yasutomi_a2: float,
+    yasutomi_b1: float,
+    yasutomi_b2: float,
     yasutomi_c1: float,
     yasutomi_c2: float,
-    **_others: float,
 ) -> Array:
     """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
 

@@ -115,8 +115,17 @@ def test_parameters_of_an_entry_are_the_keywords_of_its_functions(law):
     passed_on = {one.name for one in density.TAIT.parameters} if len(own) < len(keywords) else set()
     assert own | passed_on == names
     assert len(own) + len(passed_on) == len(names)
+    given = dict.fromkeys(names, 1.0)
+    if law.atmospheric is not None:
+        signature(law.atmospheric).bind(300.0, **given)
     if law.warnings is not None:
-        signature(law.warnings).bind(1e9, 0.01, 300.0, **dict.fromkeys(names, 1.0))
+        signature(law.warnings).bind(1e9, 0.01, 300.0, **given)
+        keywords = signature(law.warnings).parameters.values()
+        assert {keyword.name for keyword in keywords if keyword.kind is Kind.KEYWORD_ONLY} <= names
+
+
+def test_the_state_that_laws_pass_on_is_that_of_tait():
+    assert set(density.TaitState.__annotations__) == {one.name for one in density.TAIT.parameters}
 
 
 def test_a_name_means_one_parameter():
