@@ -295,14 +295,16 @@ def test_the_map_names_files_and_tests_that_are_there():
 
 
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
-    """A code in the list, and a generator that gives it: results, summary and files carry it."""
+    """A code and its text in the lists, and a generator that gives it: the summary carries it."""
+    texts = {**errors._texts(), "fast": "the surfaces move at {speed:g} m/s"}
     monkeypatch.setattr(errors, "CODES", {**errors.CODES, "fast": errors.Cause("The contact is fast.")})
+    monkeypatch.setattr(errors, "_texts", lambda: texts)
     before = solver.case_warnings
 
     def case_warnings(setup, conditions):
         yield from before(setup, conditions)
         if conditions.entrainment_speed > 3.0:
-            yield ResultWarning("fast", f"the surfaces move at {conditions.entrainment_speed:g} m/s")
+            yield ResultWarning.of("fast", speed=conditions.entrainment_speed)
 
     monkeypatch.setattr(solver, "case_warnings", case_warnings)
     fast = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 801}})

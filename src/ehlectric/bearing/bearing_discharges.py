@@ -240,11 +240,8 @@ def current_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     density = bearing_costs(solution).current_density
     if density is None or density <= CURRENT_DENSITY_LIMITS[0]:
         return
-    yield ResultWarning(
-        "current-density-high",
-        f"the apparent current density is {1e-6 * density:.3g} A/mm², the peak current over the Hertz areas: "
-        f"{beside_limits(density)}",
-    )
+    limits = beside_limits(density)
+    yield ResultWarning.of("current-density-high", "bearing", density=1e-6 * density, limits=limits)
 
 
 # Switching frequencies of inverters for low-voltage motors [Hz], with which the leakage is compared where the
@@ -392,15 +389,18 @@ def leakage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         )
     else:
         period = f"{amount(1.0 / frequency, 's')}, a period of the inverter"
-    at = "give motor.rise_time for the voltage after an edge"
+    edge = "give motor.rise_time for the voltage after an edge"
     if leaks.after_rise is not None and motor.rise_time is not None:
-        at = f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"
-    decays = (
+        edge = f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"
+    part = (
         "shaft voltage" if not shaft_path(solution).coated else "part of the shaft voltage across the films"
     )
-    yield ResultWarning(
+    yield ResultWarning.of(
         "shaft-leaks",
-        f"the oil conducts: its relaxation time is {amount(tau, 's')}, and the {decays} decays with a "
-        f"time constant of {amount(leaks.film_time_constant, 's')}, compared with {period}; the shaft "
-        f"voltage of {shaft:.3g} V by the capacitive divider is an upper bound; {at}",
+        relaxation=amount(tau, "s"),
+        part=part,
+        decay=amount(leaks.film_time_constant, "s"),
+        period=period,
+        shaft=shaft,
+        edge=edge,
     )

@@ -370,12 +370,7 @@ def film_note(solution: BearingSolution) -> ResultWarning:
     factor, supply = bearing.film_factor, bearing.supply
     name = factor if isinstance(factor, str) else f"{factor:g}"
     if solution.conditions.film_factor == 1.0:
-        return ResultWarning(
-            "isothermal-film",
-            f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
-            'breakdown voltages are upper bounds; "inlet-shear", "solved" or a number below 1 gives thinner '
-            "films",
-        )
+        return ResultWarning.of("isothermal-film", factor=name)
     left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
@@ -385,11 +380,7 @@ def film_note(solution: BearingSolution) -> ResultWarning:
         left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
     if factor == "solved":
         left = f"{left}, spin and sliding"
-    return ResultWarning(
-        "smooth-film",
-        f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
-        "so breakdown voltages are upper bounds",
-    )
+    return ResultWarning.of("smooth-film", factor=found, neglected=left)
 
 
 def supply_words(solution: BearingSolution) -> str:
@@ -406,32 +397,14 @@ def supply_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
     total = solution.conditions.film_factor
     if total < _FAR:
-        yield ResultWarning(
-            "film-factor-low",
-            f"the film factor of {total:.3g} acts by a lower entrainment speed, with one exponent for all "
-            "contacts: films may come out thinner than this share, by up to 5 % at 0.5 and 16 % at 0.1",
-        )
+        yield ResultWarning.of("film-factor-low", factor=total)
     supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     if supply == "flooded" or found is None:
         return
     if solution.case.bearing.by_supply_rule:
-        yield ResultWarning(
-            "supply-rule",
-            f"supply {supply!r} leaves {found:.3g} of the flooded film by SKF's replenishment factor, "
-            "published for the rolling friction at steady speed, load and temperature, and not for films; "
-            "give a measured share as bearing.supply",
-        )
+        yield ResultWarning.of("supply-rule", supply=supply, share=found)
     if found < _LOW:
-        yield ResultWarning(
-            "supply-low",
-            f"the supply leaves {found:.3g} of the flooded film: such a film is about as thick as the layer "
-            "of oil on the tracks, and hardly follows speed and viscosity; measure the film",
-        )
+        yield ResultWarning.of("supply-low", share=found)
     time = half_time(solution)
     if supply in _SPARSE and time is not None and time < _SOON:
-        yield ResultWarning(
-            "film-decays",
-            f"without oil that returns to the track, the film of the most loaded contact halves within "
-            f"{time:.2g} s: the film of supply {supply!r} is set by what returns, and no formula predicts "
-            "it over time",
-        )
+        yield ResultWarning.of("film-decays", seconds=time, supply=supply)

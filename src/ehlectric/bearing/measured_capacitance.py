@@ -17,11 +17,10 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
 from ehlectric.bearing.quick_contacts import is_quick, quick_case
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, film_error, lambda_ratio, percent
+from ehlectric.bearing.solution import CONDUCTING, BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.solving import POSITIONS, solution_of_prepared
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase, InputRange
-from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.cases.film_factors import (
     FilmFactors,
     fitted_columns,
@@ -346,16 +345,16 @@ def shared_effects(
     factors: Array,
     slopes: Array,
     corrected: Callable[[FilmState], FilmState],
-) -> tuple[dict[str, Array], tuple[str, ...]]:
+) -> tuple[dict[str, Array], tuple[ResultWarning, ...]]:
     """Change of ln(film factor) by one standard uncertainty of each input that has a range.
 
     ``rows``, changes of the case that make each row, its speed [rad/s] and temperature [K]; ``factors`` and
     ``slopes``, film factor of each row, and its d ln(capacitance)/d ln(factor), shape (n,). Returns
-    ``effects``, effect of each range on every row, shape (n,); ``left_out``, ranges that were left out, and
-    why.
+    ``effects``, effect of each range on every row, shape (n,); ``left_out``, warnings of ranges that were
+    left out, and why.
     """
     effects: dict[str, Array] = {}
-    left_out: list[str] = []
+    left_out: list[ResultWarning] = []
     if not rows:
         return effects, ()
     speeds = np.array([math.log(row["bearing.inner_speed"]) for row in rows])
@@ -366,7 +365,7 @@ def shared_effects(
         try:
             half = [_half_width(case, one, rows[k], float(factors[k]), corrected) for k in places]
         except InputError as error:
-            left_out.append(f"{one.key}: {error}")
+            left_out.append(ResultWarning.of("range-left-out", key=one.key, reason=error))
             continue
         order = np.argsort(speeds[places])
         change = np.interp(speeds, speeds[places][order], np.array(half)[order])
@@ -579,10 +578,7 @@ def _result(
     warnings = (
         *_film_warnings(case, error),
         *temperature_warnings(measured, case.lubricant),
-        *(
-            ResultWarning("range-left-out", f"film factors leave out the range of {text}")
-            for text in left_out
-        ),
+        *left_out,
         *measurement_warnings(measured, reasons, mean, trend, "speed"),
     )
     return FilmFactors(
@@ -623,8 +619,5 @@ def _film_warnings(case: BearingCase, error: float | None) -> tuple[ResultWarnin
     """Warning of films that are not solved, whose error is not in the interval of a film factor."""
     if error is None:
         return ()
-    text = f"{OF_CONTACTS[case.contacts]}: films may be {percent(error)} off, and so may film factors"
-    if case.contacts == "formula":
-        more = 'contacts = "solved" takes minutes and has no such error'
-        return (ResultWarning("formula-contacts", f"{text}; {more}"),)
-    return (ResultWarning("atlas-contacts", text),)
+    code = "formula-contacts" if case.contacts == "formula" else "atlas-contacts"
+    return (ResultWarning.of(code, "measured_capacitance", percent=100.0 * error),)

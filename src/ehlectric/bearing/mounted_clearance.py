@@ -94,14 +94,15 @@ def class_warnings(bearing: Bearing) -> Iterator[ResultWarning]:
         return
     allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
     low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
-    after = "which fits and a warm inner ring make smaller"
-    if bearing.fits is not None:
-        after = f"so that the clearance in operation may be {0.5 * (high - low):.3g} µm smaller or larger"
-    yield ResultWarning(
-        "clearance-class",
-        f"clearance class {bearing.clearance_class} is {low:.3g} to {high:.3g} µm before mounting; "
-        f"computed with {middle:.3g} µm, {after}",
-    )
+    name, half = bearing.clearance_class, 0.5 * (high - low)
+    if bearing.fits is None:
+        yield ResultWarning.of(
+            "clearance-class", "before_mounting", name=name, low=low, high=high, middle=middle
+        )
+    else:
+        yield ResultWarning.of(
+            "clearance-class", "in_operation", name=name, low=low, high=high, middle=middle, half=half
+        )
 
 
 def fit_warnings(clearance: MountedClearance | None) -> Iterator[ResultWarning]:
@@ -112,19 +113,12 @@ def fit_warnings(clearance: MountedClearance | None) -> Iterator[ResultWarning]:
         return
     mounted, running = clearance.mounted, clearance.running
     if running.clearance < 0.0:
-        yield ResultWarning(
-            "clearance-negative",
-            f"the clearance in operation is {1e6 * running.clearance:.3g} µm: fits and temperatures preload "
-            f"the bearing, from {1e6 * clearance.unmounted:.3g} µm before mounting; a larger clearance "
-            "class, looser fits or a cooler inner ring prevent it",
+        yield ResultWarning.of(
+            "clearance-negative", running=1e6 * running.clearance, unmounted=1e6 * clearance.unmounted
         )
-    for name, before, after in (
-        ("inner ring is loose on its shaft", mounted.shaft_interference, running.shaft_interference),
-        ("outer ring is loose in its housing", mounted.housing_interference, running.housing_interference),
+    for fit, before, after in (
+        ("shaft", mounted.shaft_interference, running.shaft_interference),
+        ("housing", mounted.housing_interference, running.housing_interference),
     ):
         if after <= 0.0 < before:
-            yield ResultWarning(
-                "fit-loose",
-                f"the {name} in operation: the interference of {1e6 * before:.3g} µm becomes "
-                f"{1e6 * after:.3g} µm at these temperatures, and the ring may creep",
-            )
+            yield ResultWarning.of("fit-loose", fit, before=1e6 * before, after=1e6 * after)

@@ -470,7 +470,6 @@ def _film(contact: Contact) -> ContactFilm | None:
 def _left(contact: Contact) -> QuickContact:
     """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has."""
     error = formula_factor(contact.ring.conditions.bearing.kind) - 1.0
-    text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
     edge = _edge(contact)
     if edge is None:
         solution = by_formula(contact, wide=True)
@@ -483,7 +482,8 @@ def _left(contact: Contact) -> QuickContact:
         solution = by_formula(contact, (trend * least, trend * central), wide=True)
         inside, hertz = last.inside / joined.inside, last.hertz / joined.hertz
         solution = replace(solution, inside=inside * solution.inside, hertz=hertz * solution.hertz)
-    return replace(solution, error=error, warnings=(ResultWarning("atlas-left", text),))
+    warning = ResultWarning.of("atlas-left", percent=100.0 * error)
+    return replace(solution, error=error, warnings=(warning,))
 
 
 def _edge(contact: Contact) -> Contact | None:

@@ -320,7 +320,7 @@ def with_light(curve: ContactCurve) -> tuple[ContactSolution, ...]:
     def eased(warning: ResultWarning) -> ResultWarning:
         if warning.code != "atlas-left":
             return warning
-        return ResultWarning("atlas-left-light", f"{warning}; loads this light hardly change the bearing")
+        return ResultWarning.of("atlas-left-light", atlas_left=warning)
 
     return tuple(
         contact if contact.load in heavy else replace(contact, warnings=tuple(map(eased, contact.warnings)))

@@ -56,8 +56,7 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
     changed, refused = quick_case(case)
     left_out = []
     if refused is not None:
-        text = f"figures over speed are incomplete: {refused}"
-        left_out.append(ResultWarning("speed-left-out", text))
+        left_out.append(ResultWarning.of("speed-left-out", "incomplete", reason=refused))
     if changed is None:
         return [], left_out
     points = []
@@ -66,8 +65,7 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
         try:
             points.append(_point(changed, speed))
         except InputError as error:
-            text = f"figures over speed leave out {rpm(speed):.4g} rpm: {error}"
-            left_out.append(ResultWarning("speed-left-out", text))
+            left_out.append(ResultWarning.of("speed-left-out", "one_speed", speed=rpm(speed), reason=error))
     touch = [k for k, (_, summary) in enumerate(points) if _is_conducting(summary)]
     if touch and touch[-1] + 1 < len(points):
         low, high = points[touch[-1] : touch[-1] + 2]

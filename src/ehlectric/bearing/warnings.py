@@ -82,12 +82,8 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     contacts = solution.case.contacts
     if is_quick(solution.case):
-        off = f"film thicknesses may be wrong by {error_text(solution)}, and fields are V/h_min"
-        if contacts == "formula":
-            text = f'contacts by formula: {off}; use contacts = "solved" for design'
-            yield ResultWarning("formula-contacts", text)
-        else:
-            yield ResultWarning("atlas-contacts", f"contacts from the atlas of films: {off}")
+        code = "formula-contacts" if contacts == "formula" else "atlas-contacts"
+        yield ResultWarning.of(code, "bearing", error=error_text(solution))
     yield film_note(solution)
     yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)
@@ -97,12 +93,12 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
         yield ResultWarning.of("viscosity-of-base", viscosity=1e3 * of_base, base=base, temperature=at)
     elif viscosity_over_temperature(solution.case.lubricant) is None:
         given = [f"bearing.{key}" for key in solution.case.bearing.temperatures()]
-        ignored = f"{' and '.join(given)} {'is' if len(given) == 1 else 'are'} ignored"
-        text = (
-            f"{ignored} for the viscosity of the films, because lubricant.viscosity is given; give the "
-            "viscosities at 40 and 100 °C instead"
+        yield ResultWarning.of(
+            "temperature-unused",
+            "bearing",
+            temperatures=" and ".join(given),
+            are="is" if len(given) == 1 else "are",
         )
-        yield ResultWarning("temperature-unused", text)
     elif solution.case.lubricant.temperature_range is None:
         yield from _cold(solution.case.bearing)
     yield from fit_warnings(solution.conditions.clearance)
@@ -141,8 +137,13 @@ def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarnin
         yield ResultWarning.of("load-low", load=load, rating=rating)
     for key, temperature in bearing.temperatures().items():
         if not _COLDEST <= temperature - 273.15 <= _HOTTEST:
-            limits = {"coldest": _COLDEST, "hottest": _HOTTEST}
-            yield ResultWarning.of("temperature-extreme", key=key, celsius=temperature - 273.15, **limits)
+            yield ResultWarning.of(
+                "temperature-extreme",
+                key=key,
+                celsius=temperature - 273.15,
+                coldest=_COLDEST,
+                hottest=_HOTTEST,
+            )
     if viscosity > _MOST_VISCOUS:
         yield ResultWarning.of("viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS)
     yield from class_warnings(bearing)
@@ -245,8 +246,13 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
             if over[heaviest] > load:
                 load, reached = float(over[heaviest]), float(ends[heaviest])
         if load > 0.0:
-            angles = {"reached": math.degrees(reached), "shoulder": math.degrees(shoulder)}
-            yield ResultWarning.of("shoulder-reached", ring=name, load=load, **angles)
+            yield ResultWarning.of(
+                "shoulder-reached",
+                ring=name,
+                load=load,
+                reached=math.degrees(reached),
+                shoulder=math.degrees(shoulder),
+            )
 
 
 def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:

@@ -14,7 +14,7 @@ from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
 
 # Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
@@ -25,8 +25,8 @@ _LARGEST = 1.0
 _SOFTEST = 1e9
 
 
-def radius_doubt(key: str, radius: float) -> Iterator[str]:
-    """Doubt about a reduced radius [m], with its key, that no machine part has.
+def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
+    """Warning about a reduced radius [m], with its key, that no machine part has.
 
     Examples
     --------
@@ -34,11 +34,11 @@ def radius_doubt(key: str, radius: float) -> Iterator[str]:
     reduced_radius is 14.1 m, more than machine parts have: is the unit of the radii right?
     """
     if radius > _LARGEST:
-        yield f"{key} is {radius:.4g} m, more than machine parts have: is the unit of the radii right?"
+        yield ResultWarning.of("radius-large", key=key, radius=radius)
 
 
-def modulus_doubt(modulus: float) -> Iterator[str]:
-    """Doubt about a reduced modulus [Pa] of rubber.
+def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
+    """Warning about a reduced modulus [Pa] of rubber.
 
     Examples
     --------
@@ -46,22 +46,19 @@ def modulus_doubt(modulus: float) -> Iterator[str]:
     the reduced modulus is 226 MPa, that of rubber; steel has 226 GPa: is the unit of the moduli right?
     """
     if modulus < _SOFTEST:
-        yield (
-            f"the reduced modulus is {modulus / 1e6:.4g} MPa, that of rubber; steel has 226 GPa: is the unit "
-            "of the moduli right?"
-        )
+        yield ResultWarning.of("modulus-low", modulus=modulus / 1e6)
 
 
 def warn_of(contact: Contact, *, level: int) -> None:
     """Warn in Python of doubtful radii and moduli of a contact; ``level`` counts calls up to the user's."""
-    found: list[str] = []
+    found: list[ResultWarning] = []
     for key in ("reduced_radius", "radius_x"):
         radius = contact.value(key)
         found += [] if radius is None else radius_doubt(f"contact.{key}", radius)
     if contact.reduced_modulus is not None:
         found += modulus_doubt(contact.reduced_modulus)
-    for text in found:
-        warnings.warn(text, stacklevel=level + 1)
+    for warning in found:
+        warnings.warn(warning.text, stacklevel=level + 1)
 
 
 _THERMAL = library_choice(

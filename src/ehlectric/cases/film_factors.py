@@ -156,34 +156,29 @@ def measurement_warnings(
 ) -> Iterator[ResultWarning]:
     """Warnings about columns, rows, scatter and trend of a measurement."""
     if measured.ignored:
-        yield ResultWarning("columns-ignored", f"{measured.source}: ignored {_some(measured.ignored)}")
+        columns = _some(measured.ignored)
+        yield ResultWarning.of("columns-ignored", file=measured.source, columns=columns)
     without = [(line, why) for line, why in zip(measured.lines, reasons, strict=True) if why]
     if without:
         lines = _some([f"line {line} ({why})" for line, why in without])
-        yield ResultWarning(
-            "rows-without-factor", f"{len(without)} of {len(reasons)} rows have no film factor: {lines}"
-        )
+        yield ResultWarning.of("rows-without-factor", without=len(without), rows=len(reasons), lines=lines)
     if mean is None:
         return
     if mean.basis == SCATTER:
-        text = "the measurement states no uncertainty: the interval of the film factor is from scatter only"
-        yield ResultWarning("scatter-only", f"{text}, and hides what all rows share")
+        yield ResultWarning.of("scatter-only")
     if mean.basis == RAISED and mean.scatter is not None and mean.scatter > _LARGE:
-        text = f"the film factors scatter {mean.scatter:.2g} times as much as the measurement states"
-        yield ResultWarning("scatter-large", f"{text}; the interval was raised to the scatter")
-    if slope is not None and abs(slope[0]) > max(_STEEP, _CERTAIN * slope[1]):
-        text = f"the film factor is no constant: it changes as {speed}^{slope[0]:.2g} (+-{slope[1]:.1g})"
-        yield ResultWarning("factor-varies", f"{text}; its mean holds for the measured speeds only")
+        yield ResultWarning.of("scatter-large", times=mean.scatter)
+    if slope is None:
+        return
+    exponent, uncertainty = slope
+    if abs(exponent) > max(_STEEP, _CERTAIN * uncertainty):
+        yield ResultWarning.of("factor-varies", speed=speed, exponent=exponent, uncertainty=uncertainty)
 
 
 def temperature_warnings(measured: Measurement, oil: Properties) -> Iterator[ResultWarning]:
     """Note about measured temperatures that do not change the films, because the viscosity is a given one."""
     if measured.has("temperature") and viscosity_over_temperature(oil) is None:
-        yield ResultWarning(
-            "temperature-unused",
-            f"{measured.source}: the measured temperatures do not change the viscosity, which is a given "
-            "one; give [lubricant.temperature] or lubricant.atmospheric_law, or film factors hold its error",
-        )
+        yield ResultWarning.of("temperature-unused", "measurement", file=measured.source)
 
 
 def _some(texts: Sequence[str]) -> str:

@@ -147,8 +147,8 @@ def heat_warnings(
         elif physics.thermal is not None:
             thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
             if thicker is not None:
-                text = _thicker(thicker, conditions.max_pressure)
-                yield ResultWarning("film-temperature-range", f"{text}; give other laws of the lubricant")
+                told = _thicker(thicker, conditions.max_pressure)
+                yield ResultWarning.of("film-temperature-range", "not_converged", thicker=told)
         return
     if heated.isothermal_minimum_thickness is None:
         yield ResultWarning.of("isothermal-unsolved")
@@ -231,8 +231,9 @@ def _temperatures(
     if thicker is not None and thicker < found[1]:
         reasons.append(_thicker(thicker, max_pressure))
     if reasons:
-        text = f"the film has {_celsius(*found)}, but {'; '.join(reasons)}"
-        yield ResultWarning("film-temperature-range", text)
+        yield ResultWarning.of(
+            "film-temperature-range", "converged", temperatures=_celsius(*found), reasons="; ".join(reasons)
+        )
     rise = heated.max_temperature_rise or 0.0
     if rise > _LARGE_RISE:
         yield ResultWarning.of("film-very-hot", rise=rise)

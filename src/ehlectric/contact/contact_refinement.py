@@ -67,9 +67,14 @@ def refined(
     warnings: tuple[ResultWarning, ...] = ()
     if film.discretisation_error is None or film.discretisation_error > target:
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"
-        why = refusal if grid is grids[-1] else unknown
-        reached = f"an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes"
-        warnings = (ResultWarning("refine-not-reached", f"grid.{_target_key(setup)}: {reached}; {why}"),)
+        missed = ResultWarning.of(
+            "refine-not-reached",
+            key=_target_key(setup),
+            percent=100 * target,
+            nodes=grid.nodes_along,
+            reason=refusal if grid is grids[-1] else unknown,
+        )
+        warnings = (missed,)
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 

@@ -159,7 +159,7 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
 
     films, errors = zip(*_once_each(rows, film), strict=True)
     error = max(errors)
-    warning = ResultWarning.of("atlas-contacts", "film_factors", percent=100.0 * error)
+    warning = ResultWarning.of("atlas-contacts", "measured_film", percent=100.0 * error)
     return _Films(np.array(films), error, warnings=(warning,))
 
 

@@ -39,9 +39,8 @@ _RIGID_INLET = 14.0
 def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a contact, known before it is solved."""
     key = "radius_x" if isinstance(conditions, PointConditions) else "reduced_radius"
-    texts = radius_doubt(key, conditions.radius_along)
-    yield from (ResultWarning("radius-large", text) for text in texts)
-    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(conditions.reduced_modulus))
+    yield from radius_doubt(key, conditions.radius_along)
+    yield from modulus_doubt(conditions.reduced_modulus)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     # Load that the Hertz pressure would carry on the whole domain, over the load of the contact.
@@ -60,8 +59,12 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
     if not isinstance(setup, Case) or setup.contact.temperature is None:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
-        celsius = f"{setup.contact.temperature - CELSIUS:.4g} °C"
-        yield ResultWarning.of("temperature-unused", viscosity=1e3 * setup.oil.viscosity, temperature=celsius)
+        yield ResultWarning.of(
+            "temperature-unused",
+            "contact",
+            viscosity=1e3 * setup.oil.viscosity,
+            temperature=f"{setup.contact.temperature - CELSIUS:.4g} °C",
+        )
 
 
 def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:

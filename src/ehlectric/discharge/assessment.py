@@ -138,19 +138,16 @@ def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> I
     if discharge is None:
         return
     if film.minimum_thickness < TUNNELLING:
-        yield ResultWarning(
-            "tunnelling",
-            f"the minimum film is {film.minimum_thickness * 1e9:.2g} nm: below about {TUNNELLING * 1e9:g} nm "
-            "electrons tunnel through the film, which is not modelled; do not rely on the breakdown voltage",
-        )
+        yield ResultWarning.of("tunnelling", thickness=film.minimum_thickness * 1e9, least=TUNNELLING * 1e9)
     table = discharge.strength_table
     if table is not None and table.over == "pressure":
         low, high = table.places[0], table.places[-1]
         least, most = float(np.min(film.pressure)), film.max_pressure
         if least < low or most > high:
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "strength-table-exceeded",
-                f"the pressure in the film, {least / 1e9:.3g} to {most / 1e9:.3g} GPa, exceeds the range of "
-                f"discharge.strength_table, {low / 1e9:.3g} to {high / 1e9:.3g} GPa: its end values are used "
-                "outside; extend the table",
+                least=least / 1e9,
+                most=most / 1e9,
+                first=low / 1e9,
+                last=high / 1e9,
             )

@@ -36,11 +36,8 @@ def field_warnings(max_strength: float | None, check: str) -> Iterator[ResultWar
     strength at the applied voltage [V/m]; None where there is none.
     """
     if max_strength is not None and max_strength > MOST_OF_LIQUIDS:
-        yield ResultWarning(
-            "field-above-insulators",
-            f"the maximum field is {max_strength / 1e6:.3g} V/µm, but no insulator withstands more than "
-            f"about {MOST_OF_LIQUIDS / 1e6:g} V/µm, above which metals emit electrons: the film breaks down "
-            f"at a lower voltage; check {check}",
+        yield ResultWarning.of(
+            "field-above-insulators", field=max_strength / 1e6, limit=MOST_OF_LIQUIDS / 1e6, check=check
         )
 
 
@@ -54,12 +51,7 @@ def strength_warnings(discharge: Discharge | None) -> Iterator[ResultWarning]:
     if table is not None:
         most = max(table.strength)
     if most > MOST_OF_LIQUIDS:
-        yield ResultWarning(
-            "strength-above-liquids",
-            f"the dielectric strength is {most / 1e6:.3g} V/µm, but no film of a liquid carries more than "
-            f"about {MOST_OF_LIQUIDS / 1e6:g} V/µm, above which metals emit electrons: breakdown voltages "
-            "are far too high; check the unit of the strength",
-        )
+        yield ResultWarning.of("strength-above-liquids", strength=most / 1e6, limit=MOST_OF_LIQUIDS / 1e6)
 
 
 @dataclass(frozen=True)

@@ -212,7 +212,17 @@ def breakdown_warning(
     """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless; ``field``, maximum field
     strength at this voltage [V/m], which exceeds the dielectric strength.
     """
-    text = f"breakdown is expected: {kind} {voltage:.3g} V, {at} (margin {ratio_text(margin)})"
-    if field is not None:
-        text += f"; the maximum field of {field / 1e6:.3g} V/µm exceeds the dielectric strength"
-    return ResultWarning("breakdown-expected", text)
+    ratio = ratio_text(margin)
+    if field is None:
+        return ResultWarning.of(
+            "breakdown-expected", "voltage", kind=kind, voltage=voltage, breakdown=at, margin=ratio
+        )
+    return ResultWarning.of(
+        "breakdown-expected",
+        "field",
+        kind=kind,
+        voltage=voltage,
+        breakdown=at,
+        margin=ratio,
+        field=field / 1e6,
+    )

@@ -61,13 +61,7 @@ def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
     """Warnings of a bearing, of which that of surfaces that touch tells what a drive makes of them."""
     for warning in result.warnings:
         if warning.code == "touching" and lubrication(result.solution) == "conducting":
-            yield ResultWarning(
-                "touching",
-                f"lambda is {lambda_text(result.solution)}: surfaces touch, and contacts close and open all "
-                "the time. Discharges as they open are not computed, and breakdown voltages are those of "
-                "smooth films, which are hardly there: rates are uncertain; a higher speed or viscosity "
-                "separates the surfaces",
-            )
+            yield ResultWarning.of("touching", "drive", ratio=lambda_text(result.solution))
         else:
             yield warning
 
@@ -79,11 +73,7 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         told = ", ".join(
             f"circuit.{key} {amount(circuit.capacitances[key], 'F')}" for key in circuit.estimated
         )
-        yield ResultWarning(
-            "capacitances-estimated",
-            f"{told}: from the geometry of the machine without end windings, which add to them; "
-            "measure them, or see what half and double of them change",
-        )
+        yield ResultWarning.of("capacitances-estimated", capacitances=told)
     yield from _of_oscillations(case, bearings)
     yield from _of_conduction(case, bearings)
 
@@ -97,11 +87,12 @@ def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Itera
     times = [float(np.min(one.capacitance)) / one.conductance for one in bearings if one.conductance > 0.0]
     if times and _SLOWER * rise < min(times) < _PERIODS / frequency:
         shortest = min(times)
-        yield ResultWarning(
+        yield ResultWarning.of(
             "edges-faster-than-oil",
-            f"the oil discharges a film in {amount(shortest, 's')}, {shortest / rise:.2g} times the "
-            f"{amount(rise, 's')} of an edge: its conductivity lowers no voltage that an edge puts across "
-            f"the films, only what is left of it later, in a period of {amount(1.0 / frequency, 's')}",
+            decay=amount(shortest, "s"),
+            times=shortest / rise,
+            rise=amount(rise, "s"),
+            period=amount(1.0 / frequency, "s"),
         )
 
 
@@ -114,23 +105,15 @@ def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
         keys = " and ".join(f"circuit.{name}_resistance" for name in bare)
         # Above this, only the oil damps it.
         shown = "above 10 000" if quality > 1e4 else f"of {quality:.0f}"
-        yield ResultWarning(
-            "circuit-undamped",
-            f"the circuit rings at {amount(float(f'{frequency:.3g}'), 'Hz')} with a quality factor {shown}: "
-            f"what edges excite lasts for hundreds of periods and adds up; give {keys}, as chokes and cables "
-            "have it at that frequency",
-        )
+        rounded = float(f"{frequency:.3g}")
+        yield ResultWarning.of("circuit-undamped", frequency=amount(rounded, "Hz"), quality=shown, keys=keys)
 
 
 def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warning of thresholds without scatter, which hold for one film for ever."""
     for end, one in zip(ENDS, solution.elements, strict=True):
         if math.isinf(one.shape) and math.isfinite(float(np.min(one.breakdown))):
-            yield ResultWarning(
-                "threshold-constant",
-                f"the films of {end} break down at the same voltage each time; give breakdown.weibull_shape, "
-                "or discharge.weibull in the bearing file, for thresholds that scatter as those of oils do",
-            )
+            yield ResultWarning.of("threshold-constant", end=end)
 
 
 def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -138,11 +121,8 @@ def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
     for end, counts in zip(ENDS, solution.record.counts, strict=True):
         number = int(np.sum(counts))
         if 0 < number < FEW:
-            yield ResultWarning(
-                "few-discharges",
-                f"{end} discharges {number} times in {amount(solution.record.duration, 's')}: its rate is "
-                "uncertain; give a longer drive.duration",
-            )
+            duration = amount(solution.record.duration, "s")
+            yield ResultWarning.of("few-discharges", end=end, times=number, duration=duration)
 
 
 def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -150,12 +130,7 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
     for end, burning in zip(ENDS, solution.record.burning, strict=True):
         share = float(burning) / solution.record.duration
         if share > MOSTLY:
-            yield ResultWarning(
-                "arc-burns-on",
-                f"after breakdowns the films of {end} conduct for {100.0 * share:.3g} % of the time, in "
-                "which no further discharges are counted: the source feeds their arcs, or "
-                "breakdown.recovery_time is long",
-            )
+            yield ResultWarning.of("arc-burns-on", end=end, percent=100.0 * share)
 
 
 def _of_both_ends(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -170,12 +145,7 @@ def _of_both_ends(solution: DriveSolution) -> Iterator[ResultWarning]:
     drains = solution.case.breakdown.arc_resistance * shaft
     share = float(np.mean(_distance(first, second) < _DRAINED * drains))
     if share > _TOGETHER:
-        yield ResultWarning(
-            "both-ends-discharge",
-            f"at {100.0 * share:.3g} % of the discharges of the drive end the other end discharges, too: an "
-            f"arc drains the shaft in about {amount(drains, 's')}, and edges raise its voltage faster; with "
-            "slower edges the first arc spares the other bearing, and both share the discharges",
-        )
+        yield ResultWarning.of("both-ends-discharge", percent=100.0 * share, drained=amount(drains, "s"))
 
 
 def _distance(times: Array, others: Array) -> Array:
@@ -189,8 +159,10 @@ def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
     for b, (end, one) in enumerate(zip(ENDS, solution.elements, strict=True)):
         density = solution.largest_current(b) / one.hertz_area if one.hertz_area else 0.0
         if density > CURRENT_DENSITY_LIMITS[0]:
-            yield ResultWarning(
+            yield ResultWarning.of(
                 "current-density-high",
-                f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current "
-                f"over the Hertz areas: {beside_limits(density)}",
+                "drive",
+                end=end,
+                density=1e-6 * density,
+                limits=beside_limits(density),
             )

@@ -80,18 +80,10 @@ def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]
     values = waveform.values
     clipped = [f"{count} samples at exactly {level:.6g} V" for level, count in clipped_levels(values).items()]
     if clipped:
-        yield ResultWarning(
-            "waveform-clipped",
-            f"{source} has {' and '.join(clipped)}, its extremes: the range of the oscilloscope was probably "
-            "exceeded; measure with a larger range",
-        )
+        yield ResultWarning.of("waveform-clipped", file=source, plateaus=" and ".join(clipped))
     levels = few_levels(values)
     if levels is not None:
-        yield ResultWarning(
-            "waveform-coarse",
-            f"{source} has only {levels} different voltages in {np.ptp(values):.4g} V: measure with a "
-            "smaller range, or with more bits",
-        )
+        yield ResultWarning.of("waveform-coarse", file=source, levels=levels, span=np.ptp(values))
     yield from edge_warnings(source, waveform)
 
 
@@ -99,11 +91,13 @@ def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
     """Warning "edges-unresolved" about steep edges with too few samples."""
     unresolved, edges = unresolved_edges(waveform.values)
     if unresolved:
-        yield ResultWarning(
+        yield ResultWarning.of(
             "edges-unresolved",
-            f"{source}: of {edges} steep edges, {unresolved} have fewer than {_RESOLVED} samples between 10 "
-            f"and 90 % of their height at a sampling interval of {waveform.step:.3g} s: rise times and peaks "
-            "are not resolved; measure or resample with a higher sampling rate",
+            file=source,
+            edges=edges,
+            unresolved=unresolved,
+            samples=_RESOLVED,
+            interval=waveform.step,
         )
 
 
@@ -116,11 +110,8 @@ def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> 
         return
     jump = float(waveform.values[0] - waveform.values[-1])
     if abs(jump) > _SEAM * float(np.ptp(waveform.values)):
-        yield ResultWarning(
-            "record-repeated",
-            f"{source} lasts {waveform.duration:.4g} s and is repeated up to {duration:.4g} s; from its end "
-            f"to its start the voltage jumps by {jump:.4g} V, an edge that the inverter does not have: cut "
-            "the record to whole periods, or leave drive.duration out",
+        yield ResultWarning.of(
+            "record-repeated", file=source, record=waveform.duration, duration=duration, jump=jump
         )
 
 
@@ -929,11 +920,10 @@ def _timing(
     long = np.flatnonzero(gaps > 1.5 * gaps.min())
     if not 0 < long.size <= _FEW * times.size:
         return start, interval, ()
-    text = (
-        f"{path}: {long.size} of {last} distances between times are twice the others, the first after sample "
-        f"{long[0] + 1}: times are rounded, or samples are missing; equal steps were taken"
+    missing = ResultWarning.of(
+        "samples-missing", "distances", file=path, long=long.size, distances=last, sample=long[0] + 1
     )
-    return start, interval, (ResultWarning("samples-missing", text),)
+    return start, interval, (missing,)
 
 
 def _volts(path: Path, values: Array, choice: _Choice, scale: float) -> Array:
@@ -952,10 +942,9 @@ def _volts(path: Path, values: Array, choice: _Choice, scale: float) -> Array:
 def _of_reading(path: Path, layout: _Layout, choice: _Choice, count: int) -> Iterator[ResultWarning]:
     """Warnings about units that the file does not state, and about a length that it does not have."""
     if choice.assumed:
-        text = f"{path} states no units: it was assumed that {' and that '.join(choice.assumed)}"
-        yield ResultWarning("units-assumed", text)
+        assumptions = " and that ".join(choice.assumed)
+        yield ResultWarning.of("units-assumed", file=path, assumptions=assumptions)
     stated = [layout.stated[key][-1] for key in _LENGTHS if key in layout.stated]
     points = max((_Dialect(None, ".").number(text) or 0.0 for text in stated), default=0.0)
     if count < points:
-        text = f"{path} states {points:g} samples, but has {count}: is the file cut off?"
-        yield ResultWarning("samples-missing", text)
+        yield ResultWarning.of("samples-missing", "cut_off", file=path, stated=points, count=count)

@@ -142,12 +142,8 @@ class Estimate:
 
     def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:  # noqa: ARG002
         """Warning that the coefficient is an estimate, for a contact with any Hertz pressure [Pa]."""
-        yield ResultWarning(
-            "estimated-alpha",
-            f"the pressure-viscosity coefficient, {1e9 * self.value:.3g} 1/GPa, is estimated for base_oil "
-            f"{self.base_oil!r} and may be wrong by {100.0 * self.scatter:.0f} %; a film thickness goes with "
-            "its power 0.5; give lubricant.pressure_viscosity_coefficient if it is known",
-        )
+        alpha, percent = 1e9 * self.value, 100.0 * self.scatter
+        yield ResultWarning.of("estimated-alpha", alpha=alpha, base_oil=self.base_oil, percent=percent)
 
 
 def so_klaus(kinematic_viscosity: float, slope: float, density: float) -> float:

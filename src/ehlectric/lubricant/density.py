@@ -114,11 +114,7 @@ def _tait_warnings(
     """Warning about a Hertz pressure at which the volume of the law is held."""
     cap = float(tait_pressure(1.0 / LEAST_VOLUME, temperature, **parameters))
     if max_pressure > cap:
-        yield ResultWarning(
-            "law-range",
-            f"the Hertz pressure is above {cap / 1e9:.3g} GPa, where density_law 'tait' has half the volume "
-            "at zero pressure and holds it; check the parameters of the law",
-        )
+        yield ResultWarning.of("law-range", "tait", cap=cap / 1e9)
 
 
 def murnaghan(

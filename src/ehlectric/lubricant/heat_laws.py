@@ -35,11 +35,7 @@ def _beyond_larsson(
     """Warning that a contact is outside the measurements behind a law of Larsson et al."""
     hot = temperature is not None and temperature > LARSSON_TEMPERATURE
     if max_pressure > LARSSON_PRESSURE or hot:
-        yield ResultWarning(
-            "law-range",
-            f"{law} 'larsson' was measured up to {LARSSON_PRESSURE / 1e9:g} GPa and 107 degC and is "
-            "extrapolated in this contact",
-        )
+        yield ResultWarning.of("law-range", "larsson", law=law, highest=LARSSON_PRESSURE / 1e9)
 
 
 def constant_thermal_conductivity(

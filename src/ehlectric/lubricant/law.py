@@ -190,8 +190,4 @@ def glass_warnings(law: str, max_pressure: float, cap: float, limit: str) -> Ite
     ['law-range']
     """
     if max_pressure > cap:
-        yield ResultWarning(
-            "law-range",
-            f"the Hertz pressure is above {cap / 1e9:.3g} GPa, where viscosity_law {law!r} reaches {limit} "
-            "and is held there: the oil is a glass, films hardly notice, tractions do",
-        )
+        yield ResultWarning.of("law-range", "glass", cap=cap / 1e9, law=law, limit=limit)

@@ -128,12 +128,7 @@ class Oil:
         for check in self.checks:
             yield from check(max_pressure)
         if unfinished_share(self.log_viscosity) > _UNFINISHED:
-            name = self.laws.get("viscosity", "")
-            yield ResultWarning(
-                "law-range",
-                f"viscosity_law {name!r} hardly rises at high pressure, so that alpha* has no definite "
-                "value; film formulas and Moes' L are not for such an oil: use the solved film",
-            )
+            yield ResultWarning.of("law-range", "no_alpha_star", law=self.laws.get("viscosity", ""))
 
     @cached_property
     def alpha(self) -> float:

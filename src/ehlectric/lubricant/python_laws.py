@@ -171,13 +171,16 @@ class SampledLaws:
     def exceeded(self, max_pressure: float) -> Iterator[ResultWarning]:
         """Warnings about laws that a film with this maximum pressure [Pa] leaves."""
         for key, samples in self.samples.items():
-            end = samples.pressure[-1]
-            if max_pressure > end:
-                text = (
-                    f"the film reaches {max_pressure / 1e9:.3g} GPa, but the {key} law {samples.name} has "
-                    f"values up to {end / 1e9:.3g} GPa; beyond, it is continued by its last slope"
+            last = samples.pressure[-1]
+            if max_pressure > last:
+                yield ResultWarning.of(
+                    "law-range",
+                    "python_law",
+                    pressure=max_pressure / 1e9,
+                    quantity=key,
+                    law=samples.name,
+                    last=last / 1e9,
                 )
-                yield ResultWarning("law-range", text)
 
     def stored(self) -> dict[str, Any]:
         """Samples as lists, for files; of a dielectric strength, which the case has too, every tenth."""

@@ -138,11 +138,7 @@ def _barus_warnings(
 ) -> Iterator[ResultWarning]:
     """Warning about Barus' law at a high Hertz pressure ``max_pressure`` [Pa]."""
     if max_pressure > 0.5e9:
-        yield ResultWarning(
-            "law-range",
-            "the Hertz pressure is above 0.5 GPa, where Barus' law overestimates the viscosity by orders of "
-            'magnitude; use lubricant.viscosity_law = "roelands"',
-        )
+        yield ResultWarning.of("law-range", "barus")
 
 
 def _roelands_warnings(
@@ -156,11 +152,7 @@ def _roelands_warnings(
     """Warning about an exponent that differs by more than 10 % from Roelands' relation."""
     z = roelands_exponent(viscosity, **others)
     if abs(z / roelands_z - 1.0) > 0.1:
-        yield ResultWarning(
-            "roelands-z",
-            f"lubricant.roelands_z is {roelands_z:g}, but Roelands' own relation gives {z:.3g} for this "
-            "viscosity and pressure-viscosity coefficient; check the three values",
-        )
+        yield ResultWarning.of("roelands-z", given=roelands_z, relation=z)
 
 
 def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:

@@ -433,9 +433,14 @@ def _spacing(path: Path, x: Array, step: float) -> tuple[float, tuple[ResultWarn
     # Samples may be missing only if the longer of the two distances is twice the shorter.
     long = steps > 1.5 * np.min(steps)
     if 0 < np.count_nonzero(long) <= 0.05 * steps.size:
-        where = int(np.argmax(long))
-        numbers = {"long": np.count_nonzero(long), "distances": steps.size, "point": where}
-        return spacing, (ResultWarning.of("spacing-irregular", file=path, **numbers),)
+        irregular = ResultWarning.of(
+            "spacing-irregular",
+            file=path,
+            long=np.count_nonzero(long),
+            distances=steps.size,
+            point=int(np.argmax(long)),
+        )
+        return spacing, (irregular,)
     return spacing, ()
 
 

@@ -21,46 +21,29 @@ def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
     doubtful = sum(results.doubtful)
     yield from _kinds(solved)
     if doubtful:
-        points = f"{doubtful} of {len(solved)} solved points have a film that is not to be used"
-        text = f"{points}, as their warnings say: maps and lines leave them out"
-        yield ResultWarning("points-not-usable", text)
+        yield ResultWarning.of("points-not-usable", doubtful=doubtful, solved=len(solved))
     others = Counter(point.version for point in results.points if point.version not in ("", __version__))
     for version, count in others.items():
-        kept = f"{count} points were solved by version {version} and are kept"
-        text = f"{kept}; in a new folder {__version__} solves them"
-        yield ResultWarning("points-of-another-version", text)
+        yield ResultWarning.of("points-of-another-version", count=count, version=version, current=__version__)
 
 
 def _kinds(solved: Sequence[Point]) -> Iterator[ResultWarning]:
     """One warning or note for each kind that solved points have, with their number; notes come last."""
     counts = Counter(code for point in solved for code in {warning.code for warning in point.warnings})
-    for code, count in sorted(counts.items(), key=lambda kind: (CODES[kind[0]].severity == "note", -kind[1])):
-        meaning, have = CODES[code].meaning, f"{count} of {len(solved)} solved points have the"
-        about = f"{code}: {meaning[0].lower()}{meaning[1:].rstrip('.')}"
-        if CODES[code].severity == "note":
-            yield ResultWarning("points-with-notes", f"{have} note {about}")
-        else:
-            yield ResultWarning("points-with-warnings", f"{have} warning {about}")
+    for kind, count in sorted(counts.items(), key=lambda one: (CODES[one[0]].severity == "note", -one[1])):
+        cause = CODES[kind]
+        code = "points-with-notes" if cause.severity == "note" else "points-with-warnings"
+        meaning = cause.meaning[0].lower() + cause.meaning[1:].rstrip(".")
+        yield ResultWarning.of(code, count=count, solved=len(solved), kind=kind, meaning=meaning)
 
 
 def sensitivity_warnings(sensitivity: Sensitivity) -> Iterator[ResultWarning]:
     """Warnings about rows that sensitivity indices leave out, and about wide confidence intervals."""
     if sensitivity.dropped:
-        yield ResultWarning(
-            "rows-dropped",
-            f"{sensitivity.dropped} of {sensitivity.rows} rows have a point that is not solved and are left "
-            "out: the numbers are those of the rest of the ranges",
-        )
+        yield ResultWarning.of("rows-dropped", dropped=sensitivity.dropped, rows=sensitivity.rows)
     if sensitivity.doubtful:
-        yield ResultWarning(
-            "rows-not-usable",
-            f"{sensitivity.doubtful} of {sensitivity.used} rows that are used have a point whose film is not "
-            "to be used, as its warnings in sweep.csv say: spread and indices count with them",
-        )
+        yield ResultWarning.of("rows-not-usable", doubtful=sensitivity.doubtful, used=sensitivity.used)
     ends = [end for i in sensitivity.indices for end in (i.first_order_interval, i.total_interval)]
     widest = max(0.5 * (high - low) for low, high in ends)
     if widest > _WIDE:
-        yield ResultWarning(
-            "intervals-wide",
-            f"confidence intervals reach up to {widest:.1g} either way; four times the samples halve that",
-        )
+        yield ResultWarning.of("intervals-wide", widest=widest)
