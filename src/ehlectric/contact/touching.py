@@ -741,20 +741,22 @@ def spot_warnings(
         carried=carried,
         share=about_share(share, before),
     )
-    share_text = "the load share"
     if before is None:
-        yield ResultWarning.of(
-            "load-share-unresolved", what=share_text, before="is not known on a coarser grid"
-        )
+        yield unknown_share("the load share", "a coarser grid")
     else:
-        grid = "a grid with half the nodes"
-        yield from changed_share(share_text, share, before, share - before, grid)
+        yield from changed_share("the load share", share, before, "a grid with half the nodes")
+
+
+def unknown_share(what: str, grid: str) -> ResultWarning:
+    """Warning that a load share is not known on a coarser grid."""
+    return ResultWarning.of("load-share-unresolved", what=what, before=f"is not known on {grid}")
 
 
 def changed_share(
-    what: str, share: float, coarser: float, change: float, grid: str
+    what: str, share: float, coarser: float, grid: str, *, change: float | None = None
 ) -> Iterator[ResultWarning]:
-    """Warning that a load share depends on the grid: its change from a coarser ``grid`` is large."""
+    """Warning that a load share differs from that of a coarser grid, by ``change`` if that is given."""
+    change = share - coarser if change is None else change
     if abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
         before = f"was {about_share(coarser, share)} on {grid}"
         yield ResultWarning.of("load-share-unresolved", what=what, before=before)

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import about_share, changed_share
+from ehlectric.contact.touching import about_share, changed_share, unknown_share
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
@@ -88,12 +88,11 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
         steps=found.steps,
         share=about_share(share, coarser),
     )
-    grid = "every second node with twice the time step"
-    what = "the mean load share"
+    what, grid = "the mean load share", "every second node with twice the time step"
     if coarser is None:
-        yield ResultWarning.of("load-share-unresolved", what=what, before=f"is not known on {grid}")
+        yield unknown_share(what, grid)
     else:
-        yield from changed_share(what, share, coarser, found.share_change, grid)
+        yield from changed_share(what, share, coarser, grid, change=found.share_change)
 
 
 def _passed(contact: TransientContact, surface: int) -> float:

@@ -108,11 +108,10 @@ def shown_numbers(
     rows = {row.key: row for row in total_rows(summary)}
     missing = _missing(summary, warnings, rows, whole=whole)
     known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
+    ranged = not whole and bool(summary["inputs"].get("ranges"))
     found = []
     for key in (key for key in BEARING_CARDS if key in known):
-        follows = (
-            RANGE_FOLLOWS if key == "bearing.margin" and not whole and summary["inputs"].get("ranges") else ""
-        )
+        follows = RANGE_FOLLOWS if ranged and key == "bearing.margin" else ""
         note = "; ".join(filter(None, [follows, known[key].note]))
         near = tuple(one for one in concerning(warnings, key) if known[key].known or one.code not in _BOUNDS)
         number = replace(known[key], note=note, warnings=near)
