@@ -24,7 +24,7 @@ from ehlectric.report.background import (
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of, lead_of
-from ehlectric.report.report_facts import alarms_of, cell_table, part_of, row_tables, warning_block
+from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
@@ -78,28 +78,33 @@ def _answer(part: Part) -> Iterator[Block]:
 
 def _contact(result: Any) -> Part:
     summary = result.summary()
-    return part_of(
-        result,
+    return Part(
         kind=f"{result.case.contact.geometry} contact",
         command="run",
         lead=lead_of(result),
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
+        warnings=result.warnings,
         numbers=tuple(row_tables(result_rows(result), "Overview")),
+        pictures=tuple(pictures_of(result, converged=result.converged)),
         details=details_of(summary, result.to_xarray().attrs.get("date", "")),
+        toml=result.case.to_toml(),
     )
 
 
 def _motion(result: MotionResult) -> Part:
     summary = result.summary()
-    return part_of(
-        result,
+    return Part(
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
         lead=lead_of(result),
+        failure="" if result.converged else SENTENCES["ended_early"],
         verdict=None,
-        unsolved=SENTENCES["ended_early"],
+        warnings=result.warnings,
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
+        pictures=tuple(pictures_of(result, converged=result.converged)),
         details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
+        toml=result.case.to_toml(),
     )
 
 
@@ -116,15 +121,18 @@ def _bearing(result: BearingResult) -> Part:
             cell_table(films_table(summary), "Films, capacitances and voltages of the contacts", "element"),
         ),
     )
-    return part_of(
-        result,
+    return Part(
         kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
         lead=lead_of(result),
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
+        warnings=result.warnings,
         numbers=tuple(row_tables(total_rows(summary), "Overview")),
+        pictures=tuple(pictures_of(result, converged=result.converged)),
         further=(contacts,),
         details=details_of(summary, ""),
+        toml=result.case.to_toml(),
     )
 
 

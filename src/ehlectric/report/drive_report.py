@@ -30,7 +30,7 @@ from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of, varied_keys
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import part_of, row_tables
+from ehlectric.report.report_facts import pictures_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
@@ -282,16 +282,19 @@ def drive_part(result: DriveResult) -> Part:
     """Part of a report about a drive."""
     summary, case = result.summary(), result.case
     verdict = result.verdict
-    return part_of(
-        result,
+    return Part(
         kind=_kind(case),
         command="drive",
         lead=_lead(summary),
+        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
+        warnings=result.warnings,
         before=(assumption_section(case, summary),),
         numbers=tuple(number_tables(summary)),
+        pictures=tuple(pictures_of(result, converged=result.converged)),
         further=tuple(_sections(result, summary)),
         details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
+        toml=result.case.to_toml(),
     )
 
 

@@ -9,17 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import figure, figure_names
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row
 from ehlectric.report.report_content import (
-    Block,
-    Part,
     Picture,
-    Section,
     Table,
     Text,
     WarningLine,
@@ -149,39 +145,6 @@ def pictures_of(
         if title and converged:
             _drop_finding(drawn)
         yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
-
-
-def part_of(
-    result: Any,
-    *,
-    kind: str,
-    command: str,
-    lead: str,
-    verdict: Verdict | None,
-    numbers: tuple[Block, ...],
-    details: dict[str, str],
-    before: tuple[Section, ...] = (),
-    further: tuple[Section, ...] = (),
-    unsolved: str = SENTENCES["unsolved"],
-) -> Part:
-    """Part of a report about a single result, with what is the same for all kinds of results.
-
-    ``unsolved`` is the sentence on a result that is not converged; the others are attributes of ``Part``.
-    """
-    return Part(
-        kind=kind,
-        command=command,
-        lead=lead,
-        failure="" if result.converged else unsolved,
-        verdict=verdict,
-        warnings=result.warnings,
-        before=before,
-        numbers=numbers,
-        pictures=tuple(pictures_of(result, converged=result.converged)),
-        further=further,
-        details=details,
-        toml=result.case.to_toml(),
-    )
 
 
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:
