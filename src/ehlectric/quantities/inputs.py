@@ -38,14 +38,14 @@ class Input(Bounds, Quantity):
 
     ``shown`` is the unit of the number in the field, as the file takes it; ``slider`` are the ends of its
     slider in this unit, spaced by logarithms if ``log``. ``choices`` are empty where the library has them.
-    ``note`` stands beside the field, and an ``optional`` field may be left empty.
+    ``field_note`` stands next to the field, and an ``optional`` field may be left empty.
     """
 
     kind: Literal["number", "count", "choice", "text"] = "number"
     slider: tuple[float, float] = (0.0, 1.0)
     log: bool = False
     choices: tuple[str, ...] = ()
-    note: str = ""
+    field_note: str = ""
     optional: bool = False
 
 

@@ -232,7 +232,8 @@ def field_of(key: str, **more: Any) -> Field:
         "low": entry.slider[0],
         "high": entry.slider[1],
         "when": never if key in form_data("only_given") else always,
-        **{name: getattr(entry, name) for name in ("log", "kind", "choices", "note", "optional")},
+        "note": entry.field_note,
+        **{name: getattr(entry, name) for name in ("log", "kind", "choices", "optional")},
         **form_data("fields").get(key, {}),
     }
     return Field(key, **(own | more))
