@@ -13,7 +13,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import block_diag
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
@@ -106,12 +105,15 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
         raise ValueError("a node has no path of capacitors to the frame or the source")
     leak, through = into.T @ g @ into, into.T @ n
     k = np.linalg.solve(own, charge)
-    rates = np.block(
-        [
-            [-np.linalg.solve(own, leak), -np.linalg.solve(own, through)],
-            [through.T / inductance[:, None], -np.diag(resistance / inductance)],
-        ]
-    )
+    states, potentials = len(free) + len(inductors), slice(len(free))
+    currents = slice(len(free), states)
+    rates, capacitance = np.zeros((states, states)), np.zeros((states, states))
+    rates[potentials, potentials] = -np.linalg.solve(own, leak)
+    rates[potentials, currents] = -np.linalg.solve(own, through)
+    rates[currents, potentials] = through.T / inductance[:, None]
+    rates[currents, currents] = -np.diag(resistance / inductance)
+    capacitance[potentials, potentials] = own
+    capacitance[currents, currents] = np.diag(inductance)
     force = np.concatenate(
         [
             np.linalg.solve(own, leak @ k - into.T @ g @ drive),
@@ -123,7 +125,7 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
         rates=rates,
         force=force,
         jump=np.concatenate([k, np.zeros(len(inductors))]),
-        capacitance=block_diag(own, np.diag(inductance)),
+        capacitance=capacitance,
     )
 
 
