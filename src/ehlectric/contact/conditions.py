@@ -464,4 +464,5 @@ def _point_radius(contact: Contact, key: str) -> float:
             takes="radii with 1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be "
             "wider than the other",
         )
-    return hertz.reduced_radius(r1, r2)
+    radius: float = hertz.reduced_radius(r1, r2)
+    return radius

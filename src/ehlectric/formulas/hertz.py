@@ -25,9 +25,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
+from scipy.optimize.elementwise import find_root
 from scipy.special import elliprd, elliprf
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, N, Numbers
 
 # Largest relative difference of the arguments at which the series is used; its relative error is below 1e-14.
 _CLOSE = 0.06
@@ -102,7 +103,7 @@ def _series(x: Array, y: Array, z: Array) -> Array:
     return over * np.sqrt(over) * total
 
 
-def reduced_radius(radius_1: float, radius_2: float) -> float:
+def reduced_radius(radius_1: N, radius_2: N) -> N:
     """Reduced radius R of two cylinders, 1/R = 1/R1 + 1/R2. ``radius_1`` and ``radius_2``, radii R1 and R2
     [m]; negative for a concave body, infinite for a plane. Returns R [m]; it is negative if the radius of a
     concave body is smaller than that of the other body.
@@ -117,7 +118,7 @@ def reduced_radius(radius_1: float, radius_2: float) -> float:
     return 1.0 / (1.0 / radius_1 + 1.0 / radius_2)
 
 
-def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
+def body_compliance(youngs_modulus: N, poissons_ratio: N) -> N:
     """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa]. ``youngs_modulus``, Young's modulus E [Pa];
     ``poissons_ratio``, Poisson's ratio nu, dimensionless.
 
@@ -129,7 +130,7 @@ def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
     return (1.0 - poissons_ratio**2) / youngs_modulus
 
 
-def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
+def reduced_modulus(compliance_1: N, compliance_2: N) -> N:
     """Reduced modulus E' of two bodies, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. ``compliance_1`` and
     ``compliance_2``, plane-strain compliances (1 - nu^2)/E of the two bodies [1/Pa]. Returns E' [Pa].
 
@@ -146,7 +147,7 @@ def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
     return 2.0 / (compliance_1 + compliance_2)
 
 
-def line_half_width(load_per_length: float, radius: float, modulus: float) -> float:
+def line_half_width(load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
     """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')). ``load_per_length`` [N/m]; ``radius``,
     reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     Returns b [m].
@@ -158,10 +159,10 @@ def line_half_width(load_per_length: float, radius: float, modulus: float) -> fl
     >>> round(line_half_width(1.57e6, 14.1e-3, 226e9) * 1e6, 1)
     499.4
     """
-    return float(np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus)))
+    return np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus))
 
 
-def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> float:
+def line_max_pressure(load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
     """Largest Hertz pressure of a line contact, p_h = 2 w/(pi b). ``load_per_length`` [N/m]; ``radius``,
     reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     Returns p_h [Pa].
@@ -222,7 +223,7 @@ def line_gap(x: ArrayLike) -> Array:
     return gap
 
 
-def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
+def line_opening(x: ArrayLike, half_width: Numbers, radius: Numbers) -> Array:
     """Elastic deflection of a dry line contact: the distance by which it opens the gap of two parabolas.
     ``x`` [m], shape (...); ``half_width`` and ``radius``, half-width b of the dry contact and reduced radius
     R [m]. Returns deflection [m], up to a constant: it is zero at x = 0, shape (...).
@@ -235,7 +236,8 @@ def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
     -1.0
     """
     position = np.asarray(x, dtype=float)
-    return half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
+    opening: Array = half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
+    return opening
 
 
 # Absolute ln(Ry/Rx) below which the ratio of the semi-axes is (Ry/Rx)^(2/3) to the last digit: the next term
@@ -245,26 +247,27 @@ _CIRCLE = 1e-6
 
 @dataclass(frozen=True)
 class DryContact:
-    """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
+    """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies, or of many contacts.
 
-    The values may be arrays that broadcast with positions, for several contacts at once.
+    Arrays broadcast with positions in ``point_deflection``.
     """
 
     # semi_axis_x and semi_axis_y: semi-axes of the contact ellipse, b along and a across entrainment [m].
-    semi_axis_x: float
-    semi_axis_y: float
-    max_pressure: float  # largest Hertz pressure p_h [Pa]
-    approach: float  # distance by which points of the two bodies far from the contact approach each other [m]
+    semi_axis_x: Numbers
+    semi_axis_y: Numbers
+    max_pressure: Numbers  # largest Hertz pressure p_h [Pa]
+    approach: (
+        Numbers  # distance by which points of the two bodies far from the contact approach each other [m]
+    )
 
 
-@lru_cache(maxsize=256)
-def axis_ratio(radius_x: float, radius_y: float) -> float:
+def axis_ratio(radius_x: Numbers, radius_y: Numbers) -> Numbers:
     """Ratio k of the semi-axes of the dry contact: across entrainment over along entrainment.
 
     The equation Ry/Rx = R_D(0, k^2, 1)/R_D(0, 1, k^2) is solved for k, with Carlson's elliptic integral R_D.
 
-    ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m]. Returns k,
-    dimensionless; above 1 if ``radius_y`` is larger than ``radius_x``.
+    ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m], shape (...). Returns
+    k, dimensionless, shape (...); above 1 if ``radius_y`` is larger than ``radius_x``.
 
     K. L. Johnson, Contact Mechanics, 1985, eq. (4.28), doi:10.1017/CBO9781139171731.
 
@@ -272,31 +275,45 @@ def axis_ratio(radius_x: float, radius_y: float) -> float:
     --------
     >>> axis_ratio(0.01, 0.01)
     1.0
-    >>> round(axis_ratio(0.01, 0.1), 4)
-    4.4994
+    >>> axis_ratio(np.array([0.01, 0.01]), np.array([0.01, 0.1])).round(4).tolist()
+    [1.0, 4.4994]
     """
+    if np.ndim(radius_x) == np.ndim(radius_y) == 0:
+        return _axis_ratio(float(radius_x), float(radius_y))
+    target = np.log(radius_y / radius_x)
+    near = np.abs(target) < _CIRCLE
+    # k lies between 1, the value of a circle, and Ry/Rx.
+    ends = np.zeros_like(target), np.where(near, 1.0, target)
+    wanted = np.where(near, 0.5, target)
+    found = find_root(_excess, ends, args=(wanted,), tolerances={"xatol": 1e-15, "xrtol": 1e-14})
+    return np.exp(np.where(near, 2.0 / 3.0 * target, found.x))
+
+
+def _excess(log_ratio: Numbers, target: Numbers) -> Numbers:
+    """Logarithm of Ry/Rx of a contact with the logarithm of k, less its target."""
+    k2 = np.exp(2.0 * log_ratio)
+    return np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2)) - target
+
+
+@lru_cache(maxsize=256)
+def _axis_ratio(radius_x: float, radius_y: float) -> float:
+    """Ratio of the semi-axes of one contact, computed once, as all loads of a contact have the same one."""
     target = float(np.log(radius_y / radius_x))
     if abs(target) < _CIRCLE:
         return float(np.exp(2.0 / 3.0 * target))
-
-    def excess(log_ratio: float) -> float:
-        k2 = np.exp(2.0 * log_ratio)
-        return float(np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2))) - target
-
-    # k lies between 1, the value of a circle, and Ry/Rx.
-    root = brentq(excess, 0.0, target, xtol=1e-15, rtol=1e-14)
+    root = brentq(_excess, 0.0, target, args=(target,), xtol=1e-15, rtol=1e-14)
     return float(np.exp(root))
 
 
-def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -> DryContact:
+def dry_contact(load: Numbers, radius_x: Numbers, radius_y: Numbers, modulus: Numbers) -> DryContact:
     """Contact ellipse, largest pressure and approach of two loaded bodies.
 
     b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') for the semi-axis b along entrainment, with Carlson's elliptic
     integral R_D. The semi-axis across entrainment is k b, and p_h = 3 F/(2 pi k b^2).
 
     ``load`` [N]; ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m];
-    ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Returns semi-axes [m],
-    largest pressure [Pa] and approach [m].
+    ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; all of shape (...).
+    Returns semi-axes [m], largest pressure [Pa] and approach [m], shape (...).
 
     K. L. Johnson, Contact Mechanics, 1985, section 4.2, doi:10.1017/CBO9781139171731.
 
@@ -309,9 +326,9 @@ def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -
     (109.9, 0.7906)
     """
     k = axis_ratio(radius_x, radius_y)
-    semi_axis = float((2.0 * load * radius_x * elliprd(0.0, k**2, 1.0) / (np.pi * modulus)) ** (1.0 / 3.0))
+    semi_axis = (2.0 * load * radius_x * elliprd(0.0, k**2, 1.0) / (np.pi * modulus)) ** (1.0 / 3.0)
     pressure = 1.5 * load / (np.pi * k * semi_axis**2)
-    approach = 2.0 * pressure * k * semi_axis / modulus * float(elliprf(0.0, 1.0, k**2))
+    approach = 2.0 * pressure * k * semi_axis / modulus * elliprf(0.0, 1.0, k**2)
     return DryContact(semi_axis, k * semi_axis, pressure, approach)
 
 
@@ -329,7 +346,7 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
     >>> round(point_load(1e9, 0.01, 0.01, 226e9), 2)
     40.47
     """
-    k = axis_ratio(radius_x, radius_y)
+    k: float = axis_ratio(radius_x, radius_y)
     semi_axis = 4.0 * max_pressure * radius_x * k * float(elliprd(0.0, k**2, 1.0)) / (3.0 * modulus)
     return 2.0 * np.pi / 3.0 * k * max_pressure * semi_axis**2
 
