@@ -15,3 +15,34 @@ Numbers: TypeAlias = Any
 
 # The same in a function whose result has the type of its arguments.
 N = TypeVar("N", float, Array)
+
+
+def where(known: Any, values: Numbers) -> Numbers | None:
+    """Values where they are known: of one point the value or None, of many points NaN in place of None.
+
+    ``known``, whether each point has its value, shape (...); ``values``, shape (...).
+
+    Examples
+    --------
+    >>> where(False, 3.0), where(True, 3.0), where(np.array([True, False]), np.array([3.0, 4.0])).tolist()
+    (None, 3.0, [3.0, nan])
+    """
+    if np.ndim(known) == np.ndim(values) == 0:
+        return values if known else None
+    return np.where(known, values, np.nan)
+
+
+def labels(*choices: Any) -> Any:
+    """Text for each point: that of the first condition that holds, or the last one.
+
+    ``choices``, pairs of a condition of shape (...) and its text, and the text of all other points. Returns a
+    text for one point, an array of texts for many.
+
+    Examples
+    --------
+    >>> labels((False, "low"), "high"), labels((np.array([True, False]), "low"), "high").tolist()
+    ('high', ['low', 'high'])
+    """
+    *pairs, other = choices
+    found = np.select([np.asarray(condition) for condition, _ in pairs], [text for _, text in pairs], other)
+    return found if found.ndim else str(found)

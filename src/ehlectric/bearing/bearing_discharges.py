@@ -4,15 +4,15 @@ leakage.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from operator import mul, truediv
+from typing import Any
 
 import numpy as np
-from scipy.linalg import expm
 
-from ehlectric.arrays import Array
-from ehlectric.bearing.circuit import leakage_conductance, shaft_first_break, shaft_through_breakdown
+from ehlectric.arrays import Array, IntArray, Numbers, where
+from ehlectric.bearing.circuit import Circuit, leakage_conductance, shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import film_share, oil_relaxation_time, shaft_capacitance, shaft_path
 from ehlectric.bearing.solution import (
     BearingSolution,
@@ -35,14 +35,14 @@ from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
 
 
-def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
+def voltage_ratio(winding_rotor: Numbers, rotor_frame: Numbers, first: Numbers, second: Numbers) -> Numbers:
     """Bearing voltage ratio of a motor: share of the common-mode voltage that lies on its bearings.
 
     The capacitive divider gives C_wr/(C_wr + C_rf + C_DE + C_NDE).
 
     ``winding_rotor`` and ``rotor_frame``, capacitance C_wr from winding to rotor, and C_rf from rotor to
     frame [F]; ``first`` and ``second``, capacitances C_DE and C_NDE from shaft to housing at the drive end
-    and the non-drive end [F]. Returns bearing voltage ratio, dimensionless.
+    and the non-drive end [F]; all of shape (...). Returns bearing voltage ratio, dimensionless, shape (...).
 
     Examples
     --------
@@ -52,39 +52,40 @@ def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second
     return winding_rotor / (winding_rotor + rotor_frame + first + second)
 
 
-def bearing_voltage_ratio(solution: BearingSolution) -> float | None:
-    """Share of the motor's common-mode voltage between shaft and housing of a solved bearing.
+def bearing_voltage_ratio(solution: BearingSolution) -> Numbers | None:
+    """Share of the motor's common-mode voltage between shaft and housing of a solved bearing, shape (...).
 
     None without a motor, where surfaces touch and conduct, and where only an upper bound of the capacitance
-    is known.
+    is known; of many points NaN where surfaces touch.
     """
     motor = solution.case.motor
-    if motor is None or lubrication(solution) == "conducting" or capacitance_is_bound(solution):
+    if motor is None or capacitance_is_bound(solution):
         return None
     own = shaft_capacitance(solution)
     second = motor.second_bearing_capacitance
-    return voltage_ratio(
+    ratio = voltage_ratio(
         motor.winding_rotor_capacitance,
         motor.rotor_frame_capacitance,
         own,
         own if second is None else second,
     )
+    return where(lubrication(solution) != "conducting", ratio)
 
 
-def shaft_voltage(solution: BearingSolution) -> float | None:
+def shaft_voltage(solution: BearingSolution) -> Numbers | None:
     """Shaft voltage by the capacitive divider [V]; None where ``bearing_voltage_ratio`` is None."""
     motor, ratio = solution.case.motor, bearing_voltage_ratio(solution)
     return None if motor is None or ratio is None else ratio * motor.common_mode_voltage
 
 
-def film_voltage(solution: BearingSolution) -> float | None:
+def film_voltage(solution: BearingSolution) -> Numbers | None:
     """Part of the shaft voltage across the films, from ring to ring [V]; None as ``shaft_voltage``."""
     return known(mul, film_share(solution), shaft_voltage(solution))
 
 
 @dataclass(frozen=True)
 class Breakdown:
-    """Voltages at which films break down, over the positions of the cage.
+    """Voltages at which films break down, over the positions of the cage; NaN where a point has none.
 
     The bearing voltage is that across the films, from ring to ring. The shaft voltage is that from shaft to
     housing; it is larger where a coating on a ring takes a part of it.
@@ -92,63 +93,81 @@ class Breakdown:
 
     # first_break and first_break_mean: bearing voltage at which the first contact breaks down, minimum and
     # mean over the positions [V].
-    first_break: float
-    first_break_mean: float
-    first_break_at: str  # name of the contact that breaks down first
+    first_break: Numbers
+    first_break_mean: Numbers
+    first_break_at: Any  # name of the contact that breaks down first
     # through_breakdown and through_breakdown_mean: bearing voltage at which the first element breaks down
     # from ring to ring, minimum and mean over the positions [V].
-    through_breakdown: float
-    through_breakdown_mean: float
+    through_breakdown: Numbers
+    through_breakdown_mean: Numbers
     # shaft_first_break and shaft_through_breakdown: shaft voltages of both breakdowns, minimum over the
     # positions [V].
-    shaft_first_break: float
-    shaft_through_breakdown: float
+    shaft_first_break: Numbers
+    shaft_through_breakdown: Numbers
 
 
 def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     """Bearing and shaft voltages at which the films of a solved bearing break down.
 
-    None for ceramic elements, where surfaces touch, and without a dielectric strength.
+    None for ceramic elements, where surfaces touch, and without a dielectric strength; of many points NaN
+    where surfaces touch.
     """
     circuits, path = solution.circuits(), shaft_path(solution)
     first = np.array([circuit.first_break for circuit in circuits])
     through = np.array([circuit.through_breakdown for circuit in circuits])
-    if not insulating(solution) or not np.all(np.isfinite(through)):
+    known = insulating(solution) & np.all(np.isfinite(through), axis=0)
+    if not np.any(known):
         return None
-    weakest = circuits[int(np.argmin(first))]
-    k = int(np.argmin(weakest.first_breaks))
+    voltages = {
+        "first_break": np.min(first, axis=0),
+        "first_break_mean": np.mean(first, axis=0),
+        "through_breakdown": np.min(through, axis=0),
+        "through_breakdown_mean": np.mean(through, axis=0),
+        "shaft_first_break": np.min([shaft_first_break(one, path) for one in circuits], axis=0),
+        "shaft_through_breakdown": np.min([shaft_through_breakdown(one, path) for one in circuits], axis=0),
+    }
     return Breakdown(
-        first_break=float(np.min(first)),
-        first_break_mean=float(np.mean(first)),
-        first_break_at=f"{'inner' if weakest.inner_first[k] else 'outer'} contact of element {k}",
-        through_breakdown=float(np.min(through)),
-        through_breakdown_mean=float(np.mean(through)),
-        shaft_first_break=min(shaft_first_break(circuit, path) for circuit in circuits),
-        shaft_through_breakdown=min(shaft_through_breakdown(circuit, path) for circuit in circuits),
+        first_break_at=_weakest(circuits, np.argmin(first, axis=0)),
+        **{name: where(known, values) for name, values in voltages.items()},
     )
 
 
-def first_margin(solution: BearingSolution) -> float | None:
+def _weakest(circuits: Sequence[Circuit], at: IntArray) -> Any:
+    """Name of the contact that breaks down first at the position ``at`` of each point, shape (...)."""
+    breaks = np.array([circuit.first_breaks for circuit in circuits])
+    inner = np.array([circuit.inner_first for circuit in circuits])
+    breaks, inner = (
+        np.take_along_axis(all_, at[np.newaxis, ..., np.newaxis], 0)[0] for all_ in (breaks, inner)
+    )
+    element = np.argmin(breaks, axis=-1)
+    ring = np.where(np.take_along_axis(inner, element[..., np.newaxis], -1)[..., 0], 0, 1)
+    names = [
+        [f"{name} contact of element {k}" for k in range(inner.shape[-1])] for name in ("inner", "outer")
+    ]
+    found = np.array(names)[ring, element]
+    return found if found.ndim else str(found)
+
+
+def first_margin(solution: BearingSolution) -> Numbers | None:
     """Margin of a solved bearing: shaft voltage of its first breakdown over its shaft voltage, or None."""
     breakdown = breakdown_of(solution)
     return None if breakdown is None else known(truediv, breakdown.shaft_first_break, shaft_voltage(solution))
 
 
-def strength_per_volt(solution: BearingSolution) -> float | None:
+def strength_per_volt(solution: BearingSolution) -> Numbers | None:
     """Maximum field strength per volt across the films, of all contacts and positions of the cage [1/m].
 
-    None for ceramic elements, and where surfaces touch.
+    None for ceramic elements, and where surfaces touch; of many points NaN where surfaces touch.
     """
-    if not insulating(solution):
-        return None
-    return max(
-        float(np.max(share * ring.values.strength_per_volt))
+    strengths = [
+        np.max(share * ring.values.strength_per_volt, axis=-1)
         for position, circuit in zip(solution.positions, solution.circuits(), strict=True)
         for share, ring in (
             (circuit.inner_share, position.inner),
             (1.0 - circuit.inner_share, position.outer),
         )
-    )
+    ]
+    return where(insulating(solution), np.max(strengths, axis=0))
 
 
 @dataclass(frozen=True)
@@ -161,22 +180,24 @@ class BearingCosts:
 
     # Capacitance that a discharge through the films empties [F]: that of the films, and those between the
     # shaft and everything else, which a coating on a ring puts in series with its own.
-    discharged_capacitance: float | None
-    bearing_energy: float | None  # energy C V^2/2 that is stored in the films alone, at the shaft voltage [J]
+    discharged_capacitance: Numbers | None
+    bearing_energy: (
+        Numbers | None
+    )  # energy C V^2/2 that is stored in the films alone, at the shaft voltage [J]
     # Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
-    discharge_energy: float | None
+    discharge_energy: Numbers | None
     # Energy C V^2/2 that is stored in ``discharged_capacitance``, at the first breakdown [J].
-    breakdown_energy: float | None
-    pit_volume: float | None  # volume of one surface that ``discharge_energy`` melts [m^3]
-    pit_diameter: float | None  # diameter of a hemisphere of that volume [m]
-    breakdown_pit_diameter: float | None  # diameter of the hemisphere that ``breakdown_energy`` melts [m]
+    breakdown_energy: Numbers | None
+    pit_volume: Numbers | None  # volume of one surface that ``discharge_energy`` melts [m^3]
+    pit_diameter: Numbers | None  # diameter of a hemisphere of that volume [m]
+    breakdown_pit_diameter: Numbers | None  # diameter of the hemisphere that ``breakdown_energy`` melts [m]
     # Area of the dry contacts through which a current flows [m^2]: the smaller contact of every element that
     # both rings load, with the cage at its first position.
-    hertz_area: float
-    current_density: float | None  # peak current over ``hertz_area`` [A/m^2]
+    hertz_area: Numbers
+    current_density: Numbers | None  # peak current over ``hertz_area`` [A/m^2]
     # Peak current over the smaller contact of the most loaded element, as if it flowed through this element
     # alone [A/m^2].
-    element_current_density: float | None
+    element_current_density: Numbers | None
     current_density_limits: tuple[float, ...] | None  # published limits of ``current_density`` [A/m^2]
 
 
@@ -193,13 +214,13 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     that the discharge releases is V^2/2 [C + C_s C_c/(C_s + C_c)].
     """
     case, breakdown = solution.case, breakdown_of(solution)
-    across = film_voltage(solution) if insulating(solution) else None
+    across = None if solution.conditions.ceramic else film_voltage(solution)
     total, pit = _discharged(solution), case.discharge.pit
     discharged = known(stored_energy, total, across)
     at_break = known(stored_energy, total, None if breakdown is None else breakdown.first_break)
     volume, at_first = (volume_of_pit(pit, energy) for energy in (discharged, at_break))
     areas = conducting_areas(solution)
-    whole, largest = float(np.sum(areas)), float(np.max(areas))
+    whole, largest = np.sum(areas, axis=-1), np.max(areas, axis=-1)
     current = case.discharge.peak_current
     return BearingCosts(
         discharged_capacitance=total,
@@ -210,16 +231,24 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
         pit_diameter=known(pit_diameter, volume),
         breakdown_pit_diameter=known(pit_diameter, at_first),
         hertz_area=whole,
-        current_density=known(truediv, current, whole or None),
-        element_current_density=known(truediv, current, largest or None),
+        current_density=_density(current, whole),
+        element_current_density=_density(current, largest),
         current_density_limits=None if current is None else CURRENT_DENSITY_LIMITS,
     )
 
 
-def _discharged(solution: BearingSolution) -> float | None:
+def _density(current: Numbers | None, area: Numbers) -> Numbers | None:
+    """Current density [A/m^2] of a current [A] through an area [m^2]; None where no area carries it."""
+    return None if current is None else where(area > 0.0, current / np.where(area > 0.0, area, 1.0)[()])
+
+
+def _discharged(solution: BearingSolution) -> Numbers | None:
     """Capacitance that a discharge empties [F]; None where nothing says what is connected to the bearing."""
-    if not insulating(solution):
-        return None
+    return known(lambda total: where(insulating(solution), total), _connected(solution))
+
+
+def _connected(solution: BearingSolution) -> Numbers | None:
+    """Capacitance of the films and of what is connected to them [F]; None where nothing says what that is."""
     case, own, path = solution.case, capacitance(solution), shaft_path(solution)
     motor, external = case.motor, case.discharge.external_capacitance
     if motor is not None:
@@ -230,7 +259,7 @@ def _discharged(solution: BearingSolution) -> float | None:
 
 
 def conducting_areas(solution: BearingSolution) -> Array:
-    """Area of the smaller dry contact of each element, shape (n,) [m^2]; 0 where a ring does not load it."""
+    """Area of the smaller dry contact of each element, shape (..., n) [m^2]; 0 where not both are loaded."""
     inner, outer = (dry_areas(solution, ring) for ring in solution.positions[0].rings)
     return np.minimum(inner, outer)
 
@@ -253,18 +282,18 @@ TYPICAL = 4e3, 20e3
 class ShaftLeakage:
     """Decay of the shaft voltage, and of its part across the films, through the oil of both bearings."""
 
-    time_constant: float  # time constant T of the shaft voltage right after an edge of the inverter [s]
+    time_constant: Numbers  # time constant T of the shaft voltage right after an edge of the inverter [s]
     # Time constant of the voltage across the films right after an edge [s]. Without a coating on a ring, it
     # is that of the shaft voltage.
-    film_time_constant: float
+    film_time_constant: Numbers
     # Part of the shaft voltage that is left after a period of the inverter, dimensionless; exp(-1/(f T))
     # without a coating. None without a switching frequency.
-    after_period: float | None
+    after_period: Numbers | None
     # Part of the voltage across the films that is left after a period, dimensionless; None likewise.
-    film_after_period: float | None
+    film_after_period: Numbers | None
     # Shaft voltage at the end of an edge over that of the capacitive divider, dimensionless; None without a
     # rise time.
-    after_rise: float | None
+    after_rise: Numbers | None
 
 
 @dataclass(frozen=True)
@@ -283,47 +312,73 @@ class Decay:
     0.01
     """
 
-    # films and conductance: capacitance C [F] and conductance G [S] of the films.
-    films: float
-    conductance: float
-    elastance: float  # reciprocal capacitance 1/C_c of the coating [1/F]; 0 without a coating
-    beside: float  # all other capacitances C_s of the shaft [F]
-    leak: float  # conductance G_s parallel to them [S]
+    # films and conductance: capacitance C [F] and conductance G [S] of the films, shape (...).
+    films: Numbers
+    conductance: Numbers
+    elastance: Numbers  # reciprocal capacitance 1/C_c of the coating [1/F]; 0 without a coating, shape (...)
+    beside: Numbers  # all other capacitances C_s of the shaft [F], shape (...)
+    leak: Numbers  # conductance G_s parallel to them [S], shape (...)
 
     @property
-    def start(self) -> Array:
-        """Voltages across films and coating right after an edge, over the shaft voltage, shape (2,)."""
+    def start(self) -> tuple[Numbers, Numbers]:
+        """Voltages across films and coating right after an edge, over the shaft voltage, shape (...)."""
         share = 1.0 / (1.0 + self.films * self.elastance)
-        return np.array([share, 1.0 - share])
+        return share, 1.0 - share
 
-    @property
-    def rates(self) -> Array:
-        """Matrix A of the rates x' = A x of both voltages, shape (2, 2) [1/s]."""
+    def rates(self, films: Numbers, coating: Numbers) -> tuple[Numbers, Numbers]:
+        """Rates A x of voltages x across films and coating, in the unit of the voltages over s."""
         own = self.conductance / self.films
-        current = np.array([own, 0.0]) - self.leak / self.beside
-        current /= 1.0 / self.films + self.elastance + 1.0 / self.beside
-        return np.array([current / self.films - np.array([own, 0.0]), current * self.elastance])
+        current = own * films - self.leak / self.beside * (films + coating)
+        current = current / (1.0 / self.films + self.elastance + 1.0 / self.beside)
+        return current / self.films - own * films, current * self.elastance
 
     @property
-    def time_constant(self) -> float:
+    def time_constant(self) -> Numbers:
         """Time constant of the sum of both voltages right after an edge [s]."""
-        return -1.0 / float(np.sum(self.rates @ self.start))
+        films, coating = self.rates(*self.start)
+        return -1.0 / (films + coating)
 
     @property
-    def film_time_constant(self) -> float:
+    def film_time_constant(self) -> Numbers:
         """Time constant of the voltage across the films right after an edge [s]."""
-        return -float(self.start[0]) / float((self.rates @ self.start)[0])
+        return -self.start[0] / self.rates(*self.start)[0]
 
-    def after(self, time: float) -> Array:
-        """Voltages across films and coating a time [s] after an edge, over the shaft voltage, shape (2,)."""
-        left: Array = expm(time * self.rates) @ self.start
-        return left
+    def after(self, time: Numbers) -> tuple[Numbers, Numbers]:
+        """Voltages across films and coating a time [s] after an edge, over the shaft voltage."""
+        return self._along(lambda rate: np.exp(rate * time))
 
-    def after_rise(self, time: float) -> float:
-        """Shaft voltage at the end of an edge that lasts a time [s], over that of the capacitive divider."""
-        ramp = np.zeros((3, 3))
-        ramp[:2, :2], ramp[:2, 2] = time * self.rates, self.start
-        return float(np.sum(expm(ramp)[:2, 2]))
+    def after_rise(self, time: Numbers) -> Numbers:
+        """Shaft voltage at the end of an edge that lasts a time [s], over that of the capacitive divider.
+
+        It is the mean over the edge of the voltages that its parts leave.
+        """
+
+        def mean(rate: Numbers) -> Numbers:
+            exponent = rate * time
+            zero = exponent == 0.0
+            return np.where(zero, 1.0, np.expm1(exponent) / np.where(zero, 1.0, exponent))
+
+        films, coating = self._along(mean)
+        return (films + coating)[()]
+
+    def _along(self, function: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
+        """Function f of the matrix A, f(A) x = f(a) x + (f(a) - f(b))/(a - b) (A x - a x), at the start x.
+
+        Both eigenvalues a and b are real and not above 0, as the circuit has no inductance.
+        """
+        start = self.start
+        rates = self.rates(*start)
+        first, second = self.rates(1.0, 0.0), self.rates(0.0, 1.0)
+        middle = 0.5 * (first[0] + second[1])
+        apart = np.sqrt((0.5 * (first[0] - second[1])) ** 2 + second[0] * first[1])
+        slow, fast = middle + apart, middle - apart
+        # Two eigenvalues that are alike are both 0: nothing conducts.
+        slope = (function(slow) - function(fast)) / np.where(apart > 0.0, slow - fast, np.inf)
+        films, coating = (
+            function(slow) * voltage + slope * (rate - slow * voltage)
+            for voltage, rate in zip(start, rates, strict=True)
+        )
+        return films, coating
 
 
 def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
@@ -335,21 +390,21 @@ def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
     V T/t_r (1 - exp(-t_r/T)), where V is the voltage of the capacitive divider. The other bearing has the
     same oil as this one. If its capacitance is not given, it has the same coating and parallel capacitance.
     """
-    tau, motor = oil_relaxation_time(solution), solution.case.motor
-    if tau is None or motor is None or not insulating(solution):
+    tau, motor, insulates = oil_relaxation_time(solution), solution.case.motor, insulating(solution)
+    if tau is None or motor is None or not np.any(insulates):
         return None
     decay = _decay(solution, motor, tau)
     left = None if motor.switching_frequency is None else decay.after(1.0 / motor.switching_frequency)
     return ShaftLeakage(
-        time_constant=decay.time_constant,
-        film_time_constant=decay.film_time_constant,
-        after_period=None if left is None else float(np.sum(left)),
-        film_after_period=None if left is None else float(left[0] / decay.start[0]),
-        after_rise=None if motor.rise_time is None else decay.after_rise(motor.rise_time),
+        time_constant=where(insulates, decay.time_constant),
+        film_time_constant=where(insulates, decay.film_time_constant),
+        after_period=None if left is None else where(insulates, left[0] + left[1]),
+        film_after_period=None if left is None else where(insulates, left[0] / decay.start[0]),
+        after_rise=None if motor.rise_time is None else where(insulates, decay.after_rise(motor.rise_time)),
     )
 
 
-def _decay(solution: BearingSolution, motor: Motor, tau: float) -> Decay:
+def _decay(solution: BearingSolution, motor: Motor, tau: Numbers) -> Decay:
     """Circuit of the shaft of a motor whose oil has a relaxation time [s]."""
     own, path = capacitance(solution), shaft_path(solution)
     conductance, second = oil_conductance(solution, tau), motor.second_bearing_capacitance
@@ -362,14 +417,14 @@ def _decay(solution: BearingSolution, motor: Motor, tau: float) -> Decay:
     return Decay(own, conductance, 1.0 / path.coating, share, leak)
 
 
-def oil_conductance(solution: BearingSolution, tau: float) -> float:
+def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:
     """Conductance of the oil of a bearing with its relaxation time [s], mean over the positions [S]."""
     fill = solution.case.bearing.fill
     values = []
     for position in solution.positions:
         inner, outer = ((ring.capacitance(fill), ring.oil_capacitance(fill)) for ring in position.rings)
         values.append(leakage_conductance(inner, outer, tau))
-    return float(np.mean(values))
+    return np.mean(values, axis=0)
 
 
 def leakage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:

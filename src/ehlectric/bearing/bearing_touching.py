@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers, labels, where
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import (
     CONDUCTING,
@@ -76,61 +76,67 @@ CAPACITIVE, RESISTIVE = 0.01, 0.99
 class RingDuty:
     """Asperities in the contacts of all elements with one ring at one position of the cage."""
 
-    # Central film thickness over composite roughness, dimensionless; infinite without load, shape (n,).
+    # Central film thickness over composite roughness, dimensionless; infinite without load, shape (..., n).
     central_lambda_ratio: Array
     # asperity_share, asperity_share_low and asperity_share_high: share of the load on asperities by
-    # ``DEFAULT_SHARE``, and the least and the largest of all laws, shape (n,).
+    # ``DEFAULT_SHARE``, and the least and the largest of all laws, shape (..., n).
     asperity_share: Array
     asperity_share_low: Array
     asperity_share_high: Array
-    contact_probability: Array  # share of time with metallic contact by Clarke's fit over lambda, shape (n,)
-    # Expected number of simultaneous spots in the Hertz area; None without summits, shape (n,).
+    # Share of time with metallic contact by Clarke's fit over lambda, shape (..., n).
+    contact_probability: Array
+    # Expected number of simultaneous spots in the Hertz area; None without summits, shape (..., n).
     expected_spots: Array | None
     # Share of time with metallic contact: from the expected spots, or by Clarke's fit without summits,
-    # shape (n,).
+    # shape (..., n).
     contact_time_share: Array
-    # Mean area of the spots together, while there are any [m^2]; None without summits, shape (n,).
+    # Mean area of the spots together, while there are any [m^2]; None without summits, shape (..., n).
     real_area: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class BearingDuty:
-    """Asperities in a whole bearing."""
+    """Asperities in a whole bearing; numbers of many points have the shape (...)."""
 
     # Contacts with the inner and the outer ring at each position of the cage.
     rings: tuple[tuple[RingDuty, RingDuty], ...]
     # Share of time in which at least one element touches both rings, mean over the positions.
-    touching_time_share: float
-    clarke_time_share: float  # the same with Clarke's fit for each contact
+    touching_time_share: Numbers
+    clarke_time_share: Numbers  # the same with Clarke's fit for each contact
     insulated: bool  # whether ceramic elements or a coating insulate, so that the bearing never conducts
     model: str  # what the share of time of a contact is from: "clarke" or "greenwood_williamson"
-    regime: str
+    regime: Any  # regime of each point in one word, shape (...)
 
     @property
-    def contact_time_share(self) -> float:
+    def contact_time_share(self) -> Numbers:
         """Share of time in which the bearing conducts from shaft to housing by metallic contact."""
-        return 0.0 if self.insulated else self.touching_time_share
+        return 0.0 * self.touching_time_share if self.insulated else self.touching_time_share
 
     @property
-    def real_area(self) -> float | None:
+    def real_area(self) -> Numbers | None:
         """Real area of contact of all elements that touch both rings, while any does [m^2].
 
         Each has the smaller one of its two contacts; mean over time and positions. None without summits, and
         where nothing touches.
         """
-        areas = 0.0
+        areas: Numbers = 0.0
         for inner, outer in self.rings:
             if inner.real_area is None or outer.real_area is None:
                 return None
             weight = inner.contact_time_share * outer.contact_time_share
-            areas += float(np.sum(weight * np.minimum(inner.real_area, outer.real_area)))
-        return areas / len(self.rings) / self.touching_time_share if areas else None
+            areas = areas + np.sum(weight * np.minimum(inner.real_area, outer.real_area), axis=-1)
+        return where(areas > 0.0, self._while_touching(areas / len(self.rings)))
 
     @property
-    def closed(self) -> float:
+    def closed(self) -> Numbers:
         """Mean number of elements that touch both rings at a time, while any does; 0 where none ever does."""
-        number = np.mean([np.sum(a.contact_time_share * b.contact_time_share) for a, b in self.rings])
-        return float(number) / self.touching_time_share if self.touching_time_share else 0.0
+        shares = [np.sum(a.contact_time_share * b.contact_time_share, axis=-1) for a, b in self.rings]
+        return self._while_touching(np.mean(shares, axis=0))
+
+    def _while_touching(self, mean: Numbers) -> Numbers:
+        """Mean over the time in which any element touches, from the mean over all time; 0 where none does."""
+        share = self.touching_time_share
+        return np.where(share > 0.0, mean / np.where(share > 0.0, share, 1.0), 0.0)[()]
 
 
 def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
@@ -149,49 +155,50 @@ def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDut
     insulated = solution.conditions.ceramic or coated
     touching = _mean_share([(a.contact_time_share, b.contact_time_share) for a, b in rings])
     state = lubrication(solution, film_scale=film_scale)
-    share = 0.0 if insulated else touching
+    share = 0.0 * touching if insulated else touching
     return BearingDuty(
         rings=rings,
         touching_time_share=touching,
         clarke_time_share=_mean_share([(a.contact_probability, b.contact_probability) for a, b in rings]),
         insulated=insulated,
         model="clarke" if solution.case.bearing.summits is None else "greenwood_williamson",
-        regime=regime_of(share, touching=state == "conducting" and not coated),
+        regime=regime_of(share, touching=(state == "conducting") & (not coated)),
     )
 
 
-def regime_of(share: float, *, touching: bool = False) -> str:
+def regime_of(share: Numbers, *, touching: Any = False) -> Any:
     """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive". ``share``, share of time
-    in which the bearing conducts, dimensionless; ``touching``, whether its least lambda ratio is below 1,
-    where no voltage is computed.
+    in which the bearing conducts, dimensionless, shape (...); ``touching``, whether its least lambda ratio is
+    below 1, where no voltage is computed, shape (...).
 
     Examples
     --------
     >>> regime_of(1e-4), regime_of(0.3), regime_of(0.995), regime_of(1e-4, touching=True)
     ('capacitive', 'intermittent', 'resistive', 'intermittent')
     """
-    if share > RESISTIVE:
-        return "resistive"
-    return "intermittent" if touching or share > CAPACITIVE else "capacitive"
+    return labels(
+        (share > RESISTIVE, "resistive"), (touching | (share > CAPACITIVE), "intermittent"), "capacitive"
+    )
 
 
-def _mean_share(pairs: list[tuple[Array, Array]]) -> float:
+def _mean_share(pairs: list[tuple[Array, Array]]) -> Numbers:
     """Share of time in which a bearing conducts, mean over the positions, from the shares of its contacts."""
     inner, outer = (np.array(column) for column in zip(*pairs, strict=True))
-    return float(np.mean(bearing_time_share(inner, outer)))
+    return np.mean(bearing_time_share(inner, outer), axis=0)
 
 
 def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> RingDuty:
     """Asperities in the contacts with one ring; elements without load have none."""
     bearing, loaded = solution.case.bearing, ring.solved
     film = film_scale * ring.values.central_thickness[loaded]
+    rq = _of_contacts(bearing.composite_rq, loaded)
 
     def whole(values: Array, otherwise: float = 0.0) -> Array:
         column = np.full(loaded.shape, otherwise)
         column[loaded] = values
         return column
 
-    ratio = film / bearing.composite_rq
+    ratio = film / rq
     shares, probability = load_shares(ratio), contact_probability(ratio)
     # Johnson's fit ends at a share of 0, and is no lower bound beyond its range.
     beyond = {"johnson": ratio >= johnson_end()}
@@ -199,7 +206,7 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
     spots, real, time_share = None, None, probability
     if bearing.summits is not None:
         area = dry_areas(solution, ring)[loaded]
-        touching = _touching(solution, film)
+        touching = _touching(solution, film, rq)
         number = expected_spots(touching.spots_per_area, area)
         time_share = contact_time_share(number)
         spots, real = whole(number), whole(area_while_touching(touching, area))
@@ -215,10 +222,16 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
     )
 
 
-def _touching(solution: BearingSolution, film: Array) -> AsperityContact:
-    """Asperities of contacts with a central film [m], after Greenwood and Williamson."""
-    bearing = solution.case.bearing
-    given, rq = bearing.summits, bearing.composite_rq
+def _of_contacts(values: Numbers, loaded: Mask) -> Numbers:
+    """Values of the points for each of their loaded contacts, shape (k,); a float stays one."""
+    if np.ndim(values) == 0:
+        return values
+    return np.broadcast_to(values[..., np.newaxis], loaded.shape)[loaded]
+
+
+def _touching(solution: BearingSolution, film: Array, rq: Numbers) -> AsperityContact:
+    """Asperities of contacts with a central film and a roughness [m], after Greenwood and Williamson."""
+    given = solution.case.bearing.summits
     assert given is not None
     deviation, separation = given.height_deviation or rq, separation_of_gap(film, rq)
     if given.bandwidth is not None:
@@ -297,17 +310,20 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
         "contact_model": duty.model,
     }
     for k, name in enumerate(("inner", "outer")):
-        rings = [position.rings[k] for position in solution.positions]
-        least = [np.min(ring.values.minimum_thickness[ring.solved], initial=np.inf) for ring in rings]
-        found[f"{name}_lambda_ratio"] = float(min(least)) / rq
+        least = [position.rings[k].least_film for position in solution.positions]
+        found[f"{name}_lambda_ratio"] = np.min(least, axis=0) / rq
     for k, name in enumerate(("inner", "outer")):
-        shares = [rings[k].contact_time_share for rings in duty.rings]
-        found[f"{name}_contact_time_share"] = float(np.max(shares))
+        found[f"{name}_contact_time_share"] = _largest([rings[k].contact_time_share for rings in duty.rings])
     all_of = [ring for rings in duty.rings for ring in rings]
     for key in ("asperity_share", "asperity_share_low", "asperity_share_high"):
-        found[key] = float(max(np.max(getattr(ring, key)) for ring in all_of))
-    spots = [np.max(ring.expected_spots) for ring in all_of if ring.expected_spots is not None]
-    return found | {"expected_spots": float(max(spots)) if spots else None}
+        found[key] = _largest([getattr(ring, key) for ring in all_of])
+    spots = [ring.expected_spots for ring in all_of if ring.expected_spots is not None]
+    return found | {"expected_spots": _largest(spots) if spots else None}
+
+
+def _largest(of_contacts: list[Array]) -> Numbers:
+    """Largest value of all contacts at all positions of the cage, shape (...)."""
+    return np.max(of_contacts, axis=(0, -1))
 
 
 def contact_duty(ring: RingDuty, k: int) -> dict[str, Any]:

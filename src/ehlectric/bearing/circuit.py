@@ -5,15 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, Mask, N, Numbers
 from ehlectric.runtime.stored import stored
-
-# Number, or array of numbers.
-N = TypeVar("N", float, Array)
 
 
 def series(first: Array, second: Array) -> Array:
@@ -31,73 +27,76 @@ def series(first: Array, second: Array) -> Array:
 class Circuit:
     """Capacitances of a bearing's contacts and the voltages at which their films break down.
 
+    Of one bearing, or of many points of operation: arrays then have the shape of the points before that of
+    the n elements.
+
     Examples
     --------
     Two equal contacts have half of the bearing voltage each. The inner one, which withstands 5 V, breaks down
     at a bearing voltage of 10 V. The outer one then carries the whole voltage, up to 20 V:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
-    >>> circuit.capacitance, circuit.first_break, circuit.through_breakdown
-    (5e-11, 10.0, 20.0)
+    >>> [float(value) for value in (circuit.capacitance, circuit.first_break, circuit.through_breakdown)]
+    [5e-11, 10.0, 20.0]
 
     By Weibull's law the voltage of the first break falls with the number of equal contacts to the power -1/m,
     here from 10 V for a single contact to 5 V for four:
 
     >>> pair, both = np.full(2, 1e-10), np.full(2, 5.0)
-    >>> round(Circuit(pair, pair, both, both, shape=2.0).first_break, 9)
+    >>> round(float(Circuit(pair, pair, both, both, shape=2.0).first_break), 9)
     5.0
     """
 
     # inner and outer: capacitance of the contact of each element with the inner and the outer ring [F],
-    # shape (n,).
+    # shape (..., n).
     inner: Array
     outer: Array
     # inner_breakdown and outer_breakdown: breakdown voltage of each contact by itself [V]; infinite without a
-    # dielectric strength, shape (n,).
+    # dielectric strength, shape (..., n).
     inner_breakdown: Array
     outer_breakdown: Array
     # Shape parameter m of Weibull's law. The breakdown voltages are then those at a probability of 63.2 %.
     # None for a strength without scatter.
-    shape: float | None = None
+    shape: Numbers | None = None
 
     @cached_property
     def elements(self) -> Array:
-        """Capacitance of each element from ring to ring, shape (n,) [F]."""
+        """Capacitance of each element from ring to ring, shape (..., n) [F]."""
         return series(self.inner, self.outer)
 
     @cached_property
-    def capacitance(self) -> float:
-        """Capacitance of the bearing [F]."""
-        return float(np.sum(self.elements))
+    def capacitance(self) -> Numbers:
+        """Capacitance of the bearing, shape (...) [F]."""
+        return np.sum(self.elements, axis=-1)
 
     @cached_property
     def inner_share(self) -> Array:
-        """Share of the bearing voltage on each inner contact, shape (n,); the outer one has the rest."""
+        """Share of the bearing voltage on each inner contact, shape (..., n); the outer one has the rest."""
         return self.outer / (self.inner + self.outer)
 
     @cached_property
     def inner_breaks(self) -> Array:
-        """Bearing voltages at which the inner contacts break down, outer ones intact, shape (n,) [V]."""
+        """Bearing voltages at which the inner contacts break down, outer ones intact, shape (..., n) [V]."""
         return self.inner_breakdown / self.inner_share
 
     @cached_property
     def outer_breaks(self) -> Array:
-        """Bearing voltages at which the outer contacts break down, inner ones intact, shape (n,) [V]."""
+        """Bearing voltages at which the outer contacts break down, inner ones intact, shape (..., n) [V]."""
         return self.outer_breakdown / (1.0 - self.inner_share)
 
     @cached_property
     def inner_first(self) -> Mask:
-        """Whether the inner contact of each element breaks down before or with the outer one, shape (n,)."""
+        """Whether the inner contact breaks down before or with the outer one, shape (..., n)."""
         return self.inner_breaks <= self.outer_breaks
 
     @cached_property
     def first_breaks(self) -> Array:
-        """Bearing voltages at which the first contact of each element breaks down, shape (n,) [V]."""
+        """Bearing voltages at which the first contact of each element breaks down, shape (..., n) [V]."""
         return np.minimum(self.inner_breaks, self.outer_breaks)
 
     @cached_property
-    def first_break(self) -> float:
-        """Smallest bearing voltage at which a contact breaks down [V].
+    def first_break(self) -> Numbers:
+        """Smallest bearing voltage at which a contact breaks down, shape (...) [V].
 
         With Weibull's law, it is the voltage at which the probability that any contact has broken down is
         63.2 %. The exponents (V/V_k)^m of all contacts then add up to 1, where V_k is the bearing voltage at
@@ -105,17 +104,20 @@ class Circuit:
 
         W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
         """
-        least = float(np.min(self.first_breaks))
-        if self.shape is None or not np.isfinite(least):
+        least = np.min(self.first_breaks, axis=-1)
+        finite = np.isfinite(least)
+        if self.shape is None or not np.any(finite):
             return least
-        breaks = np.concatenate([self.inner_breaks, self.outer_breaks])
+        breaks = np.concatenate([self.inner_breaks, self.outer_breaks], axis=-1)
         # Number of contacts as weak as the weakest one. Powers of the voltages themselves would overflow.
-        number = float(np.sum((least / breaks) ** self.shape))
-        return least * float(number ** (-1.0 / self.shape))
+        shape = np.asarray(self.shape)[..., np.newaxis]
+        weakest = np.where(finite, least, 1.0)[..., np.newaxis]
+        number = np.sum((weakest / breaks) ** shape, axis=-1)
+        return np.where(finite, least * number ** (-1.0 / self.shape), least)[()]
 
     @property
-    def through_breakdown(self) -> float:
-        """Smallest bearing voltage at which an element breaks down from ring to ring [V].
+    def through_breakdown(self) -> Numbers:
+        """Smallest bearing voltage at which an element breaks down from ring to ring, shape (...) [V].
 
         After the first contact of an element has broken down, the other one carries the whole bearing
         voltage. With Weibull's law, each contact breaks down at the voltage of its own 63.2 %.
@@ -124,29 +126,29 @@ class Circuit:
 
 
 def leakage_conductance(
-    inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: float
-) -> float:
+    inner: tuple[Array, Array], outer: tuple[Array, Array], relaxation_time: Numbers
+) -> Numbers:
     """Conductance of a bearing whose oil conducts, at frequencies far above the corner frequency of the oil.
 
     Both contacts of an element are in series and share the voltage by their capacitances C. With the
     conductances G = C_oil/tau, an element has (G_i C_o^2 + G_o C_i^2)/(C_i + C_o)^2.
 
     ``inner`` and ``outer``, capacitance of each element's contact with the ring, and the part of it in oil
-    [F], shape (n,); ``relaxation_time``, charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
-    Returns conductance [S].
+    [F], shape (..., n); ``relaxation_time``, charge relaxation time tau = eps0 eps_r/sigma of the oil [s],
+    shape (...). Returns conductance [S], shape (...).
 
     Examples
     --------
     With oil everywhere, it is the capacitance of the bearing over tau:
 
     >>> both = np.array([2e-10]), np.array([2e-10])
-    >>> leakage_conductance(both, both, 1.0)
+    >>> float(leakage_conductance(both, both, 1.0))
     1e-10
     """
     (first, first_oil), (second, second_oil) = inner, outer
     share = second / (first + second)
-    conductances = (first_oil * share**2 + second_oil * (1.0 - share) ** 2) / relaxation_time
-    return float(np.sum(conductances))
+    oil = np.sum(first_oil * share**2 + second_oil * (1.0 - share) ** 2, axis=-1)
+    return oil / relaxation_time
 
 
 def leaking_admittance(
@@ -191,19 +193,19 @@ class Path:
     """
 
     # Capacitance of the coating on a ring, in series with all films [F]; infinite without a coating.
-    coating: float = field(default=math.inf, metadata=stored("", "F", "positive or infinite"))
+    coating: Numbers = field(default=math.inf, metadata=stored("", "F", "positive or infinite"))
     # Capacitance of cage, shields and wiring, parallel to films and coating [F].
-    parallel: float = field(default=0.0, metadata=stored("", "F", "not negative"))
+    parallel: Numbers = field(default=0.0, metadata=stored("", "F", "not negative"))
     # Insulation resistance of the coating [Ohm]; infinite where it does not leak.
-    resistance: float = field(default=math.inf, metadata=stored("", "ohm", "positive or infinite"))
-    coating_breakdown: float | None = field(
+    resistance: Numbers = field(default=math.inf, metadata=stored("", "ohm", "positive or infinite"))
+    coating_breakdown: Numbers | None = field(
         default=None, metadata=stored("", "V", "finite or NaN", unknown=True)
     )  # breakdown voltage of the coating alone [V]; None without one
 
     @property
     def coated(self) -> bool:
         """Whether a ring has a coating."""
-        return math.isfinite(self.coating)
+        return bool(np.all(np.isfinite(self.coating)))
 
     def film_share(self, films: N) -> N:
         """Share of the shaft voltage across films of a capacitance [F], C_c/(C_c + C), dimensionless.
@@ -214,11 +216,11 @@ class Path:
         share: N = 1.0 / (1.0 + films / self.coating)
         return share
 
-    def total(self, films: float) -> float:
+    def total(self, films: Numbers) -> Numbers:
         """Capacitance from shaft to housing with films of a capacitance [F]."""
         return self.parallel + films * self.film_share(films)
 
-    def behind_coating(self, other: float) -> float:
+    def behind_coating(self, other: Numbers) -> Numbers:
         """Capacitance C_s C_c/(C_s + C_c) [F] of another capacitance C_s [F] that is behind the coating."""
         return other / (1.0 + other / self.coating)
 
@@ -236,8 +238,8 @@ class Path:
         return y
 
 
-def shaft_first_break(circuit: Circuit, path: Path) -> float:
-    """Smallest shaft voltage at which a contact breaks down [V].
+def shaft_first_break(circuit: Circuit, path: Path) -> Numbers:
+    """Smallest shaft voltage at which a contact breaks down, shape (...) [V].
 
     Examples
     --------
@@ -245,14 +247,14 @@ def shaft_first_break(circuit: Circuit, path: Path) -> float:
     takes half of the shaft voltage:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
-    >>> shaft_first_break(circuit, Path(coating=5e-11))
+    >>> float(shaft_first_break(circuit, Path(coating=5e-11)))
     20.0
     """
     return circuit.first_break / path.film_share(circuit.capacitance)
 
 
-def shaft_through_breakdown(circuit: Circuit, path: Path) -> float:
-    """Smallest shaft voltage at which an element breaks down from ring to ring [V].
+def shaft_through_breakdown(circuit: Circuit, path: Path) -> Numbers:
+    """Smallest shaft voltage at which an element breaks down from ring to ring, shape (...) [V].
 
     After the first contact of an element has broken down, the capacitance of its element is that of the other
     contact. The capacitance of the films is then larger, and their share of the shaft voltage smaller.
@@ -263,11 +265,14 @@ def shaft_through_breakdown(circuit: Circuit, path: Path) -> float:
     of 50 pF, and a third of the shaft voltage instead of a half. The other contact withstands 20 V:
 
     >>> circuit = Circuit(np.array([1e-10]), np.array([1e-10]), np.array([5.0]), np.array([20.0]))
-    >>> round(shaft_through_breakdown(circuit, Path(coating=5e-11)), 9)
+    >>> round(float(shaft_through_breakdown(circuit, Path(coating=5e-11))), 9)
     60.0
     """
     other = np.where(circuit.inner_first, circuit.outer, circuit.inner)
     remaining = np.where(circuit.inner_first, circuit.outer_breakdown, circuit.inner_breakdown)
-    shorted = circuit.capacitance - circuit.elements + other
-    first = circuit.first_breaks / path.film_share(circuit.capacitance)
-    return float(np.min(np.maximum(first, remaining / path.film_share(shorted))))
+    films = circuit.capacitance[..., np.newaxis]
+    first, second = (
+        1.0 + values / np.asarray(path.coating)[..., np.newaxis]
+        for values in (films, films - circuit.elements + other)
+    )
+    return np.min(np.maximum(circuit.first_breaks * first, remaining * second), axis=-1)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, where
 from ehlectric.bearing.bearing_touching import RingDuty, duty_of
 from ehlectric.bearing.circuit import Path, leaking_admittance, series
 from ehlectric.bearing.solution import (
@@ -34,22 +34,24 @@ def shaft_path(solution: BearingSolution) -> Path:
     )
 
 
-def film_share(solution: BearingSolution) -> float | None:
+def film_share(solution: BearingSolution) -> Numbers | None:
     """Share of the shaft voltage across the films of a solved bearing, dimensionless; 1 without a coating.
 
-    None where surfaces touch, and where only an upper bound of the capacitance is known.
+    None where surfaces touch, and where only an upper bound of the capacitance is known; of many points NaN
+    where surfaces touch.
     """
-    if lubrication(solution) == "conducting" or capacitance_is_bound(solution):
+    if capacitance_is_bound(solution):
         return None
-    return shaft_path(solution).film_share(capacitance(solution))
+    share = shaft_path(solution).film_share(capacitance(solution))
+    return where(lubrication(solution) != "conducting", share)
 
 
-def shaft_capacitance(solution: BearingSolution) -> float:
+def shaft_capacitance(solution: BearingSolution) -> Numbers:
     """Capacitance from shaft to housing with smooth films, coating and parallel capacitance [F]."""
     return shaft_path(solution).total(capacitance(solution))
 
 
-def rough_capacitance(solution: BearingSolution) -> float | None:
+def rough_capacitance(solution: BearingSolution) -> Numbers | None:
     """Capacitance of the films with the roughness in their Hertz areas, mean over the positions of the cage.
 
     Returns capacitance [F]; None for ceramic elements; for results that do not have the capacitance of the
@@ -65,20 +67,24 @@ def rough_capacitance(solution: BearingSolution) -> float | None:
     bearing = solution.case.bearing
 
     def of_contacts(quantity: Callable[[RingState], Array]) -> Array:
-        """Quantity of all contacts, shape (positions, 2, n)."""
-        return np.array([[quantity(ring) for ring in position.rings] for position in solution.positions])
+        """Quantity of all contacts, shape (2, ..., positions, n)."""
+        rings = zip(*(position.rings for position in solution.positions), strict=True)
+        return np.stack([np.stack([quantity(one) for one in ring], axis=-2) for ring in rings])
 
-    ratio = of_contacts(lambda ring: ring.values.central_thickness) / bearing.composite_rq
+    rq = np.asarray(bearing.composite_rq)[..., np.newaxis, np.newaxis]
+    ratio = of_contacts(lambda ring: ring.values.central_thickness) / rq
     hertz = of_contacts(lambda ring: ring.values.hertz)
     solved = of_contacts(lambda ring: ring.load) > 0.0
-    if np.any(ratio[solved] < LEAST_RATIO) or np.any(np.isnan(hertz)):
+    # Axes of rings, positions and elements.
+    known = ~np.any((solved & (ratio < LEAST_RATIO)) | np.isnan(hertz), axis=(0, -2, -1))
+    if not np.any(known):
         return None
     smooth = of_contacts(lambda ring: ring.capacitance(bearing.fill))
-    rough = smooth + hertz * (roughness_factor(ratio) - 1.0)
-    return float(np.mean(np.sum(series(rough[:, 0], rough[:, 1]), axis=1)))
+    rough = smooth + hertz * (roughness_factor(np.maximum(ratio, LEAST_RATIO)) - 1.0)
+    return where(known, np.mean(np.sum(series(rough[0], rough[1]), axis=-1), axis=-1))
 
 
-def meter_capacitance(solution: BearingSolution) -> float | None:
+def meter_capacitance(solution: BearingSolution) -> Numbers | None:
     """Capacitance that a meter reads from shaft to housing, with rough films [F].
 
     None as ``rough_capacitance``. For ceramic elements it follows from ``element_capacitance``, and is None
@@ -87,7 +93,7 @@ def meter_capacitance(solution: BearingSolution) -> float | None:
     return meter_reading(solution, rough_capacitance(solution))
 
 
-def meter_reading(solution: BearingSolution, rough: float | None) -> float | None:
+def meter_reading(solution: BearingSolution, rough: Numbers | None) -> Numbers | None:
     """Capacitance that a meter reads [F], from the ``rough_capacitance`` of a solved bearing [F]."""
     if solution.conditions.ceramic:
         return None if capacitance_is_bound(solution) else shaft_capacitance(solution)
@@ -174,7 +180,7 @@ class Impedance:
         return np.degrees(np.angle(self.values))
 
 
-def oil_relaxation_time(solution: BearingSolution) -> float | None:
+def oil_relaxation_time(solution: BearingSolution) -> Numbers | None:
     """Charge relaxation time eps0 eps_r/sigma of a bearing's oil [s]; None without a conductivity."""
     return leakage(solution.case.discharge, solution.conditions.oil).relaxation_time
 

@@ -150,7 +150,7 @@ def _point(solution: BearingSolution) -> MarginPoint:
 
 def _margin_of(solution: BearingSolution) -> float:
     """Margin of a solution; raises an InputError where it has none."""
-    found = first_margin(solution)
+    found: float | None = first_margin(solution)
     if found is None:
         raise InputError.worded(None, "the bearing has no margin")
     return found

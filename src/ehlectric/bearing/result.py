@@ -108,7 +108,7 @@ class BearingResult(Shown):
         if fill not in (None, "oil", "air") and not part:
             takes = "'oil', 'air', a part from 0 to 1, or None for the fill of the case"
             raise InputError("fill", got=shown(fill), takes=takes)
-        return capacitance(self.solution, fill)
+        return float(capacitance(self.solution, fill))
 
     def breaks(self) -> dict[str, Any]:
         """Breakdown voltages over the positions of the cage [V], and their ratios to the shaft voltage.

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, Mask, Numbers, labels
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.circuit import Circuit, series
 from ehlectric.bearing.conditions import BearingConditions, gap_breakdown
@@ -31,40 +31,51 @@ _PARTS = {"oil": 1.0, "air": 0.0}
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RingState(Values):
-    """Contacts of all elements with one ring at one position of the cage."""
+    """Contacts of all n elements with one ring at one position of the cage; of many points shape (..., n)."""
 
     # load and gap: load of each contact [N], and distance between element and ring [m]; it is 0 where they
-    # touch, shape (n,).
+    # touch, shape (..., n).
     load: Array = field(metadata=stored("", "N", "not negative"))
     gap: Array = field(metadata=stored("", "m", "not negative"))
     # Whether the contact is loaded and has a solved film and field. The others are gaps between rigid bodies,
-    # shape (n,).
+    # shape (..., n).
     solved: Mask = field(metadata=stored("", "", "0 or 1"))
-    # Films, capacitances and voltages, shape (n,). Pressure, semi-axes and plate are 0 without load.
+    # Films, capacitances and voltages, shape (..., n). Pressure, semi-axes and plate are 0 without load.
     values: ContactValues[Array]
 
-    def capacitance(self, fill: float | str) -> Array:
-        """Capacitance of each contact with a filling around the film, shape (n,) [F].
+    @property
+    def least_film(self) -> Numbers:
+        """Smallest film thickness of the loaded contacts, shape (...) [m]; infinite where none is loaded."""
+        return np.min(self.values.minimum_thickness, axis=-1, where=self.solved, initial=np.inf)
+
+    def capacitance(self, fill: Numbers | str) -> Array:
+        """Capacitance of each contact with a filling around the film, shape (..., n) [F].
 
         The filling is "oil", "air", or the part of the area around the film that is filled with oil.
         """
         values, part = self.values, oil_part(fill)
-        return values.inside + part * values.outside_oil + (1.0 - part) * values.outside_air
+        whole: Array = values.inside + part * values.outside_oil + (1.0 - part) * values.outside_air
+        return whole
 
-    def oil_capacitance(self, fill: float | str) -> Array:
-        """Part of ``capacitance`` that is filled with oil, and leaks as it does, shape (n,) [F]."""
-        return self.values.inside + oil_part(fill) * self.values.outside_oil
+    def oil_capacitance(self, fill: Numbers | str) -> Array:
+        """Part of ``capacitance`` that is filled with oil, and leaks as it does, shape (..., n) [F]."""
+        oil: Array = self.values.inside + oil_part(fill) * self.values.outside_oil
+        return oil
 
 
-def oil_part(fill: float | str) -> float:
+def oil_part(fill: Numbers | str) -> Numbers:
     """Part of the area around the films that is filled with oil: 1 for "oil", 0 for "air", or a number.
+
+    An array of numbers gets an axis for the elements.
 
     Examples
     --------
     >>> oil_part("oil"), oil_part("air"), oil_part(0.3)
     (1.0, 0.0, 0.3)
     """
-    return _PARTS[fill] if isinstance(fill, str) else fill
+    if isinstance(fill, str):
+        return _PARTS[fill]
+    return fill if np.ndim(fill) == 0 else fill[..., np.newaxis]
 
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
@@ -132,14 +143,14 @@ class Position(Values):
     equilibrium: Equilibrium
     inner: RingState
     outer: RingState
-    shape: float | None = None  # shape parameter of a Weibull strength; None for a strength without scatter
+    shape: Numbers | None = None  # shape parameter of a Weibull strength; None for a strength without scatter
 
     @property
     def rings(self) -> tuple[RingState, RingState]:
         """Contacts with the inner and with the outer ring."""
         return self.inner, self.outer
 
-    def circuit(self, fill: float | str) -> Circuit:
+    def circuit(self, fill: Numbers | str) -> Circuit:
         """Circuit of the bearing with "oil" or "air" around the films, or a part of it oil."""
         return Circuit(
             self.inner.capacitance(fill),
@@ -176,15 +187,11 @@ class BearingSolution(Values):
         return all(contact.converged for curve in self.curves for contact in curve.solutions)
 
     @cached_property
-    def least_film(self) -> float:
-        """Smallest film thickness of the loaded contacts, at all positions of the cage [m]."""
-        return min(
-            float(np.min(ring.values.minimum_thickness[ring.solved]))
-            for position in self.positions
-            for ring in position.rings
-        )
+    def least_film(self) -> Numbers:
+        """Smallest film thickness of the loaded contacts, at all positions of the cage, shape (...) [m]."""
+        return np.min([ring.least_film for position in self.positions for ring in position.rings], axis=0)
 
-    def circuits(self, fill: float | str | None = None) -> tuple[Circuit, ...]:
+    def circuits(self, fill: Numbers | str | None = None) -> tuple[Circuit, ...]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
         if fill is None:
             return self._own_circuits
@@ -197,13 +204,13 @@ class BearingSolution(Values):
 
 
 def dry_areas(solution: BearingSolution, ring: RingState) -> Array:
-    """Area of each dry contact with a ring, shape (n,) [m^2]; 0 without load."""
+    """Area of each dry contact with a ring, shape (..., n) [m^2]; 0 without load."""
     factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
     return factor * ring.values.semi_axis_x * ring.values.semi_axis_y
 
 
-def lambda_ratio(solution: BearingSolution) -> float:
-    """Lambda ratio: smallest film thickness of the loaded contacts over ``composite_rq``, dimensionless."""
+def lambda_ratio(solution: BearingSolution) -> Numbers:
+    """Lambda ratio: smallest film of the loaded contacts over ``composite_rq``, shape (...)."""
     return solution.least_film / solution.case.bearing.composite_rq
 
 
@@ -213,20 +220,21 @@ def lambda_text(solution: BearingSolution) -> str:
     return f"{ratio:.3g}" if 0.9 < ratio < 1.1 else f"{ratio:.2g}"
 
 
-def lubrication(solution: BearingSolution, *, film_scale: float = 1.0) -> str:
+def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
 
     ``film_scale`` is a factor on all films, for those of quick contacts that are scaled to solved ones.
 
     Below a lambda ratio of 1 contacts close and open all the time: the bearing is called "conducting", as no
     voltage is computed for it, or "touching" with ceramic elements, which insulate. Below 3 it has a "partial
-    film", whose asperities touch at times, and otherwise a "full film".
+    film", whose asperities touch at times, and otherwise a "full film". Many points have an array of texts.
     """
-    state = regime(film_scale * lambda_ratio(solution))
-    return "conducting" if state == "touching" and not solution.conditions.ceramic else state
+    ratio = film_scale * lambda_ratio(solution)
+    conducts = (ratio < CONDUCTING) & (not solution.conditions.ceramic)
+    return labels((conducts, "conducting"), *_regimes(ratio))
 
 
-def regime(ratio: float, *, loaded: bool = True) -> str:
+def regime(ratio: Numbers, *, loaded: Any = True) -> Any:
     """Regime of one contact by its lambda ratio: "full film", "partial film", "touching", or "gap".
 
     A contact without load is a "gap". From a lambda ratio of 3 on, surfaces are separated. Below 3,
@@ -238,27 +246,30 @@ def regime(ratio: float, *, loaded: bool = True) -> str:
     >>> regime(3.2), regime(1.5), regime(0.4), regime(90.0, loaded=False)
     ('full film', 'partial film', 'touching', 'gap')
     """
-    if not loaded:
-        return "gap"
-    return "touching" if ratio < CONDUCTING else "partial film" if ratio < PARTIAL else "full film"
+    return labels((np.logical_not(loaded), "gap"), *_regimes(ratio))
 
 
-def insulating(solution: BearingSolution) -> bool:
-    """Whether the films carry voltages: the elements conduct, and the surfaces do not touch."""
-    return not solution.conditions.ceramic and lubrication(solution) != "conducting"
+def _regimes(ratio: Numbers) -> tuple[Any, ...]:
+    """Regimes of a loaded contact with their conditions, as ``labels`` takes them."""
+    return (ratio < CONDUCTING, "touching"), (ratio < PARTIAL, "partial film"), "full film"
 
 
-def capacitance(solution: BearingSolution, fill: float | str | None = None) -> float:
+def insulating(solution: BearingSolution) -> Any:
+    """Whether the films carry voltages: the elements conduct, and the surfaces do not touch, shape (...)."""
+    return (not solution.conditions.ceramic) & (lambda_ratio(solution) >= CONDUCTING)
+
+
+def capacitance(solution: BearingSolution, fill: Numbers | str | None = None) -> Numbers:
     """Capacitance of the smooth films of a solved bearing, mean over the positions of the cage.
 
     For ceramic elements it follows from ``element_capacitance``, or is an upper bound without this key.
 
-    Returns capacitance [F].
+    Returns capacitance [F], shape (...).
     """
     bearing = solution.case.bearing
     if bearing.element_capacitance is not None:
         return bearing.elements * bearing.element_capacitance
-    return float(np.mean([circuit.capacitance for circuit in solution.circuits(fill)]))
+    return np.mean([circuit.capacitance for circuit in solution.circuits(fill)], axis=0)
 
 
 def capacitance_is_bound(solution: BearingSolution) -> bool:
@@ -266,7 +277,7 @@ def capacitance_is_bound(solution: BearingSolution) -> bool:
     return solution.conditions.ceramic and solution.case.bearing.element_capacitance is None
 
 
-def plate_capacitance(solution: BearingSolution) -> float | None:
+def plate_capacitance(solution: BearingSolution) -> Numbers | None:
     """Capacitance of plates with the Hertz areas at the distance h(0), mean over the positions [F].
 
     Elements count where both contacts are loaded. None for ceramic elements, which insulate.
@@ -277,8 +288,9 @@ def plate_capacitance(solution: BearingSolution) -> float | None:
     for position in solution.positions:
         inner, outer = (ring.values.plate for ring in position.rings)
         loaded = (inner > 0.0) & (outer > 0.0)
-        totals.append(float(np.sum(series(inner[loaded], outer[loaded]))))
-    return float(np.mean(totals))
+        together = series(np.where(loaded, inner, 1.0), np.where(loaded, outer, 1.0))
+        totals.append(np.sum(together, axis=-1, where=loaded))
+    return np.mean(totals, axis=0)
 
 
 def film_error(solution: BearingSolution) -> float:

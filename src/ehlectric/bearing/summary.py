@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from operator import mul, truediv
 from typing import Any
 
+import numpy as np
+
+from ehlectric.arrays import Numbers
 from ehlectric.bearing.bearing_discharges import (
     Breakdown,
     bearing_costs,
@@ -81,7 +83,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
     return summary
 
 
-def _of_rings(conditions: BearingConditions[Any]) -> dict[str, float]:
+def _of_rings(conditions: BearingConditions[Any]) -> dict[str, Numbers]:
     """Temperatures [K], viscosities [Pa s] and film factors of the oil in the contacts with both rings."""
     values = {}
     for name, own in zip(("inner", "outer"), conditions.rings, strict=True):
@@ -91,7 +93,7 @@ def _of_rings(conditions: BearingConditions[Any]) -> dict[str, float]:
     return values
 
 
-def clearances_of(conditions: BearingConditions[Any]) -> dict[str, float | None]:
+def clearances_of(conditions: BearingConditions[Any]) -> dict[str, Numbers | None]:
     """Clearances, interferences [m] and pressures of the fits [Pa] as in summary.json; None without fits."""
     fits = ("shaft_interference", "housing_interference", "shaft_pressure", "housing_pressure")
     clearance = conditions.clearance
@@ -151,7 +153,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     }
 
 
-def _outside(solution: BearingSolution, rough: float | None) -> dict[str, Any]:
+def _outside(solution: BearingSolution, rough: Numbers | None) -> dict[str, Any]:
     """Coating and parallel capacitance, and the capacitances from shaft to housing."""
     path, share, shaft = shaft_path(solution), film_share(solution), shaft_voltage(solution)
     return {
@@ -180,7 +182,7 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
     }
 
 
-def _breakdown_probability(solution: BearingSolution, ratio: float | None) -> float | None:
+def _breakdown_probability(solution: BearingSolution, ratio: Numbers | None) -> Numbers | None:
     """Probability that a contact has broken down at the shaft voltage, from the margin and a Weibull law.
 
     It is 1 - exp(-(V/V_1)^m) with the shape m, the shaft voltage V and that of the first breakdown at 63.2 %,
@@ -190,8 +192,8 @@ def _breakdown_probability(solution: BearingSolution, ratio: float | None) -> fl
     if shape is None or ratio is None:
         return None
     # From this exponent on the probability is 1 to the last digit.
-    exponent = min(-shape * math.log(ratio), 10.0)
-    return -math.expm1(-math.exp(exponent))
+    exponent = np.minimum(-shape * np.log(ratio), 10.0)
+    return -np.expm1(-np.exp(exponent))
 
 
 def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> list[dict[str, Any]]:

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import add, truediv
+from typing import Any
 
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge, Pit
 from ehlectric.field.zones import areas
 from ehlectric.film.isothermal_film import Film, PointFilm
@@ -99,7 +100,7 @@ class WeakestLink:
         return float(self.characteristic_voltage * exponent ** (1.0 / self.shape))
 
 
-def stored_energy(capacitance: float, voltage: float) -> float:
+def stored_energy(capacitance: Numbers, voltage: Numbers) -> Numbers:
     """Energy stored in a capacitance C [F] at a voltage V [V], C V^2/2 [J].
 
     Examples
@@ -110,7 +111,7 @@ def stored_energy(capacitance: float, voltage: float) -> float:
     return 0.5 * capacitance * voltage**2
 
 
-def melted_volume(energy: float, efficiency: float, melting_energy: float) -> float:
+def melted_volume(energy: Numbers, efficiency: Numbers, melting_energy: Numbers) -> Numbers:
     """Volume of one surface that a discharge melts: efficiency times energy over melting energy. ``energy``
     [J]; ``efficiency``, part of the energy that melts one surface, from 0 to 1, dimensionless;
     ``melting_energy``, energy to heat and melt the material, per volume [J/m^3]. Returns melted volume [m^3].
@@ -123,28 +124,28 @@ def melted_volume(energy: float, efficiency: float, melting_energy: float) -> fl
     return efficiency * energy / melting_energy
 
 
-def known(law: Callable[..., float], *values: float | None) -> float | None:
+def known(law: Callable[..., Any], *values: Numbers | None) -> Any:
     """Value of a law; None where one of its arguments is not known."""
-    return None if None in values else law(*values)
+    return None if any(value is None for value in values) else law(*values)
 
 
-def volume_of_pit(pit: Pit | None, energy: float | None) -> float | None:
+def volume_of_pit(pit: Pit | None, energy: Numbers | None) -> Numbers | None:
     """Volume that a discharge of an energy [J] melts [m^3]; None without the table ``pit`` or an energy."""
     return None if pit is None else known(melted_volume, energy, pit.efficiency, pit.melting_energy)
 
 
-def pit_diameter(volume: float) -> float:
+def pit_diameter(volume: Numbers) -> Numbers:
     """Diameter d of a hemispherical pit [m] from its volume V = pi d^3/12 [m^3].
 
     Examples
     --------
-    >>> round(pit_diameter(np.pi / 12.0), 12)
+    >>> round(float(pit_diameter(np.pi / 12.0)), 12)
     1.0
     """
-    return float(np.cbrt(12.0 * volume / np.pi))
+    return np.cbrt(12.0 * volume / np.pi)
 
 
-def relaxation_time(relative_permittivity: float, conductivity: float) -> float:
+def relaxation_time(relative_permittivity: Numbers, conductivity: Numbers) -> Numbers:
     """Charge relaxation time of a dielectric, eps0 eps_r/sigma [s], with the conductivity sigma [S/m].
 
     Above the frequency 1/(2 pi tau), where tau is this time, the film is a capacitor; below it, a resistor.

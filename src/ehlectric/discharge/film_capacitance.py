@@ -166,17 +166,23 @@ def roughness_factor(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Ar
         raise InputError("film_ratio", got=shown(film_ratio), takes="ratios h/Rq above 0")
     if not 0.0 < touching < 1.0:
         raise InputError("touching", got=shown(touching), takes="a gap over Rq above 0 and below 1")
-    near = np.minimum(ratio, _FAR)
-    first, last = np.log(touching), np.log(near + _HEIGHTS)
-    thin = np.zeros_like(near)
+    # Dawson's integral at an infinite argument times that argument is not defined; its limit is reached here.
+    far = np.clip(ratio, _FAR, 1e8) / np.sqrt(2.0)
+    factor: Array = np.asarray(2.0 * far * dawsn(far))
+    near = ratio < _FAR
+    factor[near] = _thin_film_factor(ratio[near], touching)
+    return factor
+
+
+def _thin_film_factor(ratio: Array, touching: float) -> Array:
+    """Factor of films with h/Rq up to ``_FAR`` by quadrature over the logarithm of the gap, shape (n,)."""
+    first, last = np.log(touching), np.log(ratio + _HEIGHTS)
+    thin = np.zeros_like(ratio)
     # One node after another, so that maps of a film need no memory for all nodes at once.
     for node, weight in zip(*_gauss(), strict=True):
         gap = np.exp(first + 0.5 * (last - first) * (node + 1.0))
-        thin += weight * np.exp(-0.5 * (gap - near) ** 2)
-    thin *= near * 0.5 * (last - first) / np.sqrt(2.0 * np.pi)
-    # Dawson's integral at an infinite argument times that argument is not defined; its limit is reached here.
-    far = np.clip(ratio, _FAR, 1e8) / np.sqrt(2.0)
-    factor: Array = np.where(ratio < _FAR, thin, 2.0 * far * dawsn(far))
+        thin += weight * np.exp(-0.5 * (gap - ratio) ** 2)
+    factor: Array = thin * ratio * 0.5 * (last - first) / np.sqrt(2.0 * np.pi)
     return factor
 
 
