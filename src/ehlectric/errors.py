@@ -5,7 +5,7 @@ from __future__ import annotations
 import reprlib
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -356,6 +356,31 @@ class ResultWarning:
     def severity(self) -> Severity:
         """Severity of the code: "note", "warning", or "severe" if the numbers must not be used."""
         return CODES[self.code].severity
+
+
+@dataclass(frozen=True)
+class Flag:
+    """Condition of a warning at one or at many points of operation, and what its text says at a single one.
+
+    Examples
+    --------
+    >>> flag = Flag("seed-repeated", True, lambda: {"times": 2, "seed": 5})
+    >>> [warning.code for warning in raised([flag, Flag("seed-repeated", False)])]
+    ['seed-repeated']
+    """
+
+    code: str
+    where: Any  # whether a point has the warning, shape (...)
+    # Values of the text by their names, made only for a single point that has the warning.
+    values: Callable[[], Mapping[str, object]] = dict
+    situation: str = ""
+
+
+def raised(flags: Iterable[Flag]) -> Iterator[ResultWarning]:
+    """Warnings of a single point: those whose condition holds."""
+    for flag in flags:
+        if flag.where:
+            yield ResultWarning.of(flag.code, flag.situation, **flag.values())
 
 
 # Keys of summary.json, and attributes of files, with the texts of warnings and their codes.

@@ -31,7 +31,7 @@ from ehlectric.discharge.discharge_laws import (
     stored_energy,
     volume_of_pit,
 )
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import Flag
 from ehlectric.quantities.formats import amount
 
 
@@ -264,13 +264,16 @@ def conducting_areas(solution: BearingSolution) -> Array:
     return np.minimum(inner, outer)
 
 
-def current_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+def current_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of an apparent current density above the lowest of the published limits."""
     density = bearing_costs(solution).current_density
-    if density is None or density <= CURRENT_DENSITY_LIMITS[0]:
-        return
-    limits = beside_limits(density)
-    yield ResultWarning.of("current-density-high", "bearing", density=1e-6 * density, limits=limits)
+    if density is not None:
+        yield Flag(
+            "current-density-high",
+            density > CURRENT_DENSITY_LIMITS[0],
+            lambda: {"density": 1e-6 * density, "limits": beside_limits(density)},
+            "bearing",
+        )
 
 
 # Switching frequencies of inverters for low-voltage motors [Hz], with which the leakage is compared where the
@@ -427,15 +430,19 @@ def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:
     return np.mean(values, axis=0)
 
 
-def leakage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of a shaft voltage that leaks away through the oil within a period of the inverter."""
     leaks, motor = shaft_leakage(solution), solution.case.motor
-    tau, shaft = oil_relaxation_time(solution), shaft_voltage(solution)
-    if leaks is None or motor is None or tau is None or shaft is None:
+    if leaks is None or motor is None:
         return
     frequency = motor.switching_frequency
-    if leaks.film_time_constant >= 1.0 / (TYPICAL[0] if frequency is None else frequency):
-        return
+    period = 1.0 / (TYPICAL[0] if frequency is None else frequency)
+    yield Flag("shaft-leaks", leaks.film_time_constant < period, lambda: _leaking(solution, leaks, motor))
+
+
+def _leaking(solution: BearingSolution, leaks: ShaftLeakage, motor: Motor) -> dict[str, object]:
+    """Values of the warning of a shaft voltage that leaks away."""
+    frequency, shaft = motor.switching_frequency, shaft_voltage(solution)
     if frequency is None:
         longest, shortest = (amount(1.0 / at, "s") for at in TYPICAL)
         period = (
@@ -445,17 +452,14 @@ def leakage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     else:
         period = f"{amount(1.0 / frequency, 's')}, a period of the inverter"
     edge = "give motor.rise_time for the voltage after an edge"
-    if leaks.after_rise is not None and motor.rise_time is not None:
+    if leaks.after_rise is not None and motor.rise_time is not None and shaft is not None:
         edge = f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"
-    part = (
-        "shaft voltage" if not shaft_path(solution).coated else "part of the shaft voltage across the films"
-    )
-    yield ResultWarning.of(
-        "shaft-leaks",
-        relaxation=amount(tau, "s"),
-        part=part,
-        decay=amount(leaks.film_time_constant, "s"),
-        period=period,
-        shaft=shaft,
-        edge=edge,
-    )
+    coated = shaft_path(solution).coated
+    return {
+        "relaxation": amount(oil_relaxation_time(solution) or 0.0, "s"),
+        "part": "part of the shaft voltage across the films" if coated else "shaft voltage",
+        "decay": amount(leaks.film_time_constant, "s"),
+        "period": period,
+        "shaft": shaft,
+        "edge": edge,
+    }

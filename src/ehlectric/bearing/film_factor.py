@@ -31,7 +31,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import hot_oil
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.errors import ConvergenceError, Flag, InputError
 from ehlectric.film.hot_oil import Body, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import Rheology
@@ -364,13 +364,18 @@ _HEAT: Mapping[object, str] = {
 _SPARSE = ("grease", "oil-air")
 
 
-def film_note(solution: BearingSolution) -> ResultWarning:
+def film_note(solution: BearingSolution) -> Iterator[Flag]:
     """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
+    factor, whole = solution.case.bearing.film_factor, solution.conditions.film_factor == 1.0
+    name = factor if isinstance(factor, str) else f"{factor:g}"
+    yield Flag("isothermal-film", whole, lambda: {"factor": name})
+    yield Flag("smooth-film", np.logical_not(whole), lambda: _neglected(solution))
+
+
+def _neglected(solution: BearingSolution) -> dict[str, object]:
+    """Film factor of one bearing with its parts, and what it leaves out, in words."""
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
-    name = factor if isinstance(factor, str) else f"{factor:g}"
-    if solution.conditions.film_factor == 1.0:
-        return ResultWarning.of("isothermal-film", factor=name)
     left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
@@ -380,7 +385,7 @@ def film_note(solution: BearingSolution) -> ResultWarning:
         left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
     if factor == "solved":
         left = f"{left}, spin and sliding"
-    return ResultWarning.of("smooth-film", factor=found, neglected=left)
+    return {"factor": found, "neglected": left}
 
 
 def supply_words(solution: BearingSolution) -> str:
@@ -393,18 +398,16 @@ def supply_words(solution: BearingSolution) -> str:
     return f"{found:.3g} of the flooded thickness{by}{more}"
 
 
-def supply_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+def supply_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
     total = solution.conditions.film_factor
-    if total < _FAR:
-        yield ResultWarning.of("film-factor-low", factor=total)
+    yield Flag("film-factor-low", total < _FAR, lambda: {"factor": total})
     supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
-    if supply == "flooded" or found is None:
+    if (isinstance(supply, str) and supply == "flooded") or found is None:
         return
-    if solution.case.bearing.by_supply_rule:
-        yield ResultWarning.of("supply-rule", supply=supply, share=found)
-    if found < _LOW:
-        yield ResultWarning.of("supply-low", share=found)
-    time = half_time(solution)
-    if supply in _SPARSE and time is not None and time < _SOON:
-        yield ResultWarning.of("film-decays", seconds=time, supply=supply)
+    rule = solution.case.bearing.by_supply_rule
+    yield Flag("supply-rule", rule, lambda: {"supply": supply, "share": found})
+    yield Flag("supply-low", found < _LOW, lambda: {"share": found})
+    time = half_time(solution) if isinstance(supply, str) and supply in _SPARSE else None
+    if time is not None:
+        yield Flag("film-decays", time < _SOON, lambda: {"seconds": time, "supply": supply})

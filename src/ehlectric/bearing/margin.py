@@ -15,7 +15,7 @@ from ehlectric.bearing.bearing_discharges import (
     Breakdown,
     breakdown_of,
     first_margin,
-    leakage_warnings,
+    leakage_flags,
     shaft_leakage,
     shaft_voltage,
 )
@@ -57,7 +57,7 @@ from ehlectric.discharge.film_verdict import (
     unusable,
     weibull_part,
 )
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, raised
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
@@ -651,7 +651,7 @@ def _coating(solution: BearingSolution, shaft: float) -> str:
 def _leaks(solution: BearingSolution) -> str:
     """Sentence about films that discharge through the oil within a period; empty where they do not."""
     found = shaft_leakage(solution)
-    if found is None or not any(leakage_warnings(solution)):
+    if found is None or not any(raised(leakage_flags(solution))):
         return ""
     motor = solution.case.motor
     frequency = None if motor is None else motor.switching_frequency

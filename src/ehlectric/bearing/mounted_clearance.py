@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing, clearance_at
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
 from ehlectric.cases.library.bearing_catalogue import clearance_range
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import Flag, InputError
 from ehlectric.quantities.units import to_si
 
 
@@ -88,37 +89,30 @@ def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
     )
 
 
-def class_warnings(bearing: Bearing) -> Iterator[ResultWarning]:
+def class_flags(bearing: Bearing) -> Iterator[Flag]:
     """Warning of a clearance that is the middle of a class."""
     if bearing.clearance_class is None or bearing.bore is None:
         return
     allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
     low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
     name, half = bearing.clearance_class, 0.5 * (high - low)
-    if bearing.fits is None:
-        yield ResultWarning.of(
-            "clearance-class", "before_mounting", name=name, low=low, high=high, middle=middle
-        )
-    else:
-        yield ResultWarning.of(
-            "clearance-class", "in_operation", name=name, low=low, high=high, middle=middle, half=half
-        )
+    values = {"name": name, "low": low, "high": high, "middle": middle, "half": half}
+    situation = "before_mounting" if bearing.fits is None else "in_operation"
+    yield Flag("clearance-class", where=True, values=partial(dict, values), situation=situation)
 
 
-def fit_warnings(clearance: MountedClearance | None) -> Iterator[ResultWarning]:
+def fit_flags(clearance: MountedClearance | None) -> Iterator[Flag]:
     """Warnings of fits and temperatures that preload a bearing, or loosen one of its rings. ``clearance``,
     clearances of the bearing; None without fits.
     """
     if clearance is None:
         return
     mounted, running = clearance.mounted, clearance.running
-    if running.clearance < 0.0:
-        yield ResultWarning.of(
-            "clearance-negative", running=1e6 * running.clearance, unmounted=1e6 * clearance.unmounted
-        )
+    clearances = {"running": 1e6 * running.clearance, "unmounted": 1e6 * clearance.unmounted}
+    yield Flag("clearance-negative", running.clearance < 0.0, partial(dict, clearances))
     for fit, before, after in (
         ("shaft", mounted.shaft_interference, running.shaft_interference),
         ("housing", mounted.housing_interference, running.housing_interference),
     ):
-        if after <= 0.0 < before:
-            yield ResultWarning.of("fit-loose", fit, before=1e6 * before, after=1e6 * after)
+        values = {"before": 1e6 * before, "after": 1e6 * after}
+        yield Flag("fit-loose", (after <= 0.0) & (before > 0.0), partial(dict, values), fit)

@@ -4,28 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from operator import mul
+from functools import partial
+from operator import mul, truediv
+from typing import Any
 
 import numpy as np
 
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
-    current_warnings,
+    current_flags,
     film_voltage,
-    leakage_warnings,
+    leakage_flags,
     shaft_voltage,
     strength_per_volt,
 )
 from ehlectric.bearing.bearing_touching import duty_of, time_text
-from ehlectric.bearing.film_factor import film_note, supply_warnings
+from ehlectric.bearing.film_factor import film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
-from ehlectric.bearing.mounted_clearance import class_warnings, fit_warnings
+from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     BearingSolution,
     Position,
+    RingState,
     capacitance_is_bound,
     error_text,
     insulating,
@@ -37,11 +41,12 @@ from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
+from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.oil_inputs import OilTemperature
-from ehlectric.discharge.discharge_laws import known
-from ehlectric.discharge.film_breakdown import field_warnings, strength_warnings
-from ehlectric.discharge.film_verdict import breakdown_warning
-from ehlectric.errors import ResultWarning
+from ehlectric.discharge.discharge_laws import known, known_of
+from ehlectric.discharge.film_breakdown import field_flags, strength_flags
+from ehlectric.discharge.film_verdict import breakdown_flag
+from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.units import rpm
 
@@ -65,12 +70,8 @@ _COLD = 273.15
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     """Warnings that tell where the result of a bearing is unreliable, each once."""
-    inputs = input_warnings(solution.case, solution.conditions.oil.viscosity)
     warnings = [
-        *inputs,
-        *film_warnings(solution),
-        *voltage_warnings(solution),
-        *edge_warnings(solution.case.bearing, solution.positions),
+        *raised(flags_of(solution)),
         *contact_warnings(
             {"inner": with_light(solution.inner_curve), "outer": with_light(solution.outer_curve)}
         ),
@@ -78,38 +79,48 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     return list(dict.fromkeys(warnings))
 
 
-def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+def flags_of(solution: BearingSolution) -> Iterator[Flag]:
+    """Conditions of the warnings of a whole bearing, at one or many points; without those of its contacts."""
+    yield from input_flags(solution.case, solution.conditions.oil.viscosity)
+    yield from film_flags(solution)
+    yield from voltage_flags(solution)
+    yield from edge_flags(solution.case.bearing, solution.positions)
+
+
+def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
-    contacts = solution.case.contacts
-    if is_quick(solution.case):
-        code = "formula-contacts" if contacts == "formula" else "atlas-contacts"
-        yield ResultWarning.of(code, "bearing", error=error_text(solution))
-    yield film_note(solution)
-    yield from supply_warnings(solution)
-    of_base = library_viscosity(solution.case.lubricant)
-    if of_base is not None:
-        at = f"{solution.case.bearing.oil_temperature - 273.15:.4g} °C"
-        base = solution.case.lubricant.base
-        yield ResultWarning.of("viscosity-of-base", viscosity=1e3 * of_base, base=base, temperature=at)
-    elif viscosity_over_temperature(solution.case.lubricant) is None:
-        given = [f"bearing.{key}" for key in solution.case.bearing.temperatures()]
-        yield ResultWarning.of(
-            "temperature-unused",
-            "bearing",
-            temperatures=" and ".join(given),
-            are="is" if len(given) == 1 else "are",
-        )
-    elif solution.case.lubricant.temperature_range is None:
-        yield from _cold(solution.case.bearing)
-    yield from fit_warnings(solution.conditions.clearance)
-    yield from clearance_warnings(solution.conditions.geometry.clearance, solution.positions[0])
+    case = solution.case
+    code = "formula-contacts" if case.contacts == "formula" else "atlas-contacts"
+    yield Flag(code, is_quick(case), lambda: {"error": error_text(solution)}, "bearing")
+    yield from film_note(solution)
+    yield from supply_flags(solution)
+    base = library_viscosity(case.lubricant)
+    yield Flag("viscosity-of-base", base is not None, lambda: _of_base(case, base))
+    constant = base is None and viscosity_over_temperature(case.lubricant) is None
+    yield Flag("temperature-unused", constant, lambda: _unused(case.bearing), "bearing")
+    if base is None and not constant and case.lubricant.temperature_range is None:
+        yield from _cold(case.bearing)
+    yield from fit_flags(solution.conditions.clearance)
+    yield clearance_flag(solution.conditions.geometry.clearance, solution.positions[0])
 
 
-def _cold(bearing: Bearing) -> Iterator[ResultWarning]:
+def _of_base(case: BearingCase, viscosity: float | None) -> dict[str, object]:
+    """Values of the warning of a viscosity [Pa s] that is that of an oil of the library."""
+    at = f"{case.bearing.oil_temperature - 273.15:.4g} °C"
+    return {"viscosity": 1e3 * (viscosity or 0.0), "base": case.lubricant.base, "temperature": at}
+
+
+def _unused(bearing: Bearing) -> dict[str, object]:
+    """Values of the warning of temperatures on which nothing depends."""
+    given = [f"bearing.{key}" for key in bearing.temperatures()]
+    return {"temperatures": " and ".join(given), "are": "is" if len(given) == 1 else "are"}
+
+
+def _cold(bearing: Bearing) -> Iterator[Flag]:
     """Warnings of temperatures at which the viscosity is extrapolated far."""
     for key, temperature in bearing.temperatures().items():
-        if temperature < _COLD:
-            yield ResultWarning.of("temperature-low", key=key, celsius=temperature - 273.15)
+        values = {"key": key, "celsius": temperature - 273.15}
+        yield Flag("temperature-low", temperature < _COLD, partial(dict, values))
 
 
 def library_viscosity(oil: Lubricant) -> float | None:
@@ -122,35 +133,38 @@ def library_viscosity(oil: Lubricant) -> float | None:
     return of_base if oil.viscosity == of_base else None
 
 
-def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarning]:
+def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     """Warnings of inputs that a machine hardly has, and of inputs that stand for a range of values.
-    ``viscosity``, dynamic viscosity of the oil at the temperature of the bearing [Pa s].
+    ``viscosity``, dynamic viscosity of the oil at the temperature of the bearing [Pa s], shape (...).
     """
     bearing = case.bearing
-    turns, celsius = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
-    factor = turns * 1e3 * bearing.pitch_diameter
-    if factor > _MOST_SPEED:
-        pitch = 1e3 * bearing.pitch_diameter
-        yield ResultWarning.of("speed-high", speed=turns, pitch=pitch, factor=factor, limit=_MOST_SPEED)
-    load, rating = math.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
-    if load < _LEAST_LOAD * rating:
-        yield ResultWarning.of("load-low", load=load, rating=rating)
+    turns, celsius, pitch = (
+        rpm(bearing.inner_speed),
+        bearing.oil_temperature - 273.15,
+        1e3 * bearing.pitch_diameter,
+    )
+    factor = turns * pitch
+    of_speed = {"speed": turns, "pitch": pitch, "factor": factor, "limit": _MOST_SPEED}
+    yield Flag("speed-high", factor > _MOST_SPEED, partial(dict, of_speed))
+    load, rating = np.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
+    yield Flag("load-low", load < _LEAST_LOAD * rating, partial(dict, load=load, rating=rating))
     for key, temperature in bearing.temperatures().items():
-        if not _COLDEST <= temperature - 273.15 <= _HOTTEST:
-            yield ResultWarning.of(
-                "temperature-extreme",
-                key=key,
-                celsius=temperature - 273.15,
-                coldest=_COLDEST,
-                hottest=_HOTTEST,
-            )
-    if viscosity > _MOST_VISCOUS:
-        yield ResultWarning.of("viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS)
-    yield from class_warnings(bearing)
+        own = temperature - 273.15
+        extreme = (own < _COLDEST) | (own > _HOTTEST)
+        ends = {"key": key, "celsius": own, "coldest": _COLDEST, "hottest": _HOTTEST}
+        yield Flag("temperature-extreme", extreme, partial(dict, ends))
+    of_oil = {"viscosity": viscosity, "celsius": celsius, "limit": _MOST_VISCOUS}
+    yield Flag("viscosity-high", viscosity > _MOST_VISCOUS, partial(dict, of_oil))
+    yield from class_flags(bearing)
     oil = case.lubricant.temperature
-    if oil is not None and oil.iso_vg is not None:
-        low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
-        yield ResultWarning.of("viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=_index_of(oil))
+    yield Flag("viscosity-grade", oil is not None and oil.iso_vg is not None, lambda: _grade(oil))
+
+
+def _grade(oil: OilTemperature | None) -> dict[str, object]:
+    """Values of the warning of a viscosity grade, which stands for a range."""
+    assert oil is not None
+    low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
+    return {"grade": oil.iso_vg, "low": low, "high": high, "index": _index_of(oil)}
 
 
 def _index_of(oil: OilTemperature) -> str:
@@ -161,7 +175,7 @@ def _index_of(oil: OilTemperature) -> str:
     return f"; with {given} its viscosity index is {viscosity_index(oil.at_40(), oil.at_100()):.0f}"
 
 
-def _static_rating(bearing: Bearing) -> float:
+def _static_rating(bearing: Bearing) -> Numbers:
     """Static load rating of a row of elements by ISO 76 [N], for typical ratios of diameters.
 
     A radial row of Z balls of diameter D carries 13 Z D^2, and one of rollers of length L 40 Z D L, in N and
@@ -173,63 +187,72 @@ def _static_rating(bearing: Bearing) -> float:
     return bearing.elements * each
 
 
-def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
     yield from _contact_of_asperities(solution)
-    if capacitance_is_bound(solution):
-        yield ResultWarning.of("capacitance-bound")
+    yield Flag("capacitance-bound", capacitance_is_bound(solution))
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
     field = known(mul, film_voltage(solution), per_volt)
-    first = None if breakdown is None else breakdown.shaft_first_break
-    if first is not None and shaft is not None and first < shaft and solution.converged:
-        at = f"first breakdown at {first:.3g} V"
-        ratio = first / shaft
-        scattered = solution.case.discharge.weibull is not None
-        yield breakdown_warning("shaft voltage", shaft, at, ratio, field=None if scattered else field)
-    if solution.converged:
-        yield from strength_warnings(solution.conditions.discharge)
-        yield from field_warnings(field, "the motor")
-    yield from _coating_warnings(solution, shaft)
-    yield from leakage_warnings(solution)
-    yield from current_warnings(solution)
-    if solution.case.discharge.weibull is not None and insulating(solution):
-        yield ResultWarning.of("weibull-voltage")
+    first, scattered = known_of(breakdown, "shaft_first_break"), solution.case.discharge.weibull is not None
+    margin, converged = known(truediv, first, shaft), solution.converged
+    yield breakdown_flag(
+        "shaft voltage",
+        shaft,
+        lambda: f"first breakdown at {first:.3g} V",
+        margin if converged else None,
+        field=None if scattered else field,
+    )
+    if converged:
+        yield from strength_flags(solution.conditions.discharge)
+        yield from field_flags(field, "the motor")
+    yield from _coating_flags(solution, shaft)
+    yield from leakage_flags(solution)
+    yield from current_flags(solution)
+    yield Flag("weibull-voltage", scattered & insulating(solution))
 
 
-def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterator[ResultWarning]:
+def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator[Flag]:
     """Warnings of a coating: assumed values, and a shaft voltage [V] that breaks it down.
 
     The coating breaks down alone after the films have broken down.
     """
     coating = solution.case.bearing.coating
-    assumed = {} if coating is None else coating.assumed
-    if coating is not None and assumed:
-        shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
-        values = ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in assumed.items())
-        yield ResultWarning.of("coating-assumed", coating=coating.base, values=values)
+    yield Flag("coating-assumed", coating is not None and bool(coating.assumed), lambda: _assumed(coating))
     withstands = shaft_path(solution).coating_breakdown
-    if withstands is not None and shaft is not None and withstands < shaft:
-        yield ResultWarning.of("coating-breakdown", withstands=withstands, shaft=shaft)
+    if withstands is not None and shaft is not None:
+        values = {"withstands": withstands, "shaft": shaft}
+        yield Flag("coating-breakdown", withstands < shaft, partial(dict, values))
 
 
-def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:
+def _assumed(coating: Coating | None) -> dict[str, object]:
+    """Values of the warning of values of a coating that are assumed."""
+    assert coating is not None
+    shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
+    values = ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in coating.assumed.items())
+    return {"coating": coating.base, "values": values}
+
+
+def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of surfaces that touch all or some of the time."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
-    ratio = lambda_text(solution)
-    if state == "conducting":
-        yield ResultWarning.of("touching", "steel", ratio=ratio)
-    elif state == "touching":
-        yield ResultWarning.of("touching", "ceramic", ratio=ratio)
-    elif state == "partial film" and ceramic:
-        yield ResultWarning.of("partial-film", "ceramic", ratio=ratio)
-    else:
-        duty = duty_of(solution)
-        if state == "partial film" or duty.regime != "capacitive":
-            share = time_text(duty.touching_time_share)
-            yield ResultWarning.of("partial-film", "steel", ratio=ratio, share=share)
+
+    def ratio() -> dict[str, object]:
+        return {"ratio": lambda_text(solution)}
+
+    yield Flag("touching", state == "conducting", ratio, "steel")
+    yield Flag("touching", state == "touching", ratio, "ceramic")
+    partly = state == "partial film"
+    if ceramic:
+        yield Flag("partial-film", partly, ratio, "ceramic")
+        return
+    duty = duty_of(solution)
+    partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
+    yield Flag(
+        "partial-film", partly, lambda: {**ratio(), "share": time_text(duty.touching_time_share)}, "steel"
+    )
 
 
-def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:
+def edge_flags(bearing: Bearing, positions: Sequence[Position]) -> Iterator[Flag]:
     """Warnings of contact ellipses that reach over the shoulder of a groove, at most one per ring.
 
     Of the contacts that reach over, the warning names the one with the largest load.
@@ -237,37 +260,50 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
     for k, name in enumerate(("inner", "outer")):
         shoulder = shoulder_angle(bearing, inner=k == 0)
         groove = groove_ratio(bearing, inner=k == 0) * bearing.element_diameter
-        load, reached = 0.0, 0.0
-        for position in positions:
-            ring, angle = position.rings[k], position.equilibrium.ring(inner=k == 0).angle
-            ends = np.abs(angle) + ring.values.semi_axis_y / groove
-            over = np.where(ends > shoulder, ring.load, 0.0)
-            heaviest = int(np.argmax(over))
-            if over[heaviest] > load:
-                load, reached = float(over[heaviest]), float(ends[heaviest])
-        if load > 0.0:
-            yield ResultWarning.of(
-                "shoulder-reached",
-                ring=name,
-                load=load,
-                reached=math.degrees(reached),
-                shoulder=math.degrees(shoulder),
-            )
+        rings = [position.rings[k] for position in positions]
+        angles = [position.equilibrium.ring(inner=k == 0).angle for position in positions]
+        ends = np.stack([_end(*one, groove) for one in zip(rings, angles, strict=True)], axis=-2)
+        loads = np.stack([ring.load for ring in rings], axis=-2)
+        over = np.where(ends > np.asarray(shoulder)[..., np.newaxis, np.newaxis], loads, 0.0)
+        values = partial(_reached, name, over, ends, shoulder)
+        yield Flag("shoulder-reached", np.any(over > 0.0, axis=(-2, -1)), values)
 
 
-def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
-    """Warnings of films that take up much of the clearance, an effect that the equilibrium neglects.
+def _end(ring: RingState, angle: Array, groove: Numbers) -> Array:
+    """Angle from the bottom of a groove with a radius [m] to the end of each contact ellipse [rad]."""
+    end: Array = np.abs(angle) + ring.values.semi_axis_y / np.asarray(groove)[..., np.newaxis]
+    return end
+
+
+def _reached(ring: str, over: Array, ends: Array, shoulder: float) -> dict[str, object]:
+    """Values of the warning of a contact of one bearing that reaches over a shoulder [rad]."""
+    at = np.unravel_index(np.argmax(over), over.shape)
+    reached, end = math.degrees(ends[at]), math.degrees(shoulder)
+    return {"ring": ring, "load": float(over[at]), "reached": reached, "shoulder": end}
+
+
+def clearance_flag(clearance: Numbers, position: Position) -> Flag:
+    """Warning of films that take up much of the clearance, an effect that the equilibrium neglects.
     ``clearance``, radial internal clearance, the full diametral play [m]; negative with a preload.
     """
-    at, room = position.equilibrium, clearance
-    most = int(np.argmax(at.inner_load))
-    films = sum(float(ring.values.central_thickness[most]) for ring in position.rings)
-    compared = "a clearance of"
-    if room <= 0.0:
-        # Preloaded elements have no clearance: the films are compared with the elastic approach.
-        room, compared = float(at.inner_approach[most] + at.outer_approach[most]), "an elastic approach of"
-    if films > TAKEN * room:
-        yield ResultWarning.of("clearance-taken-up", films=1e6 * films, compared=compared, room=1e6 * room)
+    at = position.equilibrium
+    most = np.argmax(at.inner_load, axis=-1)[..., np.newaxis]
+
+    def of_most(values: Array) -> Array:
+        """Values of the most loaded element, shape (...)."""
+        return np.take_along_axis(values, most, -1)[..., 0]
+
+    films = sum(of_most(ring.values.central_thickness) for ring in position.rings)
+    # Preloaded elements have no clearance: the films are compared with the elastic approach.
+    preloaded = np.asarray(clearance) <= 0.0
+    room = np.where(preloaded, of_most(at.inner_approach + at.outer_approach), clearance)
+    return Flag("clearance-taken-up", films > TAKEN * room, lambda: _taken_up(films, room, preloaded))
+
+
+def _taken_up(films: Any, room: Any, preloaded: Any) -> dict[str, object]:
+    """Values of the warning of films that take up much of the room of a bearing."""
+    compared = "an elastic approach of" if preloaded else "a clearance of"
+    return {"films": 1e6 * float(films), "compared": compared, "room": 1e6 * float(room)}
 
 
 def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:

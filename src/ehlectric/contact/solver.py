@@ -30,8 +30,8 @@ from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import Coarser, spot_warnings
 from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
-from ehlectric.discharge.film_breakdown import field_warnings
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.discharge.film_breakdown import field_flags
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning, raised
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.film.newton import Progress
@@ -277,7 +277,7 @@ def _field_warnings(
     discharge, film = contact.case.discharge, films.film
     yield from discharge_warnings(discharge, film)
     yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
-    yield from field_warnings(field.max_strength, "the potentials")
+    yield from raised(field_flags(field.max_strength, "the potentials"))
     if film.converged:
         yield from accuracy_warnings(films.setup.grid, field, estimated=estimated)
 

@@ -24,11 +24,11 @@ from ehlectric.discharge.film_breakdown import (
     FieldUtilisation,
     breakdown,
     breakdown_zone,
-    strength_warnings,
+    strength_flags,
 )
 from ehlectric.discharge.film_capacitance import Capacitances, capacitances
-from ehlectric.discharge.film_verdict import breakdown_warning
-from ehlectric.errors import ResultWarning
+from ehlectric.discharge.film_verdict import breakdown_flag
+from ehlectric.errors import ResultWarning, raised
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.film.isothermal_film import Film, PointFilm
@@ -126,11 +126,14 @@ def margin_warnings(
         return
     size, utilisation = Size.of(semi_axes, discharge), FieldUtilisation.of(discharge, film, field)
     found = breakdown(discharge, utilisation, field.voltage, size)
-    if found.margin is not None and found.margin < 1.0:
-        at = f"breakdown voltage {found.breakdown_voltage:.3g} V"
-        strongest = None if discharge.weibull is not None else field.max_strength
-        yield breakdown_warning("applied voltage", field.voltage, at, found.margin, field=strongest)
-    yield from strength_warnings(discharge)
+    flag = breakdown_flag(
+        "applied voltage",
+        field.voltage,
+        lambda: f"breakdown voltage {found.breakdown_voltage:.3g} V",
+        found.margin,
+        field=None if discharge.weibull is not None else field.max_strength,
+    )
+    yield from raised([flag, *strength_flags(discharge)])
 
 
 def discharge_warnings(discharge: Discharge | None, film: Film | PointFilm) -> Iterator[ResultWarning]:

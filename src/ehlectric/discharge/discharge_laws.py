@@ -129,6 +129,11 @@ def known(law: Callable[..., Any], *values: Numbers | None) -> Any:
     return None if any(value is None for value in values) else law(*values)
 
 
+def known_of(record: Any, name: str) -> Any:
+    """Attribute of a record; None without the record."""
+    return None if record is None else getattr(record, name)
+
+
 def volume_of_pit(pit: Pit | None, energy: Numbers | None) -> Numbers | None:
     """Volume that a discharge of an energy [J] melts [m^3]; None without the table ``pit`` or an energy."""
     return None if pit is None else known(melted_volume, energy, pit.efficiency, pit.melting_energy)

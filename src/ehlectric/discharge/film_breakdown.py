@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.discharge_laws import (
     BREAKING,
@@ -18,7 +19,7 @@ from ehlectric.discharge.discharge_laws import (
     breakdown_voltage,
 )
 from ehlectric.discharge.film_capacitance import at_columns
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import Flag
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
@@ -31,27 +32,28 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 MOST_OF_LIQUIDS = 1e9
 
 
-def field_warnings(max_strength: float | None, check: str) -> Iterator[ResultWarning]:
+def field_flags(max_strength: Numbers | None, check: str) -> Iterator[Flag]:
     """Warning of a maximum field strength that no film of a liquid carries. ``max_strength``, maximum field
-    strength at the applied voltage [V/m]; None where there is none.
+    strength at the applied voltage [V/m], shape (...); None where there is none.
     """
-    if max_strength is not None and max_strength > MOST_OF_LIQUIDS:
-        yield ResultWarning.of(
-            "field-above-insulators", field=max_strength / 1e6, limit=MOST_OF_LIQUIDS / 1e6, check=check
-        )
+    if max_strength is not None:
+        values = {"field": max_strength / 1e6, "limit": MOST_OF_LIQUIDS / 1e6, "check": check}
+        yield Flag("field-above-insulators", max_strength > MOST_OF_LIQUIDS, partial(dict, values))
 
 
-def strength_warnings(discharge: Discharge | None) -> Iterator[ResultWarning]:
+def strength_flags(discharge: Discharge | None) -> Iterator[Flag]:
     """Warning of a dielectric strength above the field that any film of a liquid carries."""
     if discharge is None:
         return
     table, law = discharge.strength_table, discharge.weibull
-    strengths = [discharge.dielectric_strength, None if law is None else law.scale]
-    most = max([value for value in strengths if value is not None], default=0.0)
+    strength = discharge.dielectric_strength
     if table is not None:
-        most = max(table.strength)
-    if most > MOST_OF_LIQUIDS:
-        yield ResultWarning.of("strength-above-liquids", strength=most / 1e6, limit=MOST_OF_LIQUIDS / 1e6)
+        strength = max(table.strength)
+    elif law is not None:
+        strength = law.scale
+    if strength is not None:
+        values = {"strength": strength / 1e6, "limit": MOST_OF_LIQUIDS / 1e6}
+        yield Flag("strength-above-liquids", strength > MOST_OF_LIQUIDS, partial(dict, values))
 
 
 @dataclass(frozen=True)

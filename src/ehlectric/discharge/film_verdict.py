@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from ehlectric.arrays import Numbers
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.film_breakdown import Breakdown
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.errors import CODES, Flag, ResultWarning
 from ehlectric.quantities.quantity import data_file
 
 # "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
@@ -75,7 +76,7 @@ def lead_of(level: Level, margin: float) -> str:
     return "No breakdown expected" if level == "green" else "Breakdown expected"
 
 
-def ratio_text(ratio: float) -> str:
+def ratio_text(ratio: Numbers) -> str:
     """Ratio as text with two digits behind the point; more where it would be rounded to 1.
 
     Examples
@@ -206,23 +207,22 @@ def weibull_part(shape: float, probability: float) -> float:
     return math.pow(-math.log1p(-probability), 1.0 / shape)
 
 
-def breakdown_warning(
-    kind: str, voltage: float, at: str, margin: float, *, field: float | None = None
-) -> ResultWarning:
-    """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless; ``field``, maximum field
-    strength at this voltage [V/m], which exceeds the dielectric strength.
+def breakdown_flag(
+    kind: str,
+    voltage: Numbers | None,
+    at: Callable[[], str],
+    margin: Numbers | None,
+    *,
+    field: Numbers | None = None,
+) -> Flag:
+    """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless, shape (...), or None;
+    ``field``, maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
     """
-    ratio = ratio_text(margin)
-    if field is None:
-        return ResultWarning.of(
-            "breakdown-expected", "voltage", kind=kind, voltage=voltage, breakdown=at, margin=ratio
-        )
-    return ResultWarning.of(
-        "breakdown-expected",
-        "field",
-        kind=kind,
-        voltage=voltage,
-        breakdown=at,
-        margin=ratio,
-        field=field / 1e6,
-    )
+
+    def values() -> dict[str, object]:
+        found: dict[str, object] = {"kind": kind, "voltage": voltage, "breakdown": at()}
+        found["margin"] = ratio_text(margin)
+        return found if field is None else {**found, "field": field / 1e6}
+
+    below = False if margin is None else margin < 1.0
+    return Flag("breakdown-expected", below, values, "voltage" if field is None else "field")

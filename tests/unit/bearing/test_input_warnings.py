@@ -1,7 +1,8 @@
 """Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
 
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.bearing.warnings import input_warnings, library_viscosity
+from ehlectric.bearing.warnings import input_flags, library_viscosity
+from ehlectric.errors import raised
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 
@@ -13,7 +14,7 @@ CLASS = {"bearing__radial_clearance": "C2", "bearing__bore": "40 mm"}
 
 
 def told(viscosity=0.01, **changes):
-    return {w.code: str(w) for w in input_warnings(bearing_case(BALLS, **changes), viscosity)}
+    return {w.code: str(w) for w in raised(input_flags(bearing_case(BALLS, **changes), viscosity))}
 
 
 def test_an_ordinary_bearing_has_none():

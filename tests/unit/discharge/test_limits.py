@@ -6,7 +6,8 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.discharge.film_breakdown import MOST_OF_LIQUIDS, field_warnings, strength_warnings
+from ehlectric.discharge.film_breakdown import MOST_OF_LIQUIDS, field_flags, strength_flags
+from ehlectric.errors import raised
 from tests.helpers.each import each
 
 LINE = {
@@ -37,7 +38,7 @@ def test_the_limit_is_where_rough_metals_begin_to_emit():
 
 @pytest.mark.parametrize(("field", "count"), [(None, 0), (0.99e9, 0), (3.3e9, 1)])
 def test_fields(field, count):
-    found = list(field_warnings(field, "the potentials"))
+    found = list(raised(field_flags(field, "the potentials")))
     assert [one.code for one in found] == count * ["field-above-insulators"]
 
 
@@ -52,7 +53,7 @@ def test_fields(field, count):
     ],
 )
 def test_strengths(strength, count):
-    found = list(strength_warnings(Discharge.from_dict(strength)))
+    found = list(raised(strength_flags(Discharge.from_dict(strength))))
     assert [one.code for one in found] == count * ["strength-above-liquids"]
 
 
