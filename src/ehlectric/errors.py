@@ -5,7 +5,7 @@ from __future__ import annotations
 import reprlib
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -364,23 +364,29 @@ class Flag:
 
     Examples
     --------
-    >>> flag = Flag("seed-repeated", True, lambda: {"times": 2, "seed": 5})
-    >>> [warning.code for warning in raised([flag, Flag("seed-repeated", False)])]
+    >>> flag = Flag.of(True, "seed-repeated", times=2, seed=lambda: 5)
+    >>> [warning.code for warning in raised([flag, Flag.of(False, "seed-repeated")])]
     ['seed-repeated']
     """
 
-    code: str
     where: Any  # whether a point has the warning, shape (...)
-    # Values of the text by their names, made only for a single point that has the warning.
-    values: Callable[[], Mapping[str, object]] = dict
-    situation: str = ""
+    code: str
+    situation: str
+    # Values of the text by their names; one that is a function is asked only where there is a text.
+    values: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, where: Any, code: str, situation: str = "", /, **values: Any) -> Self:
+        """Condition of the warning that ``ResultWarning.of`` makes of the other arguments."""
+        return cls(where, code, situation, values)
 
 
 def raised(flags: Iterable[Flag]) -> Iterator[ResultWarning]:
     """Warnings of a single point: those whose condition holds."""
     for flag in flags:
         if flag.where:
-            yield ResultWarning.of(flag.code, flag.situation, **flag.values())
+            values = {name: value() if callable(value) else value for name, value in flag.values.items()}
+            yield ResultWarning.of(flag.code, flag.situation, **values)
 
 
 # Keys of summary.json, and attributes of files, with the texts of warnings and their codes.

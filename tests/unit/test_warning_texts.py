@@ -1,4 +1,4 @@
-"""Texts of warnings in warning_texts.toml: calls of ``ResultWarning.of`` give the values that they name."""
+"""Texts of warnings in warning_texts.toml: warnings and their flags give the values that the texts name."""
 
 import ast
 import string
@@ -30,8 +30,11 @@ def calls_of(function):
 
 def calls():
     """Code and situation, None where they are computed, and names of the values of each call."""
-    for file, node in calls_of("ResultWarning.of"):
-        keys = [each.value if isinstance(each, ast.Constant) else None for each in node.args]
+    given = [(file, node, node.args) for file, node in calls_of("ResultWarning.of") if file != "errors.py"]
+    # The first argument of a flag is its condition.
+    given += [(file, node, node.args[1:]) for file, node in calls_of("Flag.of")]
+    for file, node, arguments in given:
+        keys = [each.value if isinstance(each, ast.Constant) else None for each in arguments]
         code, situation = (*keys, "")[:2]
         yield file, (code, situation), {each.arg for each in node.keywords}
 

@@ -268,11 +268,12 @@ def current_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of an apparent current density above the lowest of the published limits."""
     density = bearing_costs(solution).current_density
     if density is not None:
-        yield Flag(
-            "current-density-high",
+        yield Flag.of(
             density > CURRENT_DENSITY_LIMITS[0],
-            lambda: {"density": 1e-6 * density, "limits": beside_limits(density)},
+            "current-density-high",
             "bearing",
+            density=1e-6 * density,
+            limits=lambda: beside_limits(density),
         )
 
 
@@ -437,29 +438,33 @@ def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
         return
     frequency = motor.switching_frequency
     period = 1.0 / (TYPICAL[0] if frequency is None else frequency)
-    yield Flag("shaft-leaks", leaks.film_time_constant < period, lambda: _leaking(solution, leaks, motor))
-
-
-def _leaking(solution: BearingSolution, leaks: ShaftLeakage, motor: Motor) -> dict[str, object]:
-    """Values of the warning of a shaft voltage that leaks away."""
-    frequency, shaft = motor.switching_frequency, shaft_voltage(solution)
-    if frequency is None:
-        longest, shortest = (amount(1.0 / at, "s") for at in TYPICAL)
-        period = (
-            f"{shortest} to {longest}, the periods of typical inverters; motor.switching_frequency gives "
-            "that of yours"
-        )
-    else:
-        period = f"{amount(1.0 / frequency, 's')}, a period of the inverter"
-    edge = "give motor.rise_time for the voltage after an edge"
-    if leaks.after_rise is not None and motor.rise_time is not None and shaft is not None:
-        edge = f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"
+    tau, shaft = oil_relaxation_time(solution), shaft_voltage(solution)
     coated = shaft_path(solution).coated
-    return {
-        "relaxation": amount(oil_relaxation_time(solution) or 0.0, "s"),
-        "part": "part of the shaft voltage across the films" if coated else "shaft voltage",
-        "decay": amount(leaks.film_time_constant, "s"),
-        "period": period,
-        "shaft": shaft,
-        "edge": edge,
-    }
+    yield Flag.of(
+        leaks.film_time_constant < period,
+        "shaft-leaks",
+        relaxation=lambda: amount(tau or 0.0, "s"),
+        part="part of the shaft voltage across the films" if coated else "shaft voltage",
+        decay=lambda: amount(leaks.film_time_constant, "s"),
+        period=lambda: _period_text(frequency),
+        shaft=shaft,
+        edge=lambda: _edge_text(motor, leaks, shaft or 0.0),
+    )
+
+
+def _period_text(frequency: float | None) -> str:
+    """Period of the inverter [s] by its frequency [Hz], or those of typical inverters, as text."""
+    if frequency is not None:
+        return f"{amount(1.0 / frequency, 's')}, a period of the inverter"
+    longest, shortest = (amount(1.0 / at, "s") for at in TYPICAL)
+    return (
+        f"{shortest} to {longest}, the periods of typical inverters; motor.switching_frequency gives that of "
+        "yours"
+    )
+
+
+def _edge_text(motor: Motor, leaks: ShaftLeakage, shaft: float) -> str:
+    """Voltage after an edge of the inverter as text, from the shaft voltage of the divider [V]."""
+    if leaks.after_rise is None or motor.rise_time is None:
+        return "give motor.rise_time for the voltage after an edge"
+    return f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"

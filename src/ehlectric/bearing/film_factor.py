@@ -368,11 +368,16 @@ def film_note(solution: BearingSolution) -> Iterator[Flag]:
     """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
     factor, whole = solution.case.bearing.film_factor, solution.conditions.film_factor == 1.0
     name = factor if isinstance(factor, str) else f"{factor:g}"
-    yield Flag("isothermal-film", whole, lambda: {"factor": name})
-    yield Flag("smooth-film", np.logical_not(whole), lambda: _neglected(solution))
+    yield Flag.of(whole, "isothermal-film", factor=name)
+    yield Flag.of(
+        np.logical_not(whole),
+        "smooth-film",
+        factor=lambda: _film_words(solution)[0],
+        neglected=lambda: _film_words(solution)[1],
+    )
 
 
-def _neglected(solution: BearingSolution) -> dict[str, object]:
+def _film_words(solution: BearingSolution) -> tuple[str, str]:
     """Film factor of one bearing with its parts, and what it leaves out, in words."""
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
@@ -385,7 +390,7 @@ def _neglected(solution: BearingSolution) -> dict[str, object]:
         left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
     if factor == "solved":
         left = f"{left}, spin and sliding"
-    return {"factor": found, "neglected": left}
+    return found, left
 
 
 def supply_words(solution: BearingSolution) -> str:
@@ -401,13 +406,13 @@ def supply_words(solution: BearingSolution) -> str:
 def supply_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
     total = solution.conditions.film_factor
-    yield Flag("film-factor-low", total < _FAR, lambda: {"factor": total})
+    yield Flag.of(total < _FAR, "film-factor-low", factor=total)
     supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     if (isinstance(supply, str) and supply == "flooded") or found is None:
         return
     rule = solution.case.bearing.by_supply_rule
-    yield Flag("supply-rule", rule, lambda: {"supply": supply, "share": found})
-    yield Flag("supply-low", found < _LOW, lambda: {"share": found})
+    yield Flag.of(rule, "supply-rule", supply=supply, share=found)
+    yield Flag.of(found < _LOW, "supply-low", share=found)
     time = half_time(solution) if isinstance(supply, str) and supply in _SPARSE else None
     if time is not None:
-        yield Flag("film-decays", time < _SOON, lambda: {"seconds": time, "supply": supply})
+        yield Flag.of(time < _SOON, "film-decays", seconds=time, supply=supply)

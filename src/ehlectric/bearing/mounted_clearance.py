@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 
 from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing, clearance_at
 from ehlectric.cases import library
@@ -96,9 +95,13 @@ def class_flags(bearing: Bearing) -> Iterator[Flag]:
     allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
     low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
     name, half = bearing.clearance_class, 0.5 * (high - low)
-    values = {"name": name, "low": low, "high": high, "middle": middle, "half": half}
-    situation = "before_mounting" if bearing.fits is None else "in_operation"
-    yield Flag("clearance-class", where=True, values=partial(dict, values), situation=situation)
+    mounted = bearing.fits is not None
+    yield Flag.of(
+        not mounted, "clearance-class", "before_mounting", name=name, low=low, high=high, middle=middle
+    )
+    yield Flag.of(
+        mounted, "clearance-class", "in_operation", name=name, low=low, high=high, middle=middle, half=half
+    )
 
 
 def fit_flags(clearance: MountedClearance | None) -> Iterator[Flag]:
@@ -108,11 +111,15 @@ def fit_flags(clearance: MountedClearance | None) -> Iterator[Flag]:
     if clearance is None:
         return
     mounted, running = clearance.mounted, clearance.running
-    clearances = {"running": 1e6 * running.clearance, "unmounted": 1e6 * clearance.unmounted}
-    yield Flag("clearance-negative", running.clearance < 0.0, partial(dict, clearances))
+    yield Flag.of(
+        running.clearance < 0.0,
+        "clearance-negative",
+        running=1e6 * running.clearance,
+        unmounted=1e6 * clearance.unmounted,
+    )
     for fit, before, after in (
         ("shaft", mounted.shaft_interference, running.shaft_interference),
         ("housing", mounted.housing_interference, running.housing_interference),
     ):
-        values = {"before": 1e6 * before, "after": 1e6 * after}
-        yield Flag("fit-loose", (after <= 0.0) & (before > 0.0), partial(dict, values), fit)
+        loose = (after <= 0.0) & (before > 0.0)
+        yield Flag.of(loose, "fit-loose", fit, before=1e6 * before, after=1e6 * after)

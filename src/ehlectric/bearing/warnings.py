@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from operator import mul, truediv
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,6 @@ from ehlectric.bearing.film_factor import film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
-from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     BearingSolution,
@@ -89,38 +87,34 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
 
 def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
-    case = solution.case
-    code = "formula-contacts" if case.contacts == "formula" else "atlas-contacts"
-    yield Flag(code, is_quick(case), lambda: {"error": error_text(solution)}, "bearing")
+    case, error = solution.case, partial(error_text, solution)
+    yield Flag.of(case.contacts == "formula", "formula-contacts", "bearing", error=error)
+    yield Flag.of(case.contacts == "atlas", "atlas-contacts", "bearing", error=error)
     yield from film_note(solution)
     yield from supply_flags(solution)
     base = library_viscosity(case.lubricant)
-    yield Flag("viscosity-of-base", base is not None, lambda: _of_base(case, base))
+    yield Flag.of(
+        base is not None,
+        "viscosity-of-base",
+        viscosity=1e3 * (base or 0.0),
+        base=case.lubricant.base,
+        temperature=lambda: f"{case.bearing.oil_temperature - 273.15:.4g} °C",
+    )
     constant = base is None and viscosity_over_temperature(case.lubricant) is None
-    yield Flag("temperature-unused", constant, lambda: _unused(case.bearing), "bearing")
+    given = [f"bearing.{key}" for key in case.bearing.temperatures()]
+    yield Flag.of(
+        constant,
+        "temperature-unused",
+        "bearing",
+        temperatures=" and ".join(given),
+        are="is" if len(given) == 1 else "are",
+    )
     if base is None and not constant and case.lubricant.temperature_range is None:
-        yield from _cold(case.bearing)
+        for key, temperature in case.bearing.temperatures().items():
+            # The viscosity is extrapolated far.
+            yield Flag.of(temperature < _COLD, "temperature-low", key=key, celsius=temperature - 273.15)
     yield from fit_flags(solution.conditions.clearance)
     yield clearance_flag(solution.conditions.geometry.clearance, solution.positions[0])
-
-
-def _of_base(case: BearingCase, viscosity: float | None) -> dict[str, object]:
-    """Values of the warning of a viscosity [Pa s] that is that of an oil of the library."""
-    at = f"{case.bearing.oil_temperature - 273.15:.4g} °C"
-    return {"viscosity": 1e3 * (viscosity or 0.0), "base": case.lubricant.base, "temperature": at}
-
-
-def _unused(bearing: Bearing) -> dict[str, object]:
-    """Values of the warning of temperatures on which nothing depends."""
-    given = [f"bearing.{key}" for key in bearing.temperatures()]
-    return {"temperatures": " and ".join(given), "are": "is" if len(given) == 1 else "are"}
-
-
-def _cold(bearing: Bearing) -> Iterator[Flag]:
-    """Warnings of temperatures at which the viscosity is extrapolated far."""
-    for key, temperature in bearing.temperatures().items():
-        values = {"key": key, "celsius": temperature - 273.15}
-        yield Flag("temperature-low", temperature < _COLD, partial(dict, values))
 
 
 def library_viscosity(oil: Lubricant) -> float | None:
@@ -144,27 +138,31 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         1e3 * bearing.pitch_diameter,
     )
     factor = turns * pitch
-    of_speed = {"speed": turns, "pitch": pitch, "factor": factor, "limit": _MOST_SPEED}
-    yield Flag("speed-high", factor > _MOST_SPEED, partial(dict, of_speed))
+    yield Flag.of(
+        factor > _MOST_SPEED, "speed-high", speed=turns, pitch=pitch, factor=factor, limit=_MOST_SPEED
+    )
     load, rating = np.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
-    yield Flag("load-low", load < _LEAST_LOAD * rating, partial(dict, load=load, rating=rating))
+    yield Flag.of(load < _LEAST_LOAD * rating, "load-low", load=load, rating=rating)
     for key, temperature in bearing.temperatures().items():
         own = temperature - 273.15
-        extreme = (own < _COLDEST) | (own > _HOTTEST)
-        ends = {"key": key, "celsius": own, "coldest": _COLDEST, "hottest": _HOTTEST}
-        yield Flag("temperature-extreme", extreme, partial(dict, ends))
-    of_oil = {"viscosity": viscosity, "celsius": celsius, "limit": _MOST_VISCOUS}
-    yield Flag("viscosity-high", viscosity > _MOST_VISCOUS, partial(dict, of_oil))
+        yield Flag.of(
+            (own < _COLDEST) | (own > _HOTTEST),
+            "temperature-extreme",
+            key=key,
+            celsius=own,
+            coldest=_COLDEST,
+            hottest=_HOTTEST,
+        )
+    yield Flag.of(
+        viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
+    )
     yield from class_flags(bearing)
     oil = case.lubricant.temperature
-    yield Flag("viscosity-grade", oil is not None and oil.iso_vg is not None, lambda: _grade(oil))
-
-
-def _grade(oil: OilTemperature | None) -> dict[str, object]:
-    """Values of the warning of a viscosity grade, which stands for a range."""
-    assert oil is not None
-    low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
-    return {"grade": oil.iso_vg, "low": low, "high": high, "index": _index_of(oil)}
+    if oil is not None and oil.iso_vg is not None:
+        low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
+        index = partial(_index_of, oil)
+        graded = oil.iso_vg > 0
+        yield Flag.of(graded, "viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=index)
 
 
 def _index_of(oil: OilTemperature) -> str:
@@ -190,7 +188,7 @@ def _static_rating(bearing: Bearing) -> Numbers:
 def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of the capacitance and the voltages of a bearing: lubrication, ceramics, Weibull strength."""
     yield from _contact_of_asperities(solution)
-    yield Flag("capacitance-bound", capacitance_is_bound(solution))
+    yield Flag.of(capacitance_is_bound(solution), "capacitance-bound")
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
     field = known(mul, film_voltage(solution), per_volt)
     first, scattered = known_of(breakdown, "shaft_first_break"), solution.case.discharge.weibull is not None
@@ -208,7 +206,7 @@ def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield from _coating_flags(solution, shaft)
     yield from leakage_flags(solution)
     yield from current_flags(solution)
-    yield Flag("weibull-voltage", scattered & insulating(solution))
+    yield Flag.of(scattered & insulating(solution), "weibull-voltage")
 
 
 def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator[Flag]:
@@ -217,39 +215,33 @@ def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator
     The coating breaks down alone after the films have broken down.
     """
     coating = solution.case.bearing.coating
-    yield Flag("coating-assumed", coating is not None and bool(coating.assumed), lambda: _assumed(coating))
+    if coating is not None:
+        values = partial(_assumed_text, coating)
+        yield Flag.of(bool(coating.assumed), "coating-assumed", coating=coating.base, values=values)
     withstands = shaft_path(solution).coating_breakdown
     if withstands is not None and shaft is not None:
-        values = {"withstands": withstands, "shaft": shaft}
-        yield Flag("coating-breakdown", withstands < shaft, partial(dict, values))
+        yield Flag.of(withstands < shaft, "coating-breakdown", withstands=withstands, shaft=shaft)
 
 
-def _assumed(coating: Coating | None) -> dict[str, object]:
-    """Values of the warning of values of a coating that are assumed."""
-    assert coating is not None
+def _assumed_text(coating: Coating) -> str:
+    """Values of a coating that are assumed, as text."""
     shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
-    values = ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in coating.assumed.items())
-    return {"coating": coating.base, "values": values}
+    return ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in coating.assumed.items())
 
 
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of surfaces that touch all or some of the time."""
-    state, ceramic = lubrication(solution), solution.conditions.ceramic
-
-    def ratio() -> dict[str, object]:
-        return {"ratio": lambda_text(solution)}
-
-    yield Flag("touching", state == "conducting", ratio, "steel")
-    yield Flag("touching", state == "touching", ratio, "ceramic")
+    state, ratio = lubrication(solution), partial(lambda_text, solution)
+    yield Flag.of(state == "conducting", "touching", "steel", ratio=ratio)
+    yield Flag.of(state == "touching", "touching", "ceramic", ratio=ratio)
     partly = state == "partial film"
-    if ceramic:
-        yield Flag("partial-film", partly, ratio, "ceramic")
+    if solution.conditions.ceramic:
+        yield Flag.of(partly, "partial-film", "ceramic", ratio=ratio)
         return
     duty = duty_of(solution)
     partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
-    yield Flag(
-        "partial-film", partly, lambda: {**ratio(), "share": time_text(duty.touching_time_share)}, "steel"
-    )
+    share = partial(time_text, duty.touching_time_share)
+    yield Flag.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 
 
 def edge_flags(bearing: Bearing, positions: Sequence[Position]) -> Iterator[Flag]:
@@ -265,8 +257,14 @@ def edge_flags(bearing: Bearing, positions: Sequence[Position]) -> Iterator[Flag
         ends = np.stack([_end(*one, groove) for one in zip(rings, angles, strict=True)], axis=-2)
         loads = np.stack([ring.load for ring in rings], axis=-2)
         over = np.where(ends > np.asarray(shoulder)[..., np.newaxis, np.newaxis], loads, 0.0)
-        values = partial(_reached, name, over, ends, shoulder)
-        yield Flag("shoulder-reached", np.any(over > 0.0, axis=(-2, -1)), values)
+        yield Flag.of(
+            np.any(over > 0.0, axis=(-2, -1)),
+            "shoulder-reached",
+            ring=name,
+            load=partial(np.max, over),
+            reached=partial(_reached, over, ends),
+            shoulder=np.degrees(shoulder),
+        )
 
 
 def _end(ring: RingState, angle: Array, groove: Numbers) -> Array:
@@ -275,11 +273,9 @@ def _end(ring: RingState, angle: Array, groove: Numbers) -> Array:
     return end
 
 
-def _reached(ring: str, over: Array, ends: Array, shoulder: float) -> dict[str, object]:
-    """Values of the warning of a contact of one bearing that reaches over a shoulder [rad]."""
-    at = np.unravel_index(np.argmax(over), over.shape)
-    reached, end = math.degrees(ends[at]), math.degrees(shoulder)
-    return {"ring": ring, "load": float(over[at]), "reached": reached, "shoulder": end}
+def _reached(over: Array, ends: Array) -> float:
+    """Angle [deg] to the end of the contact of one bearing that has the largest load."""
+    return math.degrees(ends.flat[np.argmax(over)])
 
 
 def clearance_flag(clearance: Numbers, position: Position) -> Flag:
@@ -297,13 +293,13 @@ def clearance_flag(clearance: Numbers, position: Position) -> Flag:
     # Preloaded elements have no clearance: the films are compared with the elastic approach.
     preloaded = np.asarray(clearance) <= 0.0
     room = np.where(preloaded, of_most(at.inner_approach + at.outer_approach), clearance)
-    return Flag("clearance-taken-up", films > TAKEN * room, lambda: _taken_up(films, room, preloaded))
-
-
-def _taken_up(films: Any, room: Any, preloaded: Any) -> dict[str, object]:
-    """Values of the warning of films that take up much of the room of a bearing."""
-    compared = "an elastic approach of" if preloaded else "a clearance of"
-    return {"films": 1e6 * float(films), "compared": compared, "room": 1e6 * float(room)}
+    return Flag.of(
+        films > TAKEN * room,
+        "clearance-taken-up",
+        films=1e6 * films,
+        compared=lambda: "an elastic approach of" if preloaded else "a clearance of",
+        room=lambda: 1e6 * float(room),
+    )
 
 
 def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:

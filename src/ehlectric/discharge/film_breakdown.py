@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -37,8 +36,13 @@ def field_flags(max_strength: Numbers | None, check: str) -> Iterator[Flag]:
     strength at the applied voltage [V/m], shape (...); None where there is none.
     """
     if max_strength is not None:
-        values = {"field": max_strength / 1e6, "limit": MOST_OF_LIQUIDS / 1e6, "check": check}
-        yield Flag("field-above-insulators", max_strength > MOST_OF_LIQUIDS, partial(dict, values))
+        yield Flag.of(
+            max_strength > MOST_OF_LIQUIDS,
+            "field-above-insulators",
+            field=max_strength / 1e6,
+            limit=MOST_OF_LIQUIDS / 1e6,
+            check=check,
+        )
 
 
 def strength_flags(discharge: Discharge | None) -> Iterator[Flag]:
@@ -52,8 +56,12 @@ def strength_flags(discharge: Discharge | None) -> Iterator[Flag]:
     elif law is not None:
         strength = law.scale
     if strength is not None:
-        values = {"strength": strength / 1e6, "limit": MOST_OF_LIQUIDS / 1e6}
-        yield Flag("strength-above-liquids", strength > MOST_OF_LIQUIDS, partial(dict, values))
+        yield Flag.of(
+            strength > MOST_OF_LIQUIDS,
+            "strength-above-liquids",
+            strength=strength / 1e6,
+            limit=MOST_OF_LIQUIDS / 1e6,
+        )
 
 
 @dataclass(frozen=True)

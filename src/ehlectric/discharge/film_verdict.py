@@ -218,11 +218,22 @@ def breakdown_flag(
     """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless, shape (...), or None;
     ``field``, maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
     """
-
-    def values() -> dict[str, object]:
-        found: dict[str, object] = {"kind": kind, "voltage": voltage, "breakdown": at()}
-        found["margin"] = ratio_text(margin)
-        return found if field is None else {**found, "field": field / 1e6}
-
     below = False if margin is None else margin < 1.0
-    return Flag("breakdown-expected", below, values, "voltage" if field is None else "field")
+
+    def ratio() -> str:
+        return ratio_text(margin)
+
+    if field is None:
+        return Flag.of(
+            below, "breakdown-expected", "voltage", kind=kind, voltage=voltage, breakdown=at, margin=ratio
+        )
+    return Flag.of(
+        below,
+        "breakdown-expected",
+        "field",
+        kind=kind,
+        voltage=voltage,
+        breakdown=at,
+        margin=ratio,
+        field=field / 1e6,
+    )
