@@ -32,6 +32,17 @@ def where(known: Any, values: Numbers) -> Numbers | None:
     return np.where(known, values, np.nan)
 
 
+def plain(values: Numbers) -> Numbers:
+    """Values of one point as a float of Python, of many points as they are.
+
+    Examples
+    --------
+    >>> plain(np.float64(2.0)), plain(np.array([2.0, 3.0])).tolist()
+    (2.0, [2.0, 3.0])
+    """
+    return float(values) if np.ndim(values) == 0 else values
+
+
 def labels(*choices: Any) -> Any:
     """Text for each point: that of the first condition that holds, or the last one.
 
