@@ -1,4 +1,4 @@
-"""Types of NumPy arrays that all packages share."""
+"""Types of NumPy arrays that all packages share, and values of one point or of many."""
 
 from typing import Any, TypeAlias, TypeVar
 
@@ -28,16 +28,16 @@ def where(known: Any, values: Numbers) -> Numbers | None:
     (None, 3.0, [3.0, nan])
     """
     if np.ndim(known) == np.ndim(values) == 0:
-        return values if known else None
+        return as_float(values) if known else None
     return np.where(known, values, np.nan)
 
 
-def plain(values: Numbers) -> Numbers:
+def as_float(values: Numbers) -> Numbers:
     """Values of one point as a float of Python, of many points as they are.
 
     Examples
     --------
-    >>> plain(np.float64(2.0)), plain(np.array([2.0, 3.0])).tolist()
+    >>> as_float(np.float64(2.0)), as_float(np.array([2.0, 3.0])).tolist()
     (2.0, [2.0, 3.0])
     """
     return float(values) if np.ndim(values) == 0 else values
@@ -55,5 +55,6 @@ def labels(*choices: Any) -> Any:
     ('high', ['low', 'high'])
     """
     *pairs, other = choices
-    found = np.select([np.asarray(condition) for condition, _ in pairs], [text for _, text in pairs], other)
-    return found if found.ndim else str(found)
+    if all(np.ndim(condition) == 0 for condition, _ in pairs):
+        return next((text for condition, text in pairs if condition), other)
+    return np.select([condition for condition, _ in pairs], [text for _, text in pairs], other)

@@ -134,17 +134,14 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
 
 def _weakest(circuits: Sequence[Circuit], at: IntArray) -> Any:
     """Name of the contact that breaks down first at the position ``at`` of each point, shape (...)."""
-    breaks = np.array([circuit.first_breaks for circuit in circuits])
-    inner = np.array([circuit.inner_first for circuit in circuits])
-    breaks, inner = (
-        np.take_along_axis(all_, at[np.newaxis, ..., np.newaxis], 0)[0] for all_ in (breaks, inner)
-    )
-    element = np.argmin(breaks, axis=-1)
-    ring = np.where(np.take_along_axis(inner, element[..., np.newaxis], -1)[..., 0], 0, 1)
+    points = tuple(np.indices(at.shape))
+    element = np.argmin(np.array([one.first_breaks for one in circuits])[at, *points], axis=-1)
+    inner = np.array([one.inner_first for one in circuits])[at, *points, element]
     names = [
-        [f"{name} contact of element {k}" for k in range(inner.shape[-1])] for name in ("inner", "outer")
+        [f"{ring} contact of element {k}" for ring in ("outer", "inner")]
+        for k in range(circuits[0].inner.shape[-1])
     ]
-    found = np.array(names)[ring, element]
+    found = np.array(names)[element, inner.astype(int)]
     return found if found.ndim else str(found)
 
 
@@ -181,9 +178,8 @@ class BearingCosts:
     # Capacitance that a discharge through the films empties [F]: that of the films, and those between the
     # shaft and everything else, which a coating on a ring puts in series with its own.
     discharged_capacitance: Numbers | None
-    bearing_energy: (
-        Numbers | None
-    )  # energy C V^2/2 that is stored in the films alone, at the shaft voltage [J]
+    # Energy C V^2/2 that is stored in the films alone, at the shaft voltage [J].
+    bearing_energy: Numbers | None
     # Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
     discharge_energy: Numbers | None
     # Energy C V^2/2 that is stored in ``discharged_capacitance``, at the first breakdown [J].

@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import N
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.mounted_clearance import MountedClearance
 from ehlectric.cases import library
@@ -21,9 +21,6 @@ from ehlectric.runtime.stored import stored
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)
-
-# Number, or array of numbers.
-N = TypeVar("N", float, Array)
 
 
 @dataclass(frozen=True)

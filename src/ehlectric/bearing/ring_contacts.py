@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import ClassVar, Generic, TypeAlias, TypeVar
+from typing import ClassVar, Generic, TypeAlias
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, N
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gaps import (
     Raceway,
@@ -441,10 +441,6 @@ def rigid_ball(ring: RingContacts[BallBearing], gap: float) -> float:
 def rigid_roller(ring: RingContacts[RollerBearing], gap: float) -> float:
     """Capacitance in vacuum [F] of a rigid roller and its raceway, a gap [m] apart."""
     return ring.conditions.geometry.roller_length * roller_capacitance(_roller_raceway(ring), gap)
-
-
-# Number of one contact, or array with a number for each contact.
-N = TypeVar("N", float, Array)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -28,7 +28,7 @@ from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 from scipy.special import elliprd, elliprf
 
-from ehlectric.arrays import Array, N, Numbers, plain
+from ehlectric.arrays import Array, N, Numbers, as_float
 
 # Largest relative difference of the arguments at which the series is used; its relative error is below 1e-14.
 _CLOSE = 0.06
@@ -159,7 +159,7 @@ def line_half_width(load_per_length: Numbers, radius: Numbers, modulus: Numbers)
     >>> round(line_half_width(1.57e6, 14.1e-3, 226e9) * 1e6, 1)
     499.4
     """
-    return plain(np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus)))
+    return as_float(np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus)))
 
 
 def line_max_pressure(load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
@@ -326,7 +326,7 @@ def dry_contact(load: Numbers, radius_x: Numbers, radius_y: Numbers, modulus: Nu
     (109.9, 0.7906)
     """
     k = axis_ratio(radius_x, radius_y)
-    of_axes, of_approach = plain(elliprd(0.0, k**2, 1.0)), plain(elliprf(0.0, 1.0, k**2))
+    of_axes, of_approach = as_float(elliprd(0.0, k**2, 1.0)), as_float(elliprf(0.0, 1.0, k**2))
     semi_axis = (2.0 * load * radius_x * of_axes / (np.pi * modulus)) ** (1.0 / 3.0)
     pressure = 1.5 * load / (np.pi * k * semi_axis**2)
     approach = 2.0 * pressure * k * semi_axis / modulus * of_approach
