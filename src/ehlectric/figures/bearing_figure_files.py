@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -202,6 +203,9 @@ Draw = Callable[[BearingResult, Axes], Axes]
 
 # Sizes of figures; and width, height of each panel and of the title of stacked panels [inches].
 _POLAR_SIZE, _SPEED_SIZE = (6.9, 4.6), (6.3, 3.7)
+
+# Lines of a title and rows of a legend that polar panels have room for, and the height of each more [inches].
+_LINES, _ROWS, _LINE = 3, 2, 0.2
 _WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.65
 
 
@@ -282,7 +286,19 @@ def figure(result: BearingResult, name: str) -> Figure:
             draw(result, ax)
         if not polar:
             share_below(axes)
-        return titled(axes[0], title, converged=result.converged)
+        drawn = titled(axes[0], title, converged=result.converged)
+        if polar:
+            _make_room(drawn, axes)
+        return drawn
+
+
+def _make_room(figure: Figure, axes: Sequence[Axes]) -> None:
+    """Make a figure of polar panels higher where its title or a legend has more lines than usual."""
+    legends = (ax.get_legend() for ax in axes)
+    rows = max(math.ceil(len(legend.get_texts()) / 2) for legend in legends if legend is not None)
+    lines = figure.get_suptitle().count("\n") + 1
+    more = max(0, lines - _LINES) + max(0, rows - _ROWS)
+    figure.set_figheight(figure.get_figheight() + _LINE * more)
 
 
 def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | None = None) -> Figure:
