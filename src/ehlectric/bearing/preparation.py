@@ -17,7 +17,7 @@ from ehlectric.bearing.conditions import BearingConditions, RingConditions, Soli
 from ehlectric.bearing.film_factor import factors_of, solved_heat
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.loads.totals import Equilibrium, mirrored
+from ehlectric.bearing.loads.totals import Equilibrium, check_balance, check_operation, mirrored
 from ehlectric.bearing.mounted_clearance import mounted_clearance
 from ehlectric.bearing.quick_contacts import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import Contact, RingContacts
@@ -195,23 +195,27 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
 
     At the first position an element is on the load line. The second half mirrors the first.
     """
-    bearing, kind = conditions.bearing, KINDS[conditions.bearing.kind]
-    pitch = 2.0 * math.pi / bearing.elements
+    bearing, geometry, kind = conditions.bearing, conditions.geometry, KINDS[conditions.bearing.kind]
+    duty = bearing.radial_load, bearing.axial_load, bearing.inner_speed
+    solid = conditions.modulus, conditions.element.density
+    shape = np.broadcast_shapes(*map(np.shape, (*duty, *solid, *geometry.dimensions)))
+    angles = 2.0 * math.pi / bearing.elements * np.arange(positions) / positions
+    solved = positions // 2 + 1
     with _keys_of_bearing():
-        operations = [
-            Operation(bearing.radial_load, bearing.axial_load, bearing.inner_speed, cage_angle=angle)
-            for angle in pitch * np.arange(positions) / positions
-        ]
-        solid = conditions.modulus, conditions.element.density
-        solved = [
-            kind.equilibrium(conditions.geometry, operation, *solid)
-            for operation in operations[: positions // 2 + 1]
-        ]
+        # All positions are solved at once, along the first axis.
+        cage = angles[:solved].reshape(-1, *(1 for _ in shape))
+        operation = Operation(*duty, cage_angle=cage)
+        if not shape:
+            check_operation(geometry, operation)
+        at = kind.equilibrium(geometry, operation, *solid)
+        found = [at.at(k) for k in range(solved)]
+        for one in found:
+            check_balance(one)
     mirrors = (
-        mirrored(solved[positions - k], operations[k].positions(bearing.elements))
-        for k in range(len(solved), positions)
+        mirrored(found[positions - k], Operation(*duty, cage_angle=angles[k]).positions(bearing.elements))
+        for k in range(solved, positions)
     )
-    return (*solved, *mirrors)
+    return (*found, *mirrors)
 
 
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:

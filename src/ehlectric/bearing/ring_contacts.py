@@ -11,7 +11,7 @@ from typing import ClassVar, Generic, TypeAlias
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.arrays import Array, N
+from ehlectric.arrays import Array, N, Numbers
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gaps import (
     Raceway,
@@ -178,7 +178,7 @@ class BallContact:
         return nijenbanning_venner_moes(self.conditions.contact).central_thickness
 
     @property
-    def thickest_film(self) -> float:
+    def thickest_film(self) -> Numbers:
         """Largest film thickness [m] for which there is room between ball and groove."""
         return _ROOM * self.ring.conditions.geometry.offsets[0 if self.ring.inner else 1]
 
@@ -239,7 +239,7 @@ class RollerContact:
     load: float  # [N]
 
     @property
-    def length(self) -> float:
+    def length(self) -> Numbers:
         """Length of the roller [m]."""
         return self.ring.conditions.geometry.roller_length
 
@@ -285,7 +285,7 @@ class RollerContact:
         return moes(self.conditions.contact).central_thickness
 
     @property
-    def thickest_film(self) -> float:
+    def thickest_film(self) -> Numbers:
         """Largest film thickness [m] for which the roller is a parabola where its film builds up."""
         radius = 0.5 * self.ring.conditions.geometry.roller_diameter
         return (_ROOM * radius) ** 2 / (2.0 * self.conditions.reduced_radius)
@@ -438,7 +438,7 @@ def rigid_ball(ring: RingContacts[BallBearing], gap: float) -> float:
     return groove_capacitance(raceway_of(ring), gap)
 
 
-def rigid_roller(ring: RingContacts[RollerBearing], gap: float) -> float:
+def rigid_roller(ring: RingContacts[RollerBearing], gap: float) -> Numbers:
     """Capacitance in vacuum [F] of a rigid roller and its raceway, a gap [m] apart."""
     return ring.conditions.geometry.roller_length * roller_capacitance(_roller_raceway(ring), gap)
 

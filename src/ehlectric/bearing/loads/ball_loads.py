@@ -1,23 +1,15 @@
-"""Loads of ball bearings: position and forces of each ball, and equilibrium of the inner ring; SI units.
+"""Loads of ball bearings: equilibrium of inner ring and balls, for many bearings at once; SI units.
 
-In the plane through the bearing axis and the ball's centre, a groove is a circle about the groove's centre.
-The ball is smaller than both circles and lies inside them. Vectors in this plane are (axial, radial) from the
-centre of the outer groove: the ball's centre is at p, and the centre of the inner groove at g. The elastic
-approach in the contacts is
+The equilibrium is Harris' model of a bearing at speed. The inner ring is displaced, but not tilted. Contact
+forces and centrifugal force balance on each ball, so its inner and outer contact angles differ. The rings are
+rigid except in the contacts. The effects of the gyroscopic moment and of friction are neglected. The grooves
+have no shoulders in this model, so compare the contact angles with the angle at which the shoulder begins.
 
-    delta_o = abs(p) - (f_o - 1/2) D,    delta_i = abs(g - p) - (f_i - 1/2) D
-
-and their load is Q = K delta^(3/2) where delta is positive. A groove does not enclose the ball. Beyond 90 deg
-it continues as a plane wall: of a vector that points inward only the axial component counts. Both lengths are
-convex functions of p and g. The energy, (2/5) K delta^(5/2) of both contacts less the work of the centrifugal
-force, is then convex as well. Each ball therefore has a single position of equilibrium, which Newton's method
-computes.
-
-The equilibrium of the ring is Harris' model of a bearing at speed. The inner ring is displaced, but not
-tilted. Contact forces and centrifugal force balance on each ball, so its inner and outer contact angles
-differ. The rings are rigid except in the contacts. The effects of the gyroscopic moment and of friction are
-neglected. The grooves have no shoulders in this model, so compare the contact angles with the angle at which
-the shoulder begins.
+Newton's method computes the displacement of the ring and the positions of all balls together; each step
+eliminates the balls, so that only the three components of the displacement remain. Contact stiffnesses and
+the speed of the cage belong to the contact angles of each step. Points of operation that do not converge in
+this way are computed by nested iterations, whose steps are judged by a convex energy: contact angles outside,
+then the ring, then the balls, for which see `ball_seats`.
 
 A. B. Jones, J. Basic Eng. 82 (1960) 309-320, doi:10.1115/1.3662587; T. A. Harris and M. N. Kotzalas, Advanced
 Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/9781420006582.
@@ -25,14 +17,22 @@ Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/978
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
-from itertools import count
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.bearing.loads.ball_contacts import Contacts, Spans, significant, stiffness_at, stiffness_laws
+from ehlectric.bearing.loads.ball_seats import (
+    Grooves,
+    Seats,
+    at_rest,
+    determinant,
+    first_guess,
+    in_series,
+    seat,
+)
 from ehlectric.bearing.loads.geometry import (
     BallBearing,
     Speeds,
@@ -40,266 +40,484 @@ from ehlectric.bearing.loads.geometry import (
     gyroscopic_moment,
     rolling_speeds,
 )
-from ehlectric.bearing.loads.ring import AIM, GOOD, BearingEquilibrium, Operation, balance
-from ehlectric.errors import ConvergenceError, InputError
-from ehlectric.formulas.hertz import dry_contact
+from ehlectric.bearing.loads.ring import (
+    AIM,
+    GOOD,
+    Batch,
+    BearingEquilibrium,
+    Operation,
+    balance,
+    direction,
+    refuse_unbalanced,
+)
+from ehlectric.errors import InputError
 
-# Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error
-# is below 1e-11, except where a handful of balls fill their pitch circle.
-_DEGREE = 24
+# Points of operation that are computed together: few enough for the processor's cache.
+_BLOCK = 1024
 
-
-def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inner: bool) -> float:
-    """Stiffness K of Q = K delta^(3/2), from the exact Hertz ellipse of a ball and a ring. ``modulus``,
-    reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``angle`` [rad].
-    Returns stiffness K [N/m^(3/2)].
-
-    Examples
-    --------
-    Approach in micrometres under a load of 870 N:
-
-    >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
-    >>> k = contact_stiffness(bearing, 226e9, 0.0, inner=True)
-    >>> round(1e6 * (870.0 / k) ** (2 / 3), 2)
-    9.24
-    """
-    radii = bearing.radii(angle, inner=inner)
-    return float(dry_contact(1.0, radii.radius_x, radii.radius_y, modulus).approach ** -1.5)
-
-
-@lru_cache(maxsize=32)
-def stiffness_laws(bearing: BallBearing, modulus: float) -> tuple[Chebyshev, Chebyshev]:
-    """Polynomials of ln K of the inner and the outer contact over the cosine of the contact angle, 0 to 1.
-
-    ``modulus`` is the reduced modulus E' of ball and ring [Pa]; K has the unit N/m^(3/2).
-    """
-
-    def law(*, inner: bool) -> Chebyshev:
-        def logarithm(cosines: Array) -> Array:
-            angles = np.arccos(cosines)
-            return np.log([contact_stiffness(bearing, modulus, float(a), inner=inner) for a in angles])
-
-        return Chebyshev.interpolate(logarithm, _DEGREE, domain=[0.0, 1.0])
-
-    return law(inner=True), law(inner=False)
-
-
-_RADIAL = np.array([0.0, 1.0])
-_UNITY = np.eye(2)
-
-# Lower bounds of the components of a vector: its axial component counts in full, an inward radial one as 0.
-_INWARD = np.array([-np.inf, 0.0])
 _TINY = np.finfo(float).tiny
-_MOST_STEPS = 60
-_MOST_TRIALS = 40
-
-# A step that overshoots is shortened until the force against it is at most this part of the force along it
-# at its start.
-_OVERSHOOT = 0.5
-
-# Relative rounding errors: of the forces on a ball, and of its position over the distance of groove centres.
-_ROUNDING = 1e-15
-_NUDGE = 4e-16
 
 
 @dataclass(frozen=True)
-class Contacts:
-    """Contacts of n balls with one groove."""
+class BallEquilibrium(BearingEquilibrium):
+    """Ball bearing in equilibrium. Arrays have one value per ball, shape (..., elements)."""
 
-    # Unit vector n along the contact: from the centre of the outer groove to the ball, or from the ball to
-    # the centre of the inner groove, shape (n, 2).
-    normal: Array
-    # Elastic approach [m]; where the ball does not touch, it is negative, the gap with a minus sign,
-    # shape (n,).
-    depth: Array
-    load: Array  # load Q [N], shape (n,)
-    # Derivative of the force Q n by the vector between the centres of ball and groove [N/m], shape (n, 2, 2).
-    tangent: Array
+    # inner_angle and outer_angle: angle of both contacts [rad]; where a ball does not touch, angle of the
+    # smallest gap.
+    inner_angle: Array
+    outer_angle: Array
+    gyroscopic_moment: Array  # gyroscopic moment of each ball [N m]; its effect is neglected
+    cage_speed: Numbers  # mean orbital speed of the balls, weighted with their load on the inner ring [rad/s]
+    # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
+    axial_displacement: Numbers
+    # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
+    # psi and sin psi [N m].
+    moment: Numbers
+    lateral_moment: Numbers
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Bearings and their operation at n points; the last dimension of arrays is n, or 1 if all are equal."""
+
+    # Cosine and sine of the position of each ball, shape (elements, n).
+    cosine: Array
+    sine: Array
+    # load: axial, radial and lateral load on the ring [N], shape (3, n).
+    load: Array
+    inner_speed: Array  # angular speed of the inner ring [rad/s]
+    outer_speed: Array
+    ratio: Array  # D/d_m
+    swing: Array  # centrifugal force over the square of the speed of the cage [kg m]
+    distance: Array  # radial distance of the groove centres in concentric rings [m]
+    free_cosine: Array  # cosine of the free contact angle
+    offsets: Array  # lengths at first touch of the inner and outer contact [m], shape (2, 1, n)
+    laws: Array  # coefficients of ln K of both contacts, shape (m, 2, 1, n)
+    flat: Array  # stiffness K of both contacts at a contact angle of 0, shape (2, 1, n)
 
     @classmethod
-    def of(cls, span: Array, offset: float, stiffness: Array) -> Contacts:
-        """Contacts from the vectors between centres of ball and groove, their length at touch, and K."""
-        counted = np.maximum(span, _INWARD)
-        length = np.hypot(counted[:, 0], counted[:, 1])
-        # Coinciding centres define no direction, but have no force either.
-        normal = counted / np.maximum(length, _TINY)[:, None]
-        depth = length - offset
-        root = np.sqrt(np.maximum(0.0, depth))
-        load = stiffness * root**3
-        along = normal[:, :, None] * normal[:, None, :]
-        across = (load / np.maximum(length, offset) * (span[:, 1] > 0.0))[:, None, None]
-        tangent = (1.5 * stiffness * root)[:, None, None] * along + across * (_UNITY - along)
-        return cls(normal, depth, load, tangent)
+    def of(cls, batch: Batch[BallBearing]) -> _Points:
+        """Points of a batch."""
+        bearing, operation, row = batch.bearing, batch.operation, np.atleast_1d
+        load = np.zeros((3, batch.number))
+        load[0], load[1] = operation.axial_load, operation.radial_load
+        position = batch.rows
+        laws = np.stack(stiffness_laws(bearing, batch.modulus))
+        laws = significant(np.moveaxis(laws[:, np.newaxis] if laws.ndim == 2 else laws, -1, 0))
+        return cls(
+            cosine=np.cos(position),
+            sine=np.sin(position),
+            load=load,
+            inner_speed=row(operation.inner_speed),
+            outer_speed=row(operation.outer_speed),
+            ratio=row(bearing.ball_diameter / bearing.pitch_diameter),
+            swing=row(centrifugal_force(bearing.element_mass(batch.density), bearing.pitch_diameter, 1.0)),
+            distance=row(bearing.radial_distance),
+            free_cosine=np.cos(row(bearing.free_angle)),
+            offsets=np.stack(np.broadcast_arrays(*map(row, bearing.offsets)))[:, np.newaxis],
+            laws=laws[:, :, np.newaxis],
+            flat=stiffness_at(laws, np.ones(1))[:, np.newaxis],
+        )
 
     @property
-    def force(self) -> Array:
-        """Contact force Q n, shape (n, 2) [N]."""
-        return self.load[:, None] * self.normal
+    def shape(self) -> tuple[int, int]:
+        """Numbers of balls and of points."""
+        return len(self.cosine), self.load.shape[1]
 
-
-@dataclass(frozen=True)
-class Grooves:
-    """Grooves of both rings, and contact stiffnesses of n balls."""
-
-    # inner_offset and outer_offset: distance (f - 1/2) D between the centres of ball and groove at first
-    # touch [m].
-    inner_offset: float
-    outer_offset: float
-    # inner_stiffness and outer_stiffness: stiffness K of the contacts of each ball [N/m^(3/2)], shape (n,).
-    inner_stiffness: Array
-    outer_stiffness: Array
-    outward: float  # centrifugal force on each ball [N]; zero at rest
-
-    def contacts(self, p: Array, g: Array, chosen: Mask | slice = slice(None)) -> tuple[Contacts, Contacts]:
-        """Inner and outer contacts of balls at p, with the groove centres at 0 and g, shape (n, 2)."""
-        inner = Contacts.of(g - p, self.inner_offset, self.inner_stiffness[chosen])
-        return inner, Contacts.of(p, self.outer_offset, self.outer_stiffness[chosen])
-
-
-@dataclass(frozen=True)
-class Seats:
-    """Positions and contacts of n balls between two grooves."""
-
-    place: Array  # position p of the ball's centre [m], shape (n, 2)
-    held: Mask  # whether the ball is loaded by both grooves, shape (n,)
-    inner: Contacts
-    outer: Contacts
+    def chosen(self, points: slice | Mask | IntArray) -> _Points:
+        """Some of the points."""
+        values = (getattr(self, each.name) for each in fields(self))
+        return _Points(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
 
     @property
-    def tangent(self) -> Array:
-        """Derivative of the forces on the inner ring by g, shape (n, 2, 2) [N/m].
+    def size(self) -> Array:
+        """Resultant load [N], shape (n,)."""
+        return np.asarray(np.hypot(self.load[0], self.load[1]))
 
-        The balls follow the ring to their new equilibrium, so both contacts are springs in series.
-        """
-        stiffness = np.zeros_like(self.inner.tangent)
-        inner, outer = self.inner.tangent[self.held], self.outer.tangent[self.held]
-        both = inner + outer
-        # Where a ball only just touches, the matrix would be singular without this small stiffness.
-        little = 1e-15 * np.trace(both, axis1=1, axis2=2) + _TINY
-        both += little[:, None, None] * _UNITY
-        stiffness[self.held] = inner @ np.linalg.solve(both, outer)
-        # The exact product is symmetric; rounding errors are not.
-        return 0.5 * (stiffness + stiffness.transpose(0, 2, 1))
+    @property
+    def reach(self) -> Array:
+        """Longest first step of the ring [m]: a tenth of the distance of the groove centres."""
+        return np.asarray(0.1 * np.sum(self.offsets, axis=0)[0])
+
+    def cage_speed(self, cosine: Array) -> Array:
+        """Speed of the cage [rad/s] at the cosine of the mean contact angle, shape (n,)."""
+        share = self.ratio * cosine
+        return np.asarray(0.5 * (self.inner_speed * (1.0 - share) + self.outer_speed * (1.0 + share)))
+
+    def outward(self, cosine: Array) -> Array:
+        """Centrifugal force [N] at the cosine of the mean contact angle, shape (n,)."""
+        return np.asarray(self.swing * self.cage_speed(cosine) ** 2)
+
+    def grooves(self, balls: Mask, outward: Array) -> Grooves:
+        """Grooves of some balls, shape (elements, n), with the stiffnesses at a contact angle of 0."""
+        values = (*self.offsets, *self.flat, outward)
+        return Grooves(*(np.broadcast_to(value, balls.shape)[balls] for value in values))
+
+    def centres(self, ring: Array) -> Array:
+        """Centres of the inner groove at each ball, axial and radial [m], shape (2, elements, n)."""
+        radial = self.distance + ring[1] * self.cosine + ring[2] * self.sine
+        return np.stack([np.broadcast_to(ring[0], radial.shape), radial])
+
+    def moved(self, step: Array) -> tuple[Array, Array]:
+        """Axial and radial movement of the centres of the inner groove by a step of the ring [m]."""
+        return step[0], step[1] * self.cosine + step[2] * self.sine
+
+    def summed(self, axial: Array, radial: Array) -> Array:
+        """Sum of forces on the ring over the balls, axial, radial and lateral [N], shape (3, n)."""
+        return np.stack(
+            [
+                np.add.reduce(axial, axis=0),
+                np.add.reduce(radial * self.cosine, axis=0),
+                np.add.reduce(radial * self.sine, axis=0),
+            ]
+        )
+
+    def stiffness(self, first: Array, mixed: Array, second: Array) -> tuple[Array, ...]:
+        """Stiffness of the ring [N/m] from those of the balls: components 00, 01, 02, 11, 12 and 22."""
+        along, across = second * self.cosine, mixed * self.cosine
+        parts = (
+            first,
+            across,
+            mixed * self.sine,
+            along * self.cosine,
+            along * self.sine,
+            second * self.sine**2,
+        )
+        return tuple(np.add.reduce(part, axis=0) for part in parts)
 
 
-def _corner(g: Array, inner: Array, outer: Array) -> Array:
-    """Point at the distances ``outer`` from 0 and ``inner`` from g: of two such points the outward one."""
-    length = np.maximum(np.hypot(g[:, 0], g[:, 1]), _TINY)
-    along = (length**2 + outer**2 - inner**2) / (2.0 * length)
-    across = np.sqrt(np.maximum(0.0, outer**2 - along**2))
-    unit = g / length[:, None]
-    normal = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
-    # Of the two unit vectors perpendicular to g, this is the outward one.
-    normal[normal[:, 1] < 0.0] *= -1.0
-    corner = along[:, None] * unit + across[:, None] * normal
-    # Radially beyond g the inner groove is a plane wall.
-    axial = g[:, 0] - np.copysign(inner, g[:, 0])
-    wall = np.stack([axial, np.sqrt(np.maximum(0.0, outer**2 - axial**2))], axis=1)
-    return np.where((wall[:, 1] > g[:, 1])[:, None], wall, corner)
+def _ring_step(missing: Array, stiffness: tuple[Array, ...], reach: Array) -> tuple[Array, Mask]:
+    """Newton step of the ring, shape (3, n) [m], and whether it is limited to the reach, shape (n,)."""
+    a, b, c, d, e, f = stiffness
+    first, second, third = d * f - e * e, c * e - b * f, b * e - c * d
+    det = a * first + b * second + c * third
+    regular = det > 1e-10 * a * d * f
+    x, y, z = missing
+    step = np.stack(
+        [
+            first * x + second * y + third * z,
+            second * x + (a * f - c * c) * y + (b * c - a * e) * z,
+            third * x + (b * c - a * e) * y + (a * d - b * b) * z,
+        ]
+    ) / np.where(regular, det, 1.0)
+    limited = ~(regular & (np.max(np.abs(step), axis=0) <= reach))
+    if limited.any():
+        tangent = np.stack([a, b, c, b, d, e, c, e, f], axis=-1)[limited].reshape(-1, 3, 3)
+        step[:, limited] = direction(missing[:, limited].T, tangent, reach[limited]).T
+    return step, limited
 
 
-def _at_rest(grooves: Grooves, g: Array) -> tuple[Array, Mask]:
-    """Positions of the balls without centrifugal force, and which of them are loaded.
+# Steps of the ring alone for the initial guess, and the relative imbalance at which they end.
+_FIRST_STEPS, _ROUGH = 12, 1e-2
 
-    Each ball lies on the line through both groove centres. The approach of a loaded ball is divided between
-    its contacts according to their stiffnesses. An unloaded ball lies in the middle of its clearance.
+
+def _first_span(points: _Points, touch: Array, stiffness: Array) -> tuple[Array, Array]:
+    """Length of the span of the most loaded ball, and the cosine of its angle, shape (n,).
+
+    Its load is five times the mean radial load (Stribeck), and its share of the axial load. ``touch`` is the
+    length at first touch, and ``stiffness`` that of both contacts.
     """
-    g = np.maximum(g, _INWARD)
-    length = np.hypot(g[:, 0], g[:, 1])
-    play = length - grooves.inner_offset - grooves.outer_offset
-    held = play > 0.0
-    softness = grooves.outer_stiffness ** (-2.0 / 3.0)
-    share = np.where(held, softness / (softness + grooves.inner_stiffness ** (-2.0 / 3.0)), 0.5)
-    # With very unequal grooves, the middle of a clearance may lie beyond one of the groove centres.
-    out = np.clip(grooves.outer_offset + share * play, 0.0, length)
-    return (out / np.maximum(length, _TINY))[:, None] * g, held
+    axial, radial = np.abs(points.load[0]), points.load[1]
+    cosine = points.free_cosine
+    for _ in range(3):
+        # The sine of a bearing without clearance is 0 until it is loaded.
+        sine = np.sqrt(1.0 - cosine**2) + 0.05
+        load = (5.0 * radial + axial / sine) / len(points.cosine)
+        length = touch + (load / stiffness) ** (2.0 / 3.0)
+        cosine = np.minimum(1.0, points.distance / length)
+    return length, np.maximum(cosine, radial / points.size)
 
 
-def _first_guess(grooves: Grooves, g: Array) -> Array:
-    """Positions where both contacts are loaded; they lie further out than without centrifugal force."""
-    place, _ = _at_rest(grooves, g)
-    inner, outer = grooves.contacts(place, g)
-    more = (grooves.outward / grooves.outer_stiffness) ** (2.0 / 3.0)
-    return _corner(
-        g,
-        grooves.inner_offset + np.maximum(0.0, inner.depth) + more,
-        grooves.outer_offset + np.maximum(0.0, outer.depth) + more,
-    )
+def _first_ring(points: _Points) -> tuple[Array, Array]:
+    """Displacement of the ring roughly in balance, shape (3, n), and the reach of next steps, shape (n,) [m].
 
-
-def _start(grooves: Grooves, g: Array, held: Mask, guess: Seats | None) -> Array:
-    """Initial guess: positions of ``guess`` where both contacts are loaded, else those of the first guess."""
-    if guess is None:
-        return _first_guess(grooves, g)
-    inner, outer = grooves.contacts(guess.place, g)
-    near = guess.held & (inner.depth > 0.0) & (outer.depth > 0.0)
-    if near[held].all():
-        return guess.place
-    return np.where(near[:, None], guess.place, _first_guess(grooves, g))
-
-
-def _settled(grooves: Grooves, g: Array, held: Mask, p: Array) -> Array:
-    """Positions of the balls loaded by both grooves, by Newton's method from the initial guess p."""
-    offset = grooves.inner_offset + grooves.outer_offset
-
-    def imbalance(p: Array) -> tuple[Array, Array, Mask]:
-        inner, outer = grooves.contacts(p, g, held)
-        force = inner.force - outer.force + grooves.outward * _RADIAL
-        tangent = inner.tangent + outer.tangent
-        size = inner.load + outer.load + grooves.outward
-        noise = _ROUNDING * size + _NUDGE * offset * (tangent[:, 0, 0] + tangent[:, 1, 1])
-        # A contact that only just touches has no stiffness: this small one keeps the matrix regular.
-        tangent += (1e-13 * size / offset)[:, None, None] * _UNITY
-        return force, tangent, np.max(np.abs(force), axis=1) > noise
-
-    force, tangent, moving = imbalance(p)
-    for _ in range(_MOST_STEPS):
-        if not moving.any():
+    The balls lie on the lines through both groove centres, and their stiffness does not change. The approach
+    under the centrifugal force adds to the clearance, so that at speed the displacement is rather too large:
+    from there Newton's method converges without overshooting.
+    """
+    inner, outer = stiffness_at(points.laws, points.free_cosine)[:, 0]
+    stiffness = (inner ** (-2.0 / 3.0) + outer ** (-2.0 / 3.0)) ** -1.5
+    clear = np.add.reduce(points.offsets, axis=0)[0]
+    touch = clear + (points.outward(points.free_cosine) / outer) ** (2.0 / 3.0)
+    length, cosine = _first_span(points, touch, stiffness)
+    along = np.sign(points.load[0]) * length * np.sqrt(1.0 - cosine**2)
+    ring = np.stack([along, np.maximum(0.0, length * cosine - points.distance), np.zeros_like(along)])
+    # Steps are limited to about the approach at first: lighter loads have shorter steps.
+    first = np.array(np.broadcast_to(length - clear, along.shape))
+    reach = first.copy()
+    for _ in range(_FIRST_STEPS):
+        contacts = Spans.of(*points.centres(ring)).stiff_contacts(touch, stiffness)
+        missing = points.load - points.summed(*contacts.components)
+        if np.all(np.abs(missing) <= _ROUGH * points.size):
             break
-        step = np.linalg.solve(tangent, force[:, :, None])[:, :, 0]
-        length = np.hypot(step[:, 0], step[:, 1])
-        step *= np.minimum(1.0, 0.5 * offset / np.maximum(length, _TINY))[:, None]
-        slope = np.sum(force * step, axis=1)
-        part = np.ones_like(slope)
-        for _ in range(_MOST_TRIALS):
-            there = p + part[:, None] * step
-            force, tangent, moving = imbalance(there)
-            now = np.sum(force * step, axis=1)
-            over = moving & (now < -_OVERSHOOT * slope)
-            if not over.any():
-                break
-            part = np.where(over, part * np.maximum(slope / np.where(over, slope - now, 1.0), 0.02), part)
-        p = there
-    return p
+        step, limited = _ring_step(missing, points.stiffness(*contacts.tangent), reach)
+        reach[limited] *= 2.0
+        ring += step
+    return ring, first
 
 
-def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
-    """Positions and contacts of balls between grooves with their centres at 0 and g.
+T = TypeVar("T")
 
-    At speed, a ball that does not touch the inner groove lies at the bottom of the outer groove, where
-    centrifugal force presses it. At rest, an unloaded ball lies in the middle of its clearance.
 
-    ``g``, centre of the inner groove at each ball, axial and radial [m], shape (n, 2).
+def _chosen(one: T, points: Any) -> T:
+    """Same class with the values of some of the points."""
+    return type(one)(*(value[..., points] for value in vars(one).values()))
 
-    Examples
-    --------
-    Two equal contacts share an approach of 2 um equally:
 
-    >>> both = np.full(1, 1e10)
-    >>> seats = seat(Grooves(0.2e-3, 0.2e-3, both, both, 0.0), np.array([[0.0, 0.402e-3]]))
-    >>> round(float(seats.inner.load[0]), 3), round(float(seats.place[0, 1]) * 1e3, 6)
-    (10.0, 0.201)
+def _joined(blocks: list[T]) -> T:
+    """Same class with the values of several blocks of points."""
+    columns = zip(*(vars(each).values() for each in blocks), strict=True)
+    return type(blocks[0])(*(np.concatenate(values, axis=-1) for values in columns))
+
+
+def _either(first: Mask, one: T, other: T) -> T:
+    """Same class with the values of one where ``first``, and of the other elsewhere."""
+    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
+    return type(one)(*(np.where(first, x, y) for x, y in pairs))
+
+
+@dataclass(frozen=True)
+class _State:
+    """Displacements of rings, places of balls, and centrifugal forces on them at n points."""
+
+    ring: Array  # axial, radial and lateral displacement [m], shape (3, n)
+    place: Array  # axial and radial position of the balls [m], shape (2, elements, n)
+    outward: Array  # centrifugal force on each ball [N], shape (n,)
+
+
+@dataclass(frozen=True)
+class _Forces:
+    """Contacts and forces in a state of n points."""
+
+    state: _State  # the state, with the places of balls that touch only one groove or none, and its own cage
+    contacts: Contacts  # of both rings, shape (2, elements, n)
+    own: Array  # axial and radial unbalanced force on each ball [N], shape (2, elements, n)
+    missing: Array  # axial, radial and lateral unbalanced force on the ring [N], shape (3, n)
+    residual: Array  # largest unbalanced force over load and centrifugal force, shape (n,)
+
+    @classmethod
+    def joined(cls, blocks: tuple[_Forces, ...]) -> _Forces:
+        """Contacts and forces of several blocks of points."""
+        states, contacts = ([getattr(each, name) for each in blocks] for name in ("state", "contacts"))
+        others = (
+            np.concatenate([getattr(each, name) for each in blocks], axis=-1)
+            for name in ("own", "missing", "residual")
+        )
+        return cls(_joined(states), _joined(contacts), *others)
+
+    def chosen(self, points: Mask) -> _Forces:
+        """Contacts and forces of some of the points."""
+        others = (value[..., points] for value in (self.own, self.missing, self.residual))
+        return _Forces(_chosen(self.state, points), _chosen(self.contacts, points), *others)
+
+
+def _mean_cosine(contacts: Contacts) -> Array:
+    """Cosine of the mean contact angle, shape (n,), weighted with the loads unless all are 0."""
+    sine, cosine = np.add.reduce(contacts.sine, axis=0), np.add.reduce(contacts.cosine, axis=0)
+    # Where the angles are opposite, the mean angle is 0 deg.
+    length = np.sqrt(sine**2 + cosine**2)
+    cosines = np.where(length > 0.0, cosine / np.maximum(length, _TINY), 1.0)
+    loads = contacts.load[0]
+    total = np.add.reduce(loads, axis=0)
+    loaded = total > 0.0
+    weighted = np.add.reduce(cosines * loads, axis=0) / np.where(loaded, total, 1.0)
+    return np.asarray(np.where(loaded, weighted, np.add.reduce(cosines, axis=0) / len(cosines)))
+
+
+def _placed(points: _Points, state: _State, centres: Array) -> tuple[Array, Spans]:
+    """Places of the balls, shape (2, elements, n), and the spans of both contacts, shape (2, elements, n).
+
+    Balls that do not touch both grooves lie where they are in equilibrium. Balls between both grooves that
+    lost a contact in the last step are placed where both contacts are loaded.
     """
-    if grooves.outward == 0.0:
-        place, held = _at_rest(grooves, g)
-        return Seats(place, held, *grooves.contacts(place, g))
-    bottom = grooves.outer_offset + (grooves.outward / grooves.outer_stiffness) ** (2.0 / 3.0)
-    place = bottom[:, None] * _RADIAL
-    clear, _ = grooves.contacts(place, g)
-    held = clear.depth > 0.0
-    if held.any():
-        place[held] = _settled(grooves, g[held], held, _start(grooves, g, held, guess)[held])
-    return Seats(place, held, *grooves.contacts(place, g))
+    bottom = points.offsets[1] + (state.outward / points.flat[1]) ** (2.0 / 3.0)
+    held = Spans.of(centres[0], centres[1] - bottom).length > points.offsets[0]
+    place = np.stack([np.where(held, state.place[0], 0.0), np.where(held, state.place[1], bottom)])
+    resting = state.outward == 0.0
+    if resting.any():
+        grooves = points.grooves(np.broadcast_to(resting, held.shape), state.outward)
+        middle, pressed = at_rest(grooves, centres[:, :, resting].reshape(2, -1))
+        middle, pressed = middle.reshape(2, len(held), -1), pressed.reshape(len(held), -1)
+        place[:, :, resting] = np.where(pressed, state.place[:, :, resting], middle)
+        held[:, resting] = pressed
+
+    def spans() -> Spans:
+        return Spans.of(
+            np.stack([centres[0] - place[0], place[0]]), np.stack([centres[1] - place[1], place[1]])
+        )
+
+    found = spans()
+    lost = held & np.any(found.length <= points.offsets, axis=0)
+    if lost.any():
+        place[:, lost] = first_guess(points.grooves(lost, state.outward), centres[:, lost])
+        found = spans()
+    return place, found
+
+
+def _forces(points: _Points, state: _State) -> _Forces:
+    """Contacts and unbalanced forces; stiffnesses and cage speed are those of the contact angles."""
+    place, spans = _placed(points, state, points.centres(state.ring))
+    contacts = spans.contacts(points.offsets, points.laws)
+    outward = points.outward(_mean_cosine(contacts))
+    axial, radial = contacts.components
+    missing = points.load - points.summed(axial[0], radial[0])
+    own = np.stack([axial[0] - axial[1], radial[0] - radial[1] + outward])
+    worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(own), axis=(0, 1)))
+    # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
+    residual = worst / (points.size + outward)
+    return _Forces(_State(state.ring, place, outward), contacts, own, missing, residual)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Step of rings and balls of n points."""
+
+    ring: Array  # movement of the ring [m], shape (3, n)
+    place: Array  # movement of the balls [m], shape (2, elements, n)
+    limited: Mask  # whether the reach limits the step, shape (n,)
+    slope: Array  # force on the ring along its step times the step [J], shape (n,)
+
+
+# Stiffness of balls without contact [N/m].
+_LITTLE = 1e-100
+
+
+class _Linear:
+    """Forces in a state of n points, linear in the movements of rings and balls."""
+
+    def __init__(self, points: _Points, forces: _Forces) -> None:
+        inner, outer = forces.contacts.of(0), forces.contacts.of(1)
+        self._points, self._offset = points, np.add.reduce(points.offsets, axis=0)
+        self._inner, self._series = inner.tangent, in_series(inner, outer)
+        first, self._mixed, second = (x + y for x, y in zip(self._inner, outer.tangent, strict=True))
+        # Balls that hardly touch have no stiffness: this small one keeps the matrices regular.
+        little = 1e-13 * (inner.load + outer.load + forces.state.outward) / self._offset + _LITTLE
+        self._first, self._second = first + little, second + little
+        self._over = 1.0 / np.maximum(determinant(self._first, self._mixed, self._second), little**2)
+        self._own = self._moved(*forces.own)
+        # Unbalanced force on the ring [N], shape (3, n), when the balls have moved into balance.
+        self.missing = forces.missing + points.summed(*self._force(*self._own))
+
+    def _moved(self, axial: Array, radial: Array) -> tuple[Array, Array]:
+        """Movements of the balls under forces."""
+        return (
+            (self._second * axial - self._mixed * radial) * self._over,
+            (self._first * radial - self._mixed * axial) * self._over,
+        )
+
+    def _force(self, axial: Array, radial: Array) -> tuple[Array, Array]:
+        """Forces of the inner contacts under movements."""
+        first, mixed, second = self._inner
+        return first * axial + mixed * radial, mixed * axial + second * radial
+
+    def step(self, reach: Array) -> _Step:
+        """Newton step; ``reach`` is the largest movement of the ring [m], shape (n,)."""
+        ring, limited = _ring_step(self.missing, self._points.stiffness(*self._series), reach)
+        more = self._moved(*self._force(*self._points.moved(ring)))
+        place = np.stack([self._own[0] + more[0], self._own[1] + more[1]])
+        length = np.sqrt(place[0] ** 2 + place[1] ** 2)
+        place *= np.minimum(1.0, 0.5 * self._offset / np.maximum(length, _TINY))
+        return _Step(ring, place, limited, np.add.reduce(self.missing * ring, axis=0))
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Step from a state of n points of which a part is taken, and the reach of the ring."""
+
+    base: _State
+    step: _Step
+    part: Array  # shape (n,)
+    reach: Array  # shape (n,) [m]
+
+    @property
+    def state(self) -> _State:
+        """State after the part of the step."""
+        base, step = self.base, self.step
+        return _State(base.ring + self.part * step.ring, base.place + self.part * step.place, base.outward)
+
+    def chosen(self, points: Mask) -> _Trial:
+        """Trials of some of the points."""
+        return _Trial(
+            _chosen(self.base, points), _chosen(self.step, points), self.part[points], self.reach[points]
+        )
+
+    def following(self, linear: _Linear, forces: _Forces, worse: Mask) -> _Trial:
+        """Next trial: another step from the state of ``forces``, or a smaller part of one that overshot.
+
+        ``worse`` is whether the forces balance worse than before, shape (n,).
+        """
+        step, slope = self.step, self.step.slope
+        now = np.add.reduce(linear.missing * step.ring, axis=0)
+        over = worse & (now < -_OVERSHOOT * slope) & (self.part > _SHORTEST)
+        free = step.limited & (now > _OVERSHOOT * slope) & (self.part == 1.0)
+        reach = np.where(free, _LONGER * self.reach, self.reach)
+        new = linear.step(reach)
+        if not over.any():
+            return _Trial(forces.state, new, np.ones_like(now), reach)
+        # Linear interpolation to zero force along the step; 0.02 keeps the step from becoming too small.
+        part = self.part * np.maximum(slope / np.where(over, slope - now, 1.0), 0.02)
+        return _Trial(
+            _either(over, self.base, forces.state),
+            _either(over, step, new),
+            np.where(over, part, 1.0),
+            np.where(over, part * np.max(np.abs(step.ring), axis=0), reach),
+        )
+
+
+class _Record:
+    """Best states of n points."""
+
+    def __init__(self, state: _State) -> None:
+        number = len(state.outward)
+        self.state = _State(*(value.copy() for value in vars(state).values()))
+        self.residual, self.steps = np.full(number, np.inf), np.zeros(number, dtype=np.intp)
+        self._idle = np.zeros(number, dtype=np.intp)
+
+    def note(self, going: IntArray, forces: _Forces) -> tuple[Mask, Mask]:
+        """Keep the states of the points ``going`` that are the best; whether they are worse, and done."""
+        before = self.residual[going]
+        better = forces.residual < before
+        kept = going[better]
+        self.residual[kept] = forces.residual[better]
+        for mine, new in zip(vars(self.state).values(), vars(forces.state).values(), strict=True):
+            mine[..., kept] = new[..., better]
+        # Rounding limits the residual: below GOOD, two steps without improvement end the iteration.
+        self._idle[going] = idle = np.where(forces.residual > 0.5 * before, self._idle[going] + 1, 0)
+        least = self.residual[going]
+        return ~better, (least <= AIM) | ((least <= GOOD) & (idle >= 2))
+
+
+# Newton steps of rings and balls together, and the shortest part of a step.
+_MOST_STEPS, _SHORTEST = 60, 1e-3
+
+# A step that overshoots is shortened until the force against it is at most this part of the force along it
+# at its start. One that is limited, and leaves more force than this, is followed by a longer one.
+_OVERSHOOT, _LONGER = 0.5, 4.0
+
+
+def _together(points: _Points) -> _Record:
+    """States of n points by Newton's method for rings and balls."""
+    ring, reach = _first_ring(points)
+    outward = np.array(np.broadcast_to(points.outward(points.free_cosine), reach.shape))
+    # Balls at the centre of the outer groove have no contact: they are placed anew.
+    state = _State(ring, np.zeros((2, *points.shape)), outward)
+    none = _Step(
+        np.zeros_like(ring), np.zeros_like(state.place), np.zeros(reach.shape, bool), np.zeros_like(reach)
+    )
+    trial, record = _Trial(state, none, np.ones_like(reach), reach), _Record(state)
+    going = np.arange(reach.size)
+    for _ in range(_MOST_STEPS):
+        forces = _forces(points, trial.state)
+        worse, done = record.note(going, forces)
+        if done.all():
+            break
+        if done.any():
+            on = ~done
+            going, worse, trial = going[on], worse[on], trial.chosen(on)
+            points, forces = points.chosen(on), forces.chosen(on)
+        trial = trial.following(_Linear(points, forces), forces, worse)
+        record.steps[going] += 1
+    return record
 
 
 # Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
@@ -307,200 +525,97 @@ _SETTLED = 1e-12
 _MOST_ROUNDS = 30
 
 # Imbalance of the forces in a round over the last change of the cosines.
-_ROUGH = 1e-3
-
-# Longest first step of the ring over the distance of the groove centres.
-_REACH = 0.1
-
-
-@dataclass(frozen=True)
-class BallEquilibrium(BearingEquilibrium):
-    """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,)."""
-
-    # inner_angle and outer_angle: angle of both contacts [rad]; where a ball does not touch, angle of the
-    # smallest gap.
-    inner_angle: Array
-    outer_angle: Array
-    gyroscopic_moment: Array  # gyroscopic moment of each ball [N m]; its effect is neglected
-    cage_speed: float  # mean orbital speed of the balls, weighted with their load on the inner ring [rad/s]
-    # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
-    axial_displacement: float
-    # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
-    # psi and sin psi [N m].
-    moment: float
-    lateral_moment: float
-
-
-@dataclass(frozen=True)
-class _Angles:
-    """Contact angles of the balls [rad]."""
-
-    inner: Array
-    outer: Array
-
-    @classmethod
-    def of(cls, seats: Seats) -> _Angles:
-        """Angles of both contacts; where a ball does not touch, angles of the smallest gap."""
-        inner, outer = seats.inner.normal, seats.outer.normal
-        return cls(np.arctan2(inner[:, 0], inner[:, 1]), np.arctan2(outer[:, 0], outer[:, 1]))
-
-    @property
-    def mean(self) -> Array:
-        return 0.5 * (self.inner + self.outer)
-
-    def change(self, other: _Angles) -> float:
-        """Largest change of the cosine of a contact angle."""
-        pairs = ((self.inner, other.inner), (self.outer, other.outer))
-        return max(float(np.max(np.abs(np.cos(a) - np.cos(b)))) for a, b in pairs)
-
-
-@dataclass(frozen=True)
-class _Model:
-    """Bearing and operation, with the functions that each round of the solution needs."""
-
-    bearing: BallBearing
-    operation: Operation
-    modulus: float
-    density: float
-
-    @property
-    def position(self) -> Array:
-        return self.operation.positions(self.bearing.elements)
-
-    @property
-    def load(self) -> Array:
-        """Load on the ring: axial, along the radial load, and lateral, shape (3,) [N]."""
-        return np.array([self.operation.axial_load, self.operation.radial_load, 0.0])
-
-    @property
-    def basis(self) -> Array:
-        """Derivative of the inner groove centres by the displacement of the ring, shape (n, 2, 3)."""
-        basis = np.zeros((self.bearing.elements, 2, 3))
-        basis[:, 0, 0] = 1.0
-        basis[:, 1, 1], basis[:, 1, 2] = np.cos(self.position), np.sin(self.position)
-        return basis
-
-    def centres(self, ring: Array) -> Array:
-        """Inner groove centres at a displacement of the ring, shape (n, 2) [m]."""
-        return np.asarray(self.basis @ ring + np.array([0.0, self.bearing.radial_distance]))
-
-    def cage_speed(self, angles: _Angles, loads: Array) -> float:
-        """Mean orbital speed of the balls, weighted with their loads unless all are 0 [rad/s]."""
-        weights = loads if loads.any() else None
-        return float(np.average(np.asarray(self.speeds(angles).cage), weights=weights))
-
-    def speeds(self, angles: _Angles) -> Speeds:
-        bearing, operation = self.bearing, self.operation
-        return rolling_speeds(
-            bearing.ball_diameter,
-            bearing.pitch_diameter,
-            operation.inner_speed,
-            operation.outer_speed,
-            angles.mean,
-        )
-
-    def grooves(self, angles: _Angles, outward: float) -> Grooves:
-        """Both grooves, with the contact stiffnesses K at these contact angles."""
-        inner, outer = stiffness_laws(self.bearing, self.modulus)
-        return Grooves(
-            *self.bearing.offsets,
-            np.exp(inner(np.cos(angles.inner))),
-            np.exp(outer(np.cos(angles.outer))),
-            outward,
-        )
-
-    def start(self) -> tuple[Array, _Angles]:
-        """Displacement at which the ring just touches under its axial load, and the free contact angles."""
-        angle = np.full(self.bearing.elements, self.bearing.free_angle)
-        axial = np.sign(self.operation.axial_load) * 0.5 * self.bearing.endplay
-        return np.array([axial, 0.0, 0.0]), _Angles(angle, angle)
+_LOOSE = 1e-3
 
 
 class _BallReaction:
-    """Force of the balls over the ring's displacement; each call starts from the seats of the last one.
+    """Forces of the balls over displacements of rings; each call starts from the places of the last one."""
 
-    The first call starts from ``seats``, where they are given.
+    def __init__(self, points: _Points, cosines: Array, place: Array, outward: Array) -> None:
+        values = (*points.offsets, *stiffness_at(points.laws, cosines), outward)
+        self._points, self.place = points, place
+        self._grooves = [np.broadcast_to(value, points.shape) for value in values]
+
+    def seats(self, ring: Array, chosen: IntArray) -> Seats:
+        """Seats of the balls at displacements, shape (3, m), of the points ``chosen``."""
+        centres = self._points.chosen(chosen).centres(ring).reshape(2, -1)
+        grooves = Grooves(*(value[:, chosen].ravel() for value in self._grooves))
+        seats = seat(grooves, centres, self.place[..., chosen].reshape(2, -1))
+        self.place[..., chosen] = seats.place.reshape(2, -1, len(chosen))
+        return seats
+
+    def __call__(self, ring: Array, chosen: IntArray) -> tuple[Array, Array]:
+        """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
+        own, seats, shape = self._points.chosen(chosen), self.seats(ring.T, chosen), (-1, len(chosen))
+        force = own.summed(*(value.reshape(shape) for value in seats.inner.components))
+        a, b, c, d, e, f = own.stiffness(*(value.reshape(shape) for value in seats.tangent))
+        return force.T, np.stack([a, b, c, b, d, e, c, e, f], axis=-1).reshape(-1, 3, 3)
+
+
+def _nested(points: _Points) -> tuple[_State, IntArray]:
+    """States of n points by nested iterations, and numbers of steps of the rings.
+
+    Each round takes stiffnesses and cage speeds from the last round's angles. The first one is without
+    centrifugal force.
     """
-
-    def __init__(self, model: _Model, grooves: Grooves, seats: Seats | None = None) -> None:
-        self._model, self._grooves = model, grooves
-        self._basis = model.basis
-        self._ring = np.full(3, np.nan)
-        self._seats = seats
-
-    def __call__(self, ring: Array) -> tuple[Array, Array]:
-        """Force on the ring at a displacement, and its derivative, as ``balance`` needs them."""
-        seats, basis = self.seats(ring), self._basis
-        force = np.einsum("nij,ni->j", basis, seats.inner.force)
-        return force, np.sum(basis.transpose(0, 2, 1) @ seats.tangent @ basis, axis=0)
-
-    def seats(self, ring: Array) -> Seats:
-        """Seats of the balls at a displacement of the ring."""
-        if self._seats is None or not np.array_equal(ring, self._ring):
-            self._seats = seat(self._grooves, self._model.centres(ring), self._seats)
-            self._ring = ring
-        return self._seats
-
-
-@dataclass(frozen=True)
-class _State:
-    """Displacement of the ring and seats of the balls, for contact stiffnesses that are constant."""
-
-    ring: Array
-    grooves: Grooves
-    seats: Seats
-    angles: _Angles
-    residual: float
-
-    @classmethod
-    def solved(
-        cls, model: _Model, grooves: Grooves, ring: Array, aim: float, seats: Seats | None = None
-    ) -> tuple[_State, int]:
-        """State balanced to ``aim``, and the number of Newton steps.
-
-        The initial guess is a displacement, and seats where those of nearly the same stiffnesses are known.
-        """
-        # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
-        scale = float(np.linalg.norm(model.load)) + grooves.outward
-        reach = _REACH * model.bearing.groove_distance
-        reaction = _BallReaction(model, grooves, seats)
-        ring, residual, steps = balance(reaction, model.load, ring, reach, scale, aim)
-        seats = reaction.seats(ring)
-        imbalance = seats.inner.force - seats.outer.force
-        imbalance[:, 1] += grooves.outward
-        # An unloaded ball of a bearing at rest has no forces: its imbalance is 0.
-        residual = max(residual, float(np.max(np.abs(imbalance))) / scale)
-        return cls(ring, grooves, seats, _Angles.of(seats), residual), steps
-
-
-def _solve(model: _Model) -> tuple[_State, int]:
-    """State in equilibrium: each round takes stiffnesses and cage speed from the last round's angles."""
-    bearing = model.bearing
-    ring, angles = model.start()
-    # The equilibrium without centrifugal force is quick to compute, and a good initial guess.
-    state, iterations = _State.solved(model, model.grooves(angles, 0.0), ring, _ROUGH)
-    mass, change = bearing.element_mass(model.density), 1.0
-    for rounds in count():
-        cage = model.cage_speed(state.angles, state.seats.inner.load)
-        outward = centrifugal_force(mass, bearing.pitch_diameter, cage)
-        # Forces that balance far better than the angles are known are not worth their steps.
-        aim = max(AIM, _ROUGH * change)
-        settled, steps = _State.solved(
-            model, model.grooves(state.angles, outward), state.ring, aim, state.seats
+    shape = points.shape
+    number, everyone = shape[1], np.arange(shape[1])
+    axial = (
+        np.sign(points.load[0])
+        * np.add.reduce(points.offsets, axis=0)[0]
+        * np.sqrt(1.0 - points.free_cosine**2)
+    )
+    ring = np.stack([axial, np.zeros(number), np.zeros(number)])
+    cosines, place = np.array(np.broadcast_to(points.free_cosine, (2, *shape))), np.zeros((2, *shape))
+    outward, aim, steps = np.zeros(number), np.full(number, _LOOSE), np.zeros(number, dtype=np.intp)
+    for _ in range(_MOST_ROUNDS):
+        reaction = _BallReaction(points, cosines, place, outward)
+        found, _, more = balance(reaction, points.load.T, ring.T, points.reach, points.size + outward, aim)
+        ring, steps = found.T, steps + more
+        seats = reaction.seats(ring, everyone)
+        contacts = Contacts(
+            *(
+                np.stack([x, y]).reshape(2, *shape)
+                for x, y in zip(vars(seats.inner).values(), vars(seats.outer).values(), strict=True)
+            )
         )
-        iterations += steps
-        change, state = settled.angles.change(state.angles), settled
-        if change <= _SETTLED and aim == AIM:
+        change = np.max(np.abs(contacts.cosine - cosines), axis=(0, 1))
+        outward, cosines = points.outward(_mean_cosine(contacts)), contacts.cosine
+        if np.all((change <= _SETTLED) & (aim == AIM)):
             break
-        if rounds == _MOST_ROUNDS:
-            raise ConvergenceError(f"contact angles of the balls, whose cosines still change by {change:.1e}")
-    if state.residual > GOOD:
-        raise ConvergenceError(f"forces on ring and balls, balanced only to {state.residual:.1e} of the load")
-    return state, iterations
+        # Forces that balance far better than the angles are known are not worth their steps.
+        aim = np.maximum(AIM, _LOOSE * change)
+    return _State(ring, reaction.place, outward), steps
+
+
+def _solved(points: _Points) -> tuple[_Forces, IntArray]:
+    """Forces in equilibrium at n points, and the numbers of Newton steps."""
+    record = _together(points)
+    stuck = np.flatnonzero(~(record.residual <= GOOD))
+    if stuck.size:
+        state, steps = _nested(points.chosen(stuck))
+        for mine, new in zip(vars(record.state).values(), vars(state).values(), strict=True):
+            mine[..., stuck] = new
+        record.steps[stuck] += steps
+    return _forces(points, record.state), record.steps
+
+
+def check_ball_loads(bearing: BallBearing, operation: Operation) -> None:
+    """Refuse a single axial load that the bearing cannot carry. Raises InputError for an angular-contact
+    bearing without axial load; arrays are not refused.
+    """
+    load = operation.axial_load
+    if bearing.contact_angle is not None and np.ndim(load) == 0 and load <= 0.0:
+        raise InputError(
+            "axial_load",
+            got=f"{load:g} N",
+            takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
+            "with it",
+        )
 
 
 def ball_equilibrium(
-    bearing: BallBearing, operation: Operation, modulus: float, density: float
+    bearing: BallBearing, operation: Operation, modulus: Numbers, density: Numbers
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring and of all balls.
 
@@ -511,9 +626,10 @@ def ball_equilibrium(
     its clearance is at the inner ring.
 
     ``modulus``, reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
-    ``density`` [kg/m^3]. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Raises
-    InputError where the bearing cannot carry the load; ConvergenceError where the iteration does not
-    converge.
+    ``density`` [kg/m^3]. Both, the operation and the dimensions of the bearing are floats, or arrays of shape
+    (...) that broadcast. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Of a
+    single bearing, raises InputError where it cannot carry the load, and ConvergenceError where the iteration
+    does not converge; such points of many are not ``balanced``, and those without equilibrium are NaN.
 
     Examples
     --------
@@ -524,39 +640,59 @@ def ball_equilibrium(
     >>> angle = state.inner_angle[0]
     >>> bool(np.allclose(state.inner_load * np.sin(angle), 100.0, rtol=1e-9))
     True
+
+    Two loads at once:
+
+    >>> both = ball_equilibrium(bearing, Operation(0.0, np.array([900.0, 1800.0])), 226e9, 7800.0)
+    >>> both.inner_load.shape, bool(np.allclose(both.inner_load[0], state.inner_load, rtol=1e-9))
+    ((2, 9), True)
     """
-    if bearing.contact_angle is not None and operation.axial_load <= 0.0:
-        raise InputError(
-            "axial_load",
-            got=f"{operation.axial_load:g} N",
-            takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
-            "with it",
-        )
-    model = _Model(bearing, operation, modulus, density)
-    state, iterations = _solve(model)
-    seats, angles = state.seats, state.angles
-    mass, speeds = bearing.element_mass(density), model.speeds(angles)
+    able = True if bearing.contact_angle is None else np.greater(operation.axial_load, 0.0)
+    batch = Batch.of(bearing, operation, modulus, density, able)
+    if not batch.shape:
+        check_ball_loads(bearing, operation)
+    points = _Points.of(batch)
+    number = points.shape[1]
+    parts = [slice(first, first + _BLOCK) for first in range(0, max(1, number), _BLOCK)]
+    blocks, numbers = zip(*(_solved(points.chosen(part)) for part in parts), strict=True)
+    forces, steps = _Forces.joined(blocks), np.concatenate(numbers)
+    refuse_unbalanced(batch.spread(forces.residual), "balls")
+    return _equilibrium(batch, points, forces, steps)
+
+
+def _equilibrium(
+    batch: Batch[BallBearing], points: _Points, forces: _Forces, steps: IntArray
+) -> BallEquilibrium:
+    """Equilibrium of all points of a batch."""
+    bearing, operation, contacts, spread = batch.bearing, batch.operation, forces.contacts, batch.spread
+    angles = np.arctan2(contacts.sine, contacts.cosine)
+    mean = 0.5 * (angles[0] + angles[1])
+    speeds = (bearing.ball_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
+    rolling = rolling_speeds(*speeds, mean)
+    mass = bearing.element_mass(batch.density)
+    moment = gyroscopic_moment(mass, bearing.ball_diameter, rolling, mean)
     # The moments are about the centre of the circle of groove centres, which the contact forces pass through.
-    levers = bearing.inner_centre_radius * seats.inner.force[:, 0]
+    levers = bearing.inner_centre_radius * contacts.load[0] * contacts.sine[0]
+    touching, gaps = np.maximum(0.0, contacts.depth), np.maximum(0.0, -contacts.depth)
     return BallEquilibrium(
-        position=model.position,
-        inner_load=seats.inner.load,
-        outer_load=seats.outer.load,
-        inner_angle=angles.inner,
-        outer_angle=angles.outer,
-        inner_approach=np.maximum(0.0, seats.inner.depth),
-        outer_approach=np.maximum(0.0, seats.outer.depth),
-        inner_gap=np.maximum(0.0, -seats.inner.depth),
-        outer_gap=np.maximum(0.0, -seats.outer.depth),
-        speeds=speeds,
-        gyroscopic_moment=gyroscopic_moment(mass, bearing.ball_diameter, speeds, angles.mean),
-        cage_speed=model.cage_speed(state.angles, seats.inner.load),
-        centrifugal_force=state.grooves.outward,
-        axial_displacement=float(state.ring[0]),
-        radial_displacement=float(state.ring[1]),
-        lateral_displacement=float(state.ring[2]),
-        moment=float(levers @ np.cos(model.position)),
-        lateral_moment=float(levers @ np.sin(model.position)),
-        residual=state.residual,
-        iterations=iterations,
+        position=batch.position,
+        inner_load=spread(contacts.load[0]),
+        outer_load=spread(contacts.load[1]),
+        inner_angle=spread(angles[0]),
+        outer_angle=spread(angles[1]),
+        inner_approach=spread(touching[0]),
+        outer_approach=spread(touching[1]),
+        inner_gap=spread(gaps[0]),
+        outer_gap=spread(gaps[1]),
+        speeds=Speeds(*(spread(value) for value in vars(rolling).values())),
+        gyroscopic_moment=spread(moment),
+        cage_speed=spread(points.cage_speed(_mean_cosine(contacts))),
+        centrifugal_force=spread(forces.state.outward),
+        axial_displacement=spread(forces.state.ring[0]),
+        radial_displacement=spread(forces.state.ring[1]),
+        lateral_displacement=spread(forces.state.ring[2]),
+        moment=spread(np.add.reduce(levers * points.cosine, axis=0)),
+        lateral_moment=spread(np.add.reduce(levers * points.sine, axis=0)),
+        residual=spread(forces.residual),
+        iterations=spread(steps),
     )

@@ -8,6 +8,8 @@ the inner ring is pushed towards positive axial positions. Raceways of roller be
 The elements roll without sliding on both rings, and the cage turns with them. Both rings may turn; all speeds
 are positive in the same sense of rotation. The formulas have one contact angle for both contacts of an
 element. For a ball at speed, whose contact angles differ, it is their mean.
+
+All dimensions, angles and speeds are floats, or arrays over points of operation that broadcast, shape (...).
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.hertz import reduced_radius
 
@@ -34,47 +36,68 @@ class ContactRadii:
     """Radii of a rolling element and a ring at their contact, positive if convex, infinite if straight."""
 
     # element_x and element_y: radii of the rolling element, in the rolling direction and across it [m].
-    element_x: float
-    element_y: float
+    element_x: Numbers
+    element_y: Numbers
     # ring_x and ring_y: radii of the ring, in the rolling direction and across it [m].
-    ring_x: float
-    ring_y: float
+    ring_x: Numbers
+    ring_y: Numbers
 
     @property
-    def radius_x(self) -> float:
+    def radius_x(self) -> Numbers:
         """Reduced radius in the rolling direction [m]."""
         return reduced_radius(self.element_x, self.ring_x)
 
     @property
-    def radius_y(self) -> float:
+    def radius_y(self) -> Numbers:
         """Reduced radius across the rolling direction [m]; infinite in a line contact."""
-        if math.isinf(self.element_y) and math.isinf(self.ring_y):
+        if np.all(np.isinf(self.element_y)) and np.all(np.isinf(self.ring_y)):
             return math.inf
         return reduced_radius(self.element_y, self.ring_y)
 
 
-def _rolling_radius(element_diameter: float, pitch_diameter: float, angle: float, *, inner: bool) -> float:
+def plain(value: Numbers) -> Numbers:
+    """Float of a number without dimensions; arrays remain as they are."""
+    return float(value) if np.ndim(value) == 0 else value
+
+
+def _rolling_radius(
+    element_diameter: Numbers, pitch_diameter: Numbers, angle: Numbers, *, inner: bool
+) -> Numbers:
     """Radius of a raceway in the rolling direction [m], from the cone that is tangent to it at the angle."""
-    cosine = math.cos(angle)
+    cosine = np.cos(angle)
     sign = 1.0 if inner else -1.0
     curvature = sign * 2.0 * cosine / (pitch_diameter - sign * element_diameter * cosine)
-    return 1.0 / curvature if curvature != 0.0 else math.inf
+    flat = curvature == 0.0
+    return plain(np.where(flat, math.inf, 1.0 / np.where(flat, 1.0, curvature)))
 
 
-def _refuse_overlap(elements: int, diameter: float, pitch_diameter: float) -> None:
+def _first(wrong: Numbers, *values: Numbers) -> tuple[float, ...] | None:
+    """Values of the first point that is wrong; None where all points are right."""
+    if not np.any(wrong):
+        return None
+    first = int(np.argmax(wrong))
+    return tuple(float(np.broadcast_to(value, np.shape(wrong)).flat[first]) for value in values)
+
+
+def _refuse_overlap(elements: int, diameters: Numbers, pitch_diameters: Numbers) -> None:
     """Raise InputError where the elements do not fit on their pitch circle, or are fewer than three."""
-    most = int(math.pi / math.asin(diameter / pitch_diameter)) if diameter < pitch_diameter else 0
+    ratio = np.asarray(diameters / pitch_diameters)
+    most_of_all = np.floor(np.pi / np.arcsin(np.minimum(ratio, 1.0))) * (ratio < 1.0)
+    wrong = _first(
+        (most_of_all < 3) | (elements < 3) | (elements > most_of_all), diameters, pitch_diameters, most_of_all
+    )
+    if wrong is None:
+        return
+    diameter, pitch_diameter, most = wrong[0], wrong[1], int(wrong[2])
     if most < 3:
         raise InputError(
             "pitch_diameter", got=f"{pitch_diameter:g} m", takes=f"one that three of {diameter:g} m fit on"
         )
-    if not 3 <= elements <= most:
-        raise InputError(
-            "elements",
-            got=elements,
-            takes=f"3 to {most}, the most of {diameter:g} m that a pitch circle of {pitch_diameter:g} m "
-            "holds",
-        )
+    raise InputError(
+        "elements",
+        got=elements,
+        takes=f"3 to {most}, the most of {diameter:g} m that a pitch circle of {pitch_diameter:g} m holds",
+    )
 
 
 @dataclass(frozen=True)
@@ -103,79 +126,91 @@ class BallBearing:
     elements: int
     # ball_diameter and pitch_diameter: ball diameter D and pitch diameter d_m [m]. d_m is the mean of both
     # raceway diameters at the bottom of the grooves.
-    ball_diameter: float
-    pitch_diameter: float
+    ball_diameter: Numbers
+    pitch_diameter: Numbers
     # inner_groove and outer_groove: osculation f_i and f_o: radius of the groove over the diameter of the
     # ball, above 0.5
-    inner_groove: float
-    outer_groove: float
+    inner_groove: Numbers
+    outer_groove: Numbers
     # Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
-    radial_clearance: float | None = None
+    radial_clearance: Numbers | None = None
     # Free contact angle a_0, at which ball and grooves just touch without load [rad].
-    contact_angle: float | None = None
+    contact_angle: Numbers | None = None
 
     def __post_init__(self) -> None:
         _refuse_overlap(self.elements, self.ball_diameter, self.pitch_diameter)
         for key in ("inner_groove", "outer_groove"):
-            if not 0.5 < getattr(self, key) <= 1.0:
-                raise InputError(key, got=f"{getattr(self, key):g}", takes="one above 0.5, up to 1")
+            groove = np.asarray(getattr(self, key))
+            wrong = _first((groove <= 0.5) | (groove > 1.0), groove)
+            if wrong is not None:
+                raise InputError(key, got=f"{wrong[0]:g}", takes="one above 0.5, up to 1")
         if (self.radial_clearance is None) == (self.contact_angle is None):
             raise InputError("radial_clearance, contact_angle", "give one of the two")
-        if self.contact_angle is not None and not 0.0 < self.contact_angle < math.pi / 2.0:
-            raise InputError(
-                "contact_angle", got=f"{self.contact_angle:g} rad", takes="one between 0 and 90 deg"
-            )
-        if self.clearance >= 2.0 * self.groove_distance:
+        if self.contact_angle is not None:
+            angle = np.asarray(self.contact_angle)
+            wrong = _first((angle <= 0.0) | (angle >= math.pi / 2.0), angle)
+            if wrong is not None:
+                raise InputError("contact_angle", got=f"{wrong[0]:g} rad", takes="one between 0 and 90 deg")
+        most = 2.0 * self.groove_distance
+        wrong = _first(self.clearance >= most, self.clearance, most)
+        if wrong is not None:
             raise InputError(
                 "radial_clearance",
-                got=f"{self.clearance:g} m",
-                takes=f"one below {2.0 * self.groove_distance:g} m, at which the balls leave the grooves",
+                got=f"{wrong[0]:g} m",
+                takes=f"one below {wrong[1]:g} m, at which the balls leave the grooves",
             )
 
     @property
-    def groove_distance(self) -> float:
+    def dimensions(self) -> tuple[Numbers, ...]:
+        """All dimensions that may vary over points of operation."""
+        play = self.contact_angle if self.radial_clearance is None else self.radial_clearance
+        return self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove, play
+
+    @property
+    def groove_distance(self) -> Numbers:
         """Distance of the groove centres at which the ball just touches both, A = (f_i + f_o - 1) D [m]."""
         return (self.inner_groove + self.outer_groove - 1.0) * self.ball_diameter
 
     @property
-    def clearance(self) -> float:
+    def clearance(self) -> Numbers:
         """Radial internal clearance P_d = 2 A (1 - cos a_0), given or from the free contact angle [m]."""
         if self.radial_clearance is not None:
             return self.radial_clearance
         assert self.contact_angle is not None
-        return 4.0 * self.groove_distance * math.sin(self.contact_angle / 2.0) ** 2
+        return plain(4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2)
 
     @property
-    def radial_distance(self) -> float:
+    def radial_distance(self) -> Numbers:
         """Radial distance of the groove centres in concentric rings, A - P_d/2 = A cos a_0 [m]."""
         return self.groove_distance - self.clearance / 2.0
 
     @property
-    def free_angle(self) -> float:
+    def free_angle(self) -> Numbers:
         """Free contact angle, cos a_0 = 1 - P_d/(2 A) [rad]; 0 with a radial preload."""
         if self.contact_angle is not None:
             return self.contact_angle
-        return 2.0 * math.asin(math.sqrt(max(0.0, self.clearance) / (4.0 * self.groove_distance)))
+        play = np.maximum(0.0, self.clearance) / (4.0 * self.groove_distance)
+        return plain(2.0 * np.arcsin(np.sqrt(play)))
 
     @property
-    def endplay(self) -> float:
+    def endplay(self) -> Numbers:
         """Axial internal clearance (endplay) from one end to the other, 2 A sin a_0 [m]."""
-        return 2.0 * self.groove_distance * math.sin(self.free_angle)
+        return plain(2.0 * self.groove_distance * np.sin(self.free_angle))
 
     @property
-    def offsets(self) -> tuple[float, float]:
+    def offsets(self) -> tuple[Numbers, Numbers]:
         """Distances (f - 1/2) D from the ball's centre to both groove centres at first touch [m]."""
         inner, outer = self.inner_groove - 0.5, self.outer_groove - 0.5
         return inner * self.ball_diameter, outer * self.ball_diameter
 
     @property
-    def inner_centre_radius(self) -> float:
+    def inner_centre_radius(self) -> Numbers:
         """Radius of the circle of inner groove centres, d_m/2 + (f_i - 1/2) D cos a_0 [m]."""
         cosine = self.radial_distance / self.groove_distance
         return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
 
-    def radii(self, angle: float, *, inner: bool) -> ContactRadii:
-        """Radii of ball and groove at the inner or outer contact, for a contact angle [rad].
+    def radii(self, angle: Numbers, *, inner: bool) -> ContactRadii:
+        """Radii of ball and groove at the inner or outer contact, for a contact angle [rad], shape (...).
 
         Examples
         --------
@@ -191,7 +226,7 @@ class BallBearing:
         rolling = _rolling_radius(ball, pitch, angle, inner=inner)
         return ContactRadii(ball / 2.0, ball / 2.0, rolling, -groove * ball)
 
-    def element_mass(self, density: float) -> float:
+    def element_mass(self, density: Numbers) -> Numbers:
         """Mass of a ball, rho pi D^3/6 [kg], from its density rho [kg/m^3]."""
         return density * math.pi * self.ball_diameter**3 / 6.0
 
@@ -213,11 +248,11 @@ class RollerBearing:
     elements: int
     # roller_diameter and pitch_diameter: roller diameter D and pitch diameter d_m [m]. d_m is the mean of
     # both raceway diameters.
-    roller_diameter: float
-    pitch_diameter: float
-    roller_length: float  # effective length L of the rollers [m]
+    roller_diameter: Numbers
+    pitch_diameter: Numbers
+    roller_length: Numbers  # effective length L of the rollers [m]
     # Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
-    radial_clearance: float
+    radial_clearance: Numbers
     # "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281
     profile: str = "logarithmic"
 
@@ -226,14 +261,20 @@ class RollerBearing:
         if self.profile not in PROFILES:
             raise InputError("profile", got=shown(self.profile), takes=f"one of {', '.join(PROFILES)}")
 
+    @property
+    def dimensions(self) -> tuple[Numbers, ...]:
+        """All dimensions that may vary over points of operation."""
+        return self.roller_diameter, self.pitch_diameter, self.roller_length, self.radial_clearance
+
     def relief(self, position: ArrayLike) -> Array:
         """Relief of a roller's profile: its radius in the middle less its radius at a position.
 
         For L up to 2.5 D it is P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)). Longer rollers are straight except for
         1.25 D at either end, where P(x) = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)).
 
-        ``position``, position x along the roller, from its middle, within L/2 [m], shape (n,). Returns relief
-        P [m]; it grows without bound towards the ends, shape (n,).
+        ``position``, position x along the roller, from its middle, within L/2 [m], shape (..., n); ``...`` is
+        the shape of diameter and length. Returns relief P [m]; it grows without bound towards the ends, shape
+        (..., n).
 
         ISO/TS 16281:2008, profile functions of cylindrical rollers.
 
@@ -248,15 +289,17 @@ class RollerBearing:
         x = np.abs(np.asarray(position, dtype=float))
         if self.profile == "none":
             return np.zeros_like(x)
-        if self.roller_length <= _SHORT * self.roller_diameter:
-            depth, outward = 0.00035, 2.0 * x / self.roller_length
-        else:
-            end = _SHORT * self.roller_diameter
-            depth, outward = 0.0005, np.maximum(0.0, (2.0 * x - self.roller_length) / end + 1.0)
-        return np.asarray(-depth * self.roller_diameter * np.log1p(-(outward**2)))
+        length, diameter = (
+            value if np.ndim(value) == 0 else np.asarray(value)[..., np.newaxis]
+            for value in (self.roller_length, self.roller_diameter)
+        )
+        end = _SHORT * diameter
+        short = length <= end
+        outward = np.where(short, 2.0 * x / length, np.maximum(0.0, (2.0 * x - length) / end + 1.0))
+        return np.asarray(-np.where(short, 0.00035, 0.0005) * diameter * np.log1p(-(outward**2)))
 
     @property
-    def clearance(self) -> float:
+    def clearance(self) -> Numbers:
         """Radial internal clearance, the full diametral play P_d [m]."""
         return self.radial_clearance
 
@@ -265,12 +308,12 @@ class RollerBearing:
         """Free contact angle [rad]: zero, as rollers carry radial loads only."""
         return 0.0
 
-    def radii(self, _angle: float = 0.0, *, inner: bool) -> ContactRadii:
+    def radii(self, _angle: Numbers = 0.0, *, inner: bool) -> ContactRadii:
         """Radii of roller and ring at the inner or outer contact, a line contact at zero contact angle."""
         rolling = _rolling_radius(self.roller_diameter, self.pitch_diameter, 0.0, inner=inner)
         return ContactRadii(self.roller_diameter / 2.0, math.inf, rolling, math.inf)
 
-    def element_mass(self, density: float) -> float:
+    def element_mass(self, density: Numbers) -> Numbers:
         """Mass of a roller, rho pi D^2 L/4 [kg], from its density rho [kg/m^3]."""
         return density * math.pi * self.roller_diameter**2 * self.roller_length / 4.0
 
@@ -291,10 +334,10 @@ class Speeds:
 
 
 def rolling_speeds(
-    element_diameter: float,
-    pitch_diameter: float,
-    inner_speed: float,
-    outer_speed: float = 0.0,
+    element_diameter: Numbers,
+    pitch_diameter: Numbers,
+    inner_speed: Numbers,
+    outer_speed: Numbers = 0.0,
     contact_angle: ArrayLike = 0.0,
 ) -> Speeds:
     """Speeds of cage, elements and contacts in pure rolling.
@@ -306,7 +349,7 @@ def rolling_speeds(
 
     ``element_diameter`` and ``pitch_diameter``, diameter D of the element and pitch diameter d_m [m];
     ``inner_speed`` and ``outer_speed``, angular speeds w_i and w_o of the rings [rad/s]; ``contact_angle``
-    [rad], shape (...). Returns speeds, shape (...).
+    [rad]; all of shape (...). Returns speeds, shape (...).
 
     T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 10,
     doi:10.1201/9781420006599. The ball's own axis is perpendicular to the line of contact.
@@ -327,10 +370,10 @@ def rolling_speeds(
     return Speeds(cage, 2.0 * inner / element_diameter, inner, outer)
 
 
-def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> float:
+def centrifugal_force(mass: Numbers, pitch_diameter: Numbers, cage_speed: Numbers) -> Numbers:
     """Centrifugal force of an element, m (d_m/2) w_c^2. ``mass``, mass m of the element [kg];
-    ``pitch_diameter``, pitch diameter d_m [m]; ``cage_speed``, angular speed w_c of the cage [rad/s]. Returns
-    centrifugal force [N].
+    ``pitch_diameter``, pitch diameter d_m [m]; ``cage_speed``, angular speed w_c of the cage [rad/s]; all of
+    shape (...). Returns centrifugal force [N], shape (...).
 
     Examples
     --------
@@ -340,7 +383,7 @@ def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> 
     return mass * 0.5 * pitch_diameter * cage_speed**2
 
 
-def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angle: ArrayLike) -> Array:
+def gyroscopic_moment(mass: Numbers, diameter: Numbers, speeds: Speeds, contact_angle: ArrayLike) -> Array:
     """Gyroscopic moment of a ball, J w_s w_c sin a with J = m D^2/10.
 
     The ball's own axis is taken perpendicular to the line of contact. An axis closer to the axis of the

@@ -7,38 +7,58 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array
-from ehlectric.bearing.loads.ball_loads import BallEquilibrium
-from ehlectric.bearing.loads.geometry import Speeds
-from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
+from ehlectric.arrays import Array, Numbers
+from ehlectric.bearing.loads.ball_loads import BallEquilibrium, check_ball_loads
+from ehlectric.bearing.loads.geometry import BallBearing, Geometry, Speeds, plain
+from ehlectric.bearing.loads.ring import Operation, refuse_unbalanced
+from ehlectric.bearing.loads.roller_loads import RollerEquilibrium, check_roller_loads
 
 Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
 
-# Fields of equilibria with a row per element.
-_OF_ELEMENTS = frozenset(
-    f"{ring}_{quantity}"
-    for ring in ("inner", "outer")
-    for quantity in ("load", "line_load", "angle", "approach", "gap")
-) | {"gyroscopic_moment"}
+# Fields of equilibria with a value per element, and those with a value per slice of each element.
+_SIDES = ("inner", "outer")
+_OF_ELEMENTS = {f"{side}_{name}" for side in _SIDES for name in ("load", "angle", "approach", "gap")}
+_OF_ELEMENTS |= {"gyroscopic_moment"}
+_OF_SLICES = {f"{side}_line_load" for side in _SIDES}
 
 
 def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
     """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
 
-    ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape (n,).
+    ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape
+    (..., elements).
     """
     values = vars(at)
-    turned = {name: values[name][::-1] for name in _OF_ELEMENTS & values.keys()}
+    turned = {name: values[name][..., ::-1] for name in _OF_ELEMENTS & values.keys()}
+    turned |= {name: values[name][..., ::-1, :] for name in _OF_SLICES & values.keys()}
     lateral = {name: -values[name] for name in values if name.startswith("lateral_")}
-    # The speeds of balls are arrays; all rollers have the same ones.
-    speeds = Speeds(*(speed[::-1] if np.ndim(speed) else speed for speed in vars(at.speeds).values()))
-    return dataclasses.replace(at, position=position, speeds=speeds, **turned, **lateral)
+    # The speeds of balls have a value per element; all rollers have the same ones.
+    per_element = np.ndim(at.speeds.cage) == at.position.ndim
+    speeds = Speeds(*(speed[..., ::-1] for speed in vars(at.speeds).values())) if per_element else at.speeds
+    return dataclasses.replace(
+        at, position=np.broadcast_to(position, at.position.shape), speeds=speeds, **turned, **lateral
+    )
+
+
+def check_operation(geometry: Geometry, operation: Operation) -> None:
+    """Refuse single loads that a bearing cannot carry. Raises InputError for an angular-contact ball bearing
+    without axial load, and for a roller bearing with one; loads that are arrays are not refused.
+    """
+    if isinstance(geometry, BallBearing):
+        check_ball_loads(geometry, operation)
+    else:
+        check_roller_loads(operation)
+
+
+def check_balance(at: Equilibrium) -> None:
+    """Refuse an equilibrium of a single bearing whose forces do not balance. Raises ConvergenceError."""
+    refuse_unbalanced(at.residual, "balls" if isinstance(at, BallEquilibrium) else "rollers")
 
 
 def mechanics_of(at: Equilibrium) -> dict[str, Any]:
     """Loads, displacements and speeds of a bearing, by the keys of ``mechanics`` in summary.json. Returns
-    values in SI units; None for the values that roller bearings do not have.
+    values in SI units, of shape (...); None for the values that roller bearings do not have.
 
     Examples
     --------
@@ -54,19 +74,25 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
     >>> round(mechanics["cage_speed"], 3), round(mechanics["element_speed"], 3)
     (40.833, 263.561)
     """
-    inner, outer = (float(np.max(at.ring(inner=inner).entrainment_speed)) for inner in (True, False))
-    gyroscopic = None if at.gyroscopic_moment is None else float(np.max(at.gyroscopic_moment))
+    inner, outer = (_largest(at.ring(inner=inner).entrainment_speed) for inner in (True, False))
+    spin = np.asarray(at.speeds.spin)
     return {
-        "max_load": np.max(at.outer_load),
+        "max_load": _largest(at.outer_load),
         "radial_displacement": at.radial_displacement,
         "axial_displacement": at.axial_displacement,
         "moment": at.moment,
         "centrifugal_force": at.centrifugal_force,
-        "gyroscopic_moment": gyroscopic,
+        "gyroscopic_moment": None if at.gyroscopic_moment is None else _largest(at.gyroscopic_moment),
         "cage_speed": at.cage_speed,
-        "element_speed": float(np.max(at.speeds.spin)),
+        # All rollers have the same speed.
+        "element_speed": _largest(spin) if spin.ndim == at.position.ndim else plain(spin),
         "entrainment_speed": inner,
         "entrainment_speed_inner": inner,
         "entrainment_speed_outer": outer,
         "residual": at.residual,
     }
+
+
+def _largest(values: Array) -> Numbers:
+    """Largest value over the elements, shape (...)."""
+    return plain(np.max(values, axis=-1))

@@ -11,7 +11,8 @@ from scipy.optimize import brentq, minimize
 from scipy.special import ellipe, ellipk
 
 from ehlectric import InputError
-from ehlectric.bearing.loads.ball_loads import ball_equilibrium, contact_stiffness
+from ehlectric.bearing.loads.ball_contacts import contact_stiffness
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.film_point import PointContact
