@@ -1,4 +1,7 @@
-"""Conditions that the contacts of a bearing share: geometry, materials, and oil at its temperatures."""
+"""Conditions that the contacts of a bearing share: geometry, materials, and oil at its temperatures.
+
+Those of many points have arrays of shape (n,), and floats where the points do not differ.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from ehlectric.arrays import N
+from ehlectric.arrays import Mask, N, Numbers, as_float
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.mounted_clearance import MountedClearance
 from ehlectric.cases import library
@@ -70,17 +73,17 @@ class ContactFriction:
 class RingConditions:
     """Conditions of the contacts with one ring: their films form at the temperature of the surfaces."""
 
-    temperature: float  # [K]
+    temperature: Numbers  # [K]
     # Oil at this temperature, with an ambient pressure of 0: pressures are those above the ambient one.
     oil: Oil
     discharge: Discharge  # dielectric strength and conductivity at this temperature
-    film_factor: float  # film thickness over that of isothermal, fully flooded oil, dimensionless
+    film_factor: Numbers  # film thickness over that of isothermal, fully flooded oil, dimensionless
     # heat_factor and supply_factor: parts of ``film_factor`` by the heat in the inlet and by the supply of
     # oil, dimensionless; None where ``film_factor`` alone is known, which then contains both.
-    heat_factor: float | None = None
-    supply_factor: float | None = None
+    heat_factor: Numbers | None = None
+    supply_factor: Numbers | None = None
     # Part by the heat in the inlet as the formula has it; None where no heat is computed.
-    inlet_shear_factor: float | None = None
+    inlet_shear_factor: Numbers | None = None
     # Friction of the most loaded contact; None where its heat is not solved.
     friction: ContactFriction | None = None
 
@@ -113,17 +116,30 @@ class BearingConditions(Generic[G_co]):
         return self.inner, self.outer
 
     @property
-    def film_factor(self) -> float:
-        """Film factor of the ring whose films it reduces more, dimensionless, at most 1."""
-        return min(self.inner.film_factor, self.outer.film_factor)
+    def refused(self) -> Mask:
+        """Points of many at which the oil or its strength has no value at its temperature, the rule for the
+        supply leaves next to no film, or the clearance in operation is beyond the model, shape (...).
 
-    def part_of_film_factor(self, name: str) -> float | None:
+        ``resolve_bearing`` of the single case of such a point raises its error.
+        """
+        values = [number for ring in self.rings for number in (ring.oil.viscosity, ring.film_factor)]
+        values += [each.temperature for each in (self.discharge, self.inner.discharge, self.outer.discharge)]
+        values += [self.oil.viscosity, None if self.clearance is None else self.clearance.running.clearance]
+        unknown = [np.isnan(value) for value in values if value is not None]
+        return np.asarray(np.any(np.stack(np.broadcast_arrays(*unknown)), axis=0))
+
+    @property
+    def film_factor(self) -> Numbers:
+        """Film factor of the ring whose films it reduces more, dimensionless, at most 1."""
+        return as_float(np.minimum(self.inner.film_factor, self.outer.film_factor))
+
+    def part_of_film_factor(self, name: str) -> Numbers | None:
         """``heat_factor``, ``supply_factor`` or ``inlet_shear_factor`` of the ring where it is smaller.
 
         None where it is not known of both rings.
         """
         factors = [getattr(ring, name) for ring in self.rings]
-        return None if None in factors else min(factors)
+        return None if any(factor is None for factor in factors) else as_float(np.minimum(*factors))
 
     @property
     def ceramic(self) -> bool:
@@ -137,10 +153,14 @@ class BearingConditions(Generic[G_co]):
 
 
 def gap_breakdown(discharge: Discharge, thickness: N) -> N:
-    """Breakdown voltage [V] of uniform gaps of a thickness [m]; infinite without a strength.
+    """Breakdown voltage [V] of uniform gaps of a thickness [m], shape (...); infinite without a strength.
 
-    The strength is the one at ambient pressure.
+    The strength is the one at ambient pressure. That of many points belongs to the first axis of the gaps.
     """
     if not discharge.has_strength:
         return thickness * 0.0 + np.inf
-    return float(dielectric_strength(discharge, np.zeros(1))[0]) * thickness
+    strength = dielectric_strength(discharge, np.zeros(()))
+    if strength.ndim:
+        strength = strength.reshape(-1, *[1] * (np.ndim(thickness) - 1))
+    found: N = as_float(strength) * thickness
+    return found

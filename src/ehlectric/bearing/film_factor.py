@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
 from ehlectric.bearing.loads.geometry import Geometry, rolling_speeds
@@ -234,12 +234,16 @@ def _friction(
 _LEAST = 0.01
 
 
-def factors_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> dict[str, Any]:
+def factors_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: Numbers) -> dict[str, Any]:
     """Film factor of the contacts with a ring at its temperature [K], and its parts, for ``RingConditions``.
 
     The film factor is NaN where its heat has to be solved. Raises InputError where the rule for a kind of
-    supply leaves next to no film.
+    supply leaves next to no film, of many points in which NaN stands for it; and where the heat of many
+    points has to be solved.
     """
+    if case.bearing.film_factor == "solved" and case.shape:
+        takes = "a factor that needs no solved film: 'none', 'inlet-shear' or a number"
+        raise InputError("bearing.film_factor", got="'solved' for many points", takes=takes)
     factor, supply = case.bearing.film_factor, _supply_factor(case.bearing, oil)
     if isinstance(factor, float):
         return {"film_factor": factor * supply, "supply_factor": supply}
@@ -251,7 +255,7 @@ def factors_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: flo
     return {"film_factor": heat * supply, **parts}
 
 
-def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
+def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: Numbers) -> Numbers:
     """Film over the isothermal one at a temperature [K] by the formula of the heat in the inlet."""
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
@@ -263,10 +267,10 @@ def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: f
     )
     slope = temperature_coefficient(case.lubricant, temperature)
     assert slope is not None and oil.thermal_conductivity is not None
-    return inlet_shear_factor(oil.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity)
+    return inlet_shear_factor(oil.viscosity, slope, speeds.inner_entrainment, oil.thermal_conductivity)
 
 
-def _supply_factor(bearing: Bearing, oil: Oil) -> float:
+def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
     """Film thickness over the fully flooded one, by the number or the rule of the file."""
     if isinstance(bearing.supply, float):
         return bearing.supply
@@ -281,6 +285,8 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> float:
         supply=bearing.supply,
         kind=bearing.kind,
     )
+    if np.ndim(factor):
+        return np.where(factor < _LEAST, np.nan, factor)
     if factor < _LEAST:
         raise InputError(
             "bearing.supply",

@@ -1,8 +1,15 @@
-"""Elastic rings under pressure, and the radial clearance of a bearing from fits and temperatures."""
+"""Elastic rings under pressure, and the radial clearance of a bearing from fits and temperatures.
+
+Dimensions, pressures and temperatures are floats, or arrays of shape (...) of many points.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Numbers, as_float
 
 
 @dataclass(frozen=True)
@@ -19,13 +26,15 @@ class ThickRing:
     http://www.roymech.co.uk/Useful_Tables/Mechanics/Cylinders.html, derives the same equations.
     """
 
-    inner_diameter: float  # diameter of the bore [m]; 0 for a solid shaft
-    outer_diameter: float  # outer diameter [m]; infinite for a housing without an end
+    inner_diameter: Numbers  # diameter of the bore [m]; 0 for a solid shaft
+    outer_diameter: Numbers  # outer diameter [m]; infinite for a housing without an end
     youngs_modulus: float  # young's modulus E [Pa]
     poissons_ratio: float  # poisson's ratio, dimensionless
     expansion: float  # coefficient of thermal expansion [1/K]
 
-    def growth(self, diameter: float, *, bore_pressure: float = 0.0, outside_pressure: float = 0.0) -> float:
+    def growth(
+        self, diameter: Numbers, *, bore_pressure: Numbers = 0.0, outside_pressure: Numbers = 0.0
+    ) -> Numbers:
         """Growth of a diameter of the ring under pressure from inside and from outside. ``diameter``,
         diameter in the ring [m], from the bore to the outer diameter; ``bore_pressure`` and
         ``outside_pressure`` [Pa]. Returns change of the diameter [m], negative where it shrinks.
@@ -42,16 +51,17 @@ class ThickRing:
         ratio = (self.inner_diameter / self.outer_diameter) ** 2
         mean = (bore_pressure * ratio - outside_pressure) / (1.0 - ratio)
         # A solid shaft has no second term, and its centre a diameter of 0.
-        other = (bore_pressure - outside_pressure) * square / (1.0 - ratio) / diameter if square else 0.0
+        around = as_float(np.where(np.equal(square, 0.0), 1.0, diameter))
+        other = (bore_pressure - outside_pressure) * square / (1.0 - ratio) / around
         nu = self.poissons_ratio
         return ((1.0 - nu) * mean * diameter + (1.0 + nu) * other) / self.youngs_modulus
 
-    def warmed(self, diameter: float, rise: float) -> float:
+    def warmed(self, diameter: Numbers, rise: Numbers) -> Numbers:
         """Growth of a diameter [m] of the free ring under a rise of its temperature [K]."""
         return self.expansion * rise * diameter
 
 
-def fit_pressure(within: ThickRing, around: ThickRing, interference: float) -> float:
+def fit_pressure(within: ThickRing, around: ThickRing, interference: Numbers) -> Numbers:
     """Pressure in an interference fit of two rings. ``interference``, diameter of the inner one less the bore
     of the outer one, both free [m]; negative for a loose fit. Returns pressure [Pa]; 0 for a loose fit.
 
@@ -68,13 +78,11 @@ def fit_pressure(within: ThickRing, around: ThickRing, interference: float) -> f
     >>> round(pressure / (208e9 * 10e-6 * (1 - (40 / 48) ** 2) / (2 * 40e-3)), 12)
     1.0
     """
-    if interference <= 0.0:
-        return 0.0
     diameter = around.inner_diameter
     compliance = around.growth(diameter, bore_pressure=1.0) - within.growth(
         within.outer_diameter, outside_pressure=1.0
     )
-    return interference / compliance
+    return as_float(np.maximum(interference, 0.0) / compliance)
 
 
 @dataclass(frozen=True)
@@ -82,14 +90,14 @@ class Temperatures:
     """Temperatures of the parts of a mounted bearing, absolute."""
 
     # inner_ring, outer_ring, elements, shaft and housing: mean temperatures of the parts [K].
-    inner_ring: float
-    outer_ring: float
-    elements: float
-    shaft: float
-    housing: float
+    inner_ring: Numbers
+    outer_ring: Numbers
+    elements: Numbers
+    shaft: Numbers
+    housing: Numbers
 
     @classmethod
-    def same(cls, temperature: float) -> Temperatures:
+    def same(cls, temperature: Numbers) -> Temperatures:
         """One temperature [K] of all parts."""
         return cls(temperature, temperature, temperature, temperature, temperature)
 
@@ -104,20 +112,20 @@ class Mounting:
     inner_ring: ThickRing
     outer_ring: ThickRing
     housing: ThickRing
-    element_diameter: float  # diameter of the rolling elements [m]
+    element_diameter: Numbers  # diameter of the rolling elements [m]
     element_expansion: float  # coefficient of thermal expansion of the rolling elements [1/K]
     # Effective interference of inner ring and shaft on the diameter [m]; negative for a loose fit.
-    shaft_interference: float
+    shaft_interference: Numbers
     # Effective interference of outer ring and housing on the diameter [m]; negative for a loose fit.
-    housing_interference: float
-    reference_temperature: float  # temperature of the dimensions and interferences [K]
+    housing_interference: Numbers
+    reference_temperature: Numbers  # temperature of the dimensions and interferences [K]
 
     @property
-    def unmounted_clearance(self) -> float:
+    def unmounted_clearance(self) -> Numbers:
         """Clearance before mounting at the reference temperature: the room beside two elements [m]."""
         return self.outer_ring.inner_diameter - self.inner_ring.outer_diameter - 2.0 * self.element_diameter
 
-    def interferences(self, temperatures: Temperatures) -> tuple[float, float]:
+    def interferences(self, temperatures: Temperatures) -> tuple[Numbers, Numbers]:
         """Interferences of inner ring and shaft, and of outer ring and housing [m], at temperatures."""
         zero = self.reference_temperature
         bore, outside = self.inner_ring.inner_diameter, self.outer_ring.outer_diameter
@@ -132,15 +140,15 @@ class Mounting:
 class Clearance:
     """Radial clearance of a mounted bearing at some temperatures."""
 
-    clearance: float  # full diametral play [m]; negative with a preload
+    clearance: Numbers  # full diametral play [m]; negative with a preload
     # shaft_interference and housing_interference: interferences at the temperatures [m]; negative where the
     # fit is loose.
-    shaft_interference: float
-    housing_interference: float
+    shaft_interference: Numbers
+    housing_interference: Numbers
     # shaft_pressure and housing_pressure: pressures between inner ring and shaft, and between outer ring and
     # housing [Pa].
-    shaft_pressure: float
-    housing_pressure: float
+    shaft_pressure: Numbers
+    housing_pressure: Numbers
 
 
 def clearance_at(mounting: Mounting, temperatures: Temperatures) -> Clearance:

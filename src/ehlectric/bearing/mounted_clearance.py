@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from ehlectric.arrays import Numbers
 from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing, clearance_at
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
@@ -18,7 +21,7 @@ from ehlectric.quantities.units import to_si
 class MountedClearance:
     """Radial clearance of a bearing before mounting, mounted, and in operation."""
 
-    unmounted: float  # clearance before mounting [m]
+    unmounted: Numbers  # clearance before mounting [m]
     mounted: Clearance  # clearance with its fits at the reference temperature
     running: Clearance
 
@@ -26,20 +29,26 @@ class MountedClearance:
 def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
     """Clearances of a bearing with fits; None for a bearing whose clearance in operation is given. Raises
     InputError where a housing that presses on the outer ring has no diameter, or the clearance in operation
-    is beyond the model.
+    is beyond the model; of many points, those have NaN for the clearance in operation.
     """
     fits, unmounted = bearing.fits, bearing.unmounted_clearance
     if fits is None or unmounted is None:
         return None
     mounting, running = _mounting(bearing, fits, unmounted), _temperatures(bearing, fits)
     states = Temperatures.same(fits.reference_temperature), running
-    pressing = max(mounting.interferences(at)[1] for at in states)
-    if fits.housing_diameter is None and pressing > 0.0:
+    pressing = np.maximum(*(mounting.interferences(at)[1] for at in states))
+    found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
+    clearance = found.running.clearance
+    unknown = np.logical_and(fits.housing_diameter is None, pressing > 0.0)
+    beyond = np.logical_not(np.greater_equal(clearance, PLAY.least) & np.less_equal(clearance, PLAY.most))
+    if np.ndim(clearance):
+        known = np.where(unknown | beyond, np.nan, clearance)
+        return replace(found, running=replace(found.running, clearance=known))
+    if unknown:
         overlap = f"whose interference with the outer ring is {1e6 * pressing:.3g} um"
         raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
-    found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
-    if not PLAY.least <= found.running.clearance <= PLAY.most:
-        got = f"a clearance in operation of {1e6 * found.running.clearance:.4g} um"
+    if beyond:
+        got = f"a clearance in operation of {1e6 * clearance:.4g} um"
         takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
         raise InputError("fits", got=got, takes=takes)
     return found
@@ -64,7 +73,7 @@ def _mounting(bearing: Bearing, fits: Fits, unmounted: float) -> Mounting:
     )
 
 
-def _ring(material: str, inner: float, outer: float) -> ThickRing:
+def _ring(material: str, inner: Numbers, outer: Numbers) -> ThickRing:
     """Ring of a material of the library between two diameters [m]."""
     solid = library.solid(material)
     modulus = to_si(solid["youngs_modulus"], "Pa")

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.constants import g as gravity
 from scipy.optimize import bisect
 
+from ehlectric.arrays import Numbers
 from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
 from ehlectric.bearing.film_factor import factors_of, solved_heat
@@ -23,9 +24,11 @@ from ehlectric.bearing.quick_contacts import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import Contact, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import reduced_modulus
-from ehlectric.lubricant.oil import Oil
+from ehlectric.lubricant.law import is_many, same
+from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil
 
 # Contacts with less than this part of the largest load may have their centre beyond the shoulder.
 _LIGHT = 0.02
@@ -146,7 +149,8 @@ class PreparedBearing:
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
     """Conditions of a bearing file: geometry and materials, oil and strength at its temperatures. Raises
-    InputError where the elements do not fit, or the oil or its strength has no value at the temperature.
+    InputError where the elements do not fit, or the oil or its strength has no value at the temperature; of
+    many points, those at which it has none are ``BearingConditions.refused``.
     """
     bearing, kind = case.bearing, KINDS[case.bearing.kind]
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
@@ -154,31 +158,55 @@ def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
         clearance = mounted_clearance(bearing)
         running = {} if clearance is None else {"radial_clearance": clearance.running.clearance}
         geometry = kind.geometry(bearing.model_copy(update=running))
+    key, (first, second) = bearing.temperature_key(), _ring_temperatures(bearing)
+    oil = _oil(case, bearing.oil_temperature, key)
+    discharge = case.discharge.at(bearing.oil_temperature, key)
+    inner = _ring_conditions(case, geometry, (oil, discharge), inner=True)
+    # Rings of one temperature have the same conditions.
+    alike = same(first, second)
+    outer = inner if alike else _ring_conditions(case, geometry, (oil, discharge), inner=False)
     return BearingConditions(
         bearing=bearing,
         geometry=geometry,
         element=element,
         ring=ring,
         modulus=reduced_modulus(element.compliance, ring.compliance),
-        oil=_oil(case, bearing.oil_temperature, bearing.temperature_key()),
-        discharge=case.discharge.at(bearing.oil_temperature, bearing.temperature_key()),
-        inner=_ring_conditions(case, geometry, inner=True),
-        outer=_ring_conditions(case, geometry, inner=False),
+        oil=oil,
+        discharge=discharge,
+        inner=inner,
+        outer=outer,
         clearance=clearance,
     )
 
 
-def _oil(case: BearingCase, temperature: float, key: str) -> Oil:
+def _ring_temperatures(bearing: Bearing) -> tuple[Numbers, Numbers]:
+    """Temperatures of the inner and the outer ring [K]."""
+    return bearing.ring_temperature(inner=True), bearing.ring_temperature(inner=False)
+
+
+def _oil(case: BearingCase, temperature: Numbers, key: str) -> Oil:
     """Oil at a temperature [K]; the ambient pressure acts on the bodies from all sides, and is left out."""
-    return replace(case.lubricant.at(temperature, key), ambient_pressure=0.0)
+    oil = replace(case.lubricant.at(temperature, key), ambient_pressure=0.0)
+    law = getattr(oil.permittivity, "law", None)
+    if not case.shape or not isinstance(law, BoundLaw) or is_many(*law.parameters.values()):
+        return oil
+    # A permittivity with a pole is an error of one point, and NaN of each of many with their own values.
+    own = {name: np.full(case.shape, value) for name, value in law.parameters.items()}
+    return replace(oil, permittivity=OfDensity(replace(law, parameters=own)))
 
 
-def _ring_conditions(case: BearingCase, geometry: Geometry, *, inner: bool) -> RingConditions:
-    """Conditions of the contacts with a ring, at its temperature."""
-    temperature, key = case.bearing.ring_temperature(inner=inner), case.bearing.temperature_key(inner=inner)
-    oil = _oil(case, temperature, key)
-    factors = factors_of(case, geometry, oil, temperature)
-    return RingConditions(temperature, oil, case.discharge.at(temperature, key), **factors)
+def _ring_conditions(
+    case: BearingCase, geometry: Geometry, outside: tuple[Oil, Discharge], *, inner: bool
+) -> RingConditions:
+    """Conditions of the contacts with a ring, at its temperature. ``outside``, oil outside of the films and
+    its discharge, which a ring of the same temperature has, too.
+    """
+    bearing = case.bearing
+    temperature, key = bearing.ring_temperature(inner=inner), bearing.temperature_key(inner=inner)
+    oil, discharge = outside
+    if not same(temperature, bearing.oil_temperature):
+        oil, discharge = _oil(case, temperature, key), case.discharge.at(temperature, key)
+    return RingConditions(temperature, oil, discharge, **factors_of(case, geometry, oil, temperature))
 
 
 @contextmanager

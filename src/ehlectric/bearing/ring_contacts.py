@@ -105,7 +105,7 @@ class RingContacts(Generic[G_co]):
         return self._own.discharge
 
     @property
-    def film_factor(self) -> float:
+    def film_factor(self) -> Numbers:
         """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
         return self._own.film_factor
 

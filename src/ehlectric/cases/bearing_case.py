@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
+import numpy as np
 from pydantic import (
     ModelWrapValidatorHandler,
     ValidationError,
@@ -16,7 +18,9 @@ from pydantic import (
 )
 from pydantic.fields import FieldInfo
 
+from ehlectric.arrays import Array
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_heat, missing_conductivity
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
@@ -34,6 +38,7 @@ from ehlectric.cases.table import (
     Title,
     fields_within,
     nearest_key,
+    number_of,
     parser_of,
     read_toml,
     table_of,
@@ -122,14 +127,66 @@ def _range(key: str, value: Any, model: type[Table]) -> InputRange:
     return InputRange(key, low, high)
 
 
-def _field(key: str, model: type[Table]) -> FieldInfo:
-    """Field of a dotted key."""
+def _field(key: str, model: type[Table], takes: str = "a list of two values") -> FieldInfo:
+    """Field of a dotted key that takes some values."""
     field = fields_within(model).get(key)
     if field is None or key == "ranges":
         raise InputError.unknown(key, nearest_key(key, model))
     if table_of(field.annotation) is not None:
-        raise InputError(key, "is a table", takes="one of its keys with a list of two values")
+        raise InputError(key, "is a table", takes=f"one of its keys with {takes}")
     return field
+
+
+def _array_of(key: str, values: Any, model: type[Table]) -> Array:
+    """Numbers of a dotted key at many points, SI units, shape (n,), each within the bounds of the key."""
+    takes = "an array, with a number for each point"
+    quantity = number_of(_field(key, model, takes))
+    if not isinstance(quantity, Amount):
+        raise InputError(key, got=takes, takes="one value for all points: it is no quantity of a point")
+    try:
+        given = values if isinstance(values, np.ndarray) else [] if isinstance(values, str) else list(values)
+    except TypeError:
+        given = []
+    if getattr(given, "ndim", 1) != 1 or not len(given):
+        raise InputError(key, got=shown(values), takes=f"{takes}: in SI units, or texts with units")
+    numeric = given.dtype.kind in "fiu" if isinstance(given, np.ndarray) else set(map(type, given)) == {float}
+    if numeric:
+        array = np.array(given, dtype=float)
+        # All numbers are allowed if the least and the largest one are; NaN is the least, and is not allowed.
+        checked = (int(np.argmin(array)), int(np.argmax(array)))
+        if all(_parsed(quantity, given[index]) is not None for index in checked):
+            array.flags.writeable = False
+            return array
+    numbers = np.empty(len(given))
+    for index, value in enumerate(given):
+        with _at_index(key, index):
+            numbers[index] = quantity.parse(value)
+    numbers.flags.writeable = False
+    return numbers
+
+
+def _parsed(quantity: Amount, value: object) -> float | None:
+    """Value of an entry in SI units; None for one that is not allowed."""
+    try:
+        return quantity.parse(value)
+    except InputError:
+        return None
+
+
+@contextmanager
+def _at_index(key: str, index: int) -> Iterator[None]:
+    """Context in which an error tells the place of its value in the arrays of many points."""
+    try:
+        yield
+    except InputError as error:
+        where = f"{error.text} (at index {index} of the arrays)"
+        raise error.retold(key if error.key is None else error.key, where) from None
+
+
+def _far_points(arrays: Mapping[str, Array]) -> list[int]:
+    """Places of the least and of the largest number of each key, without the first place."""
+    ends = {int(end(array)) for array in arrays.values() for end in (np.argmin, np.argmax)}
+    return sorted(ends - {0})
 
 
 # Tables in which a key that changes replaces its alternatives.
@@ -281,9 +338,74 @@ class BearingCase(CaseFile, book="bearing_file"):
                 "where nothing is",
             )
 
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the points: () of a single bearing, (n,) of a case from ``with_arrays``."""
+        return next((array.shape for array in self.arrays().values()), ())
+
+    def with_arrays(self, values: Mapping[str, Any]) -> Self:
+        """Return a case of many points, whose named keys have a number for each point.
+
+        Parameters
+        ----------
+        values : mapping
+            Arrays or lists of equal length n by dotted key, as ``{"bearing.radial_load": [900.0, 1000.0]}``:
+            numbers in SI units, or texts with their units.
+
+        Returns
+        -------
+        BearingCase
+            Case whose named keys are arrays of shape (n,). ``single(index)`` is the case of one point.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or is not a quantity, an array has another length than the first one, or a
+            number is outside the bounds of its key; the message tells its place.
+
+        Notes
+        -----
+        A new key replaces its alternative, as in ``replace``. The bounds of each key are checked at all
+        points. Rules between keys, such as that a bore is less than the inner raceway, are checked at the
+        first point and at those with the least and the largest number of each key, and that there is a load
+        at all points. Rules that fail at other points only are not found here; where they matter to a
+        result, such as two viscosities that do not fall with temperature, this point has NaN.
+
+        Examples
+        --------
+        >>> case = BearingCase.of(
+        ...     base="6208", radial_clearance="10 um", radial_load="1 kN", inner_speed="3000 rpm",
+        ...     temperature="70 degC", composite_rq="0.03 um", lubricant={"base": "paper"},
+        ... )
+        >>> loads, temperatures = ["1 kN", "2 kN"], [333.15, 353.15]
+        >>> many = case.with_arrays({"bearing.radial_load": loads, "bearing.temperature": temperatures})
+        >>> many.shape, many.bearing.radial_load
+        ((2,), array([1000., 2000.]))
+        """
+        if self.shape:
+            raise InputError(next(iter(self.arrays())), got="an array", takes="a case of one point")
+        arrays: dict[str, Array] = {}
+        for key, given in values.items():
+            array = arrays[key] = _array_of(key, given, type(self))
+            first = next(iter(arrays))
+            if array.shape != arrays[first].shape:
+                takes = f"{arrays[first].size}, as many as {first}"
+                raise InputError(key, got=f"{array.size} values", takes=takes)
+        if not arrays:
+            raise InputError(got="no arrays", takes="at least one key with an array")
+        with _at_index("", 0):
+            case = self.replace({key: float(array[0]) for key, array in arrays.items()})
+        _check_together(case, arrays)
+        for index in _far_points(arrays):
+            with _at_index("", index):
+                self.replace({key: float(array[index]) for key, array in arrays.items()})
+        return case.with_values(arrays)
+
     def _headline(self) -> str:
         """Title, bearing, loads and speed on one line."""
         bearing = self.bearing
+        if self.shape:
+            return headline(self.title, bearing.base or bearing.kind, f"{self.shape[0]} points")
         loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
         return headline(
             self.title,
@@ -365,6 +487,21 @@ class BearingCase(CaseFile, book="bearing_file"):
             # It follows from the class, and anew where the class or the bore changes.
             table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
+
+
+def _check_together(case: BearingCase, arrays: Mapping[str, Array]) -> None:
+    """Refuse arrays that rules between keys exclude at all points."""
+    of_class = case.bearing.clearance_class
+    if of_class is not None and "bearing.bore" in arrays:
+        text = f"an array with clearance_class {of_class!r}"
+        takes = "one bore, by which the class gives the clearance, or radial_clearance"
+        raise InputError("bearing.bore", got=text, takes=takes)
+    keys = ("bearing.radial_load", "bearing.axial_load")
+    loads = [arrays.get(key, getattr(case.bearing, key.partition(".")[2])) for key in keys]
+    idle = np.broadcast_to((loads[0] == 0.0) & (loads[1] == 0.0), next(iter(arrays.values())).shape)
+    if np.any(idle):
+        with _at_index(keys[0], int(np.argmax(idle))):
+            raise InputError.missing(keys[0], "a load, radial or axial")
 
 
 def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:

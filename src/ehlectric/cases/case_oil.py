@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Self, TypeVar
@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import model_validator
 from scipy.optimize import bisect
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, with_bounds
 from ehlectric.cases.library.library_oils import LibraryOil, Source, library_oil, values_of
@@ -33,10 +33,11 @@ from ehlectric.cases.oil_inputs import (
 )
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.errors import InputError, ResultWarning, shown, within
+from ehlectric.lubricant.data_sheet import Estimate
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
-from ehlectric.lubricant.law import Law, required
+from ehlectric.lubricant.law import Law, is_many, over_points, required, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
 from ehlectric.lubricant.over_temperature import Walther, density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
@@ -58,10 +59,11 @@ def of_table(temperature: str) -> Iterator[None]:
         raise error.under("lubricant") from None
 
 
-def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
+def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
     """Oil at a temperature [K], or at that of its contact if none is given; see ``Lubricant.at``."""
+    many = is_many(temperature, *oil.arrays().values())
     with of_table(key):
-        check_range(oil, temperature)
+        given, temperature = temperature, _checked(oil, temperature)
         viscosity, density_of = viscosity_at(oil, temperature), density_at(oil, temperature)
         permittivity = permittivity_at(oil, temperature)
         known = {"relative_permittivity": permittivity}
@@ -69,11 +71,16 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
             known["density"] = density_of
         names = law_names(oil)
         laws = {name: bound(oil, name, temperature, viscosity, known) for name in names}
-        for name in ("viscosity_law", "density_law"):
-            # A law that has no value at the temperature says so here, with the key of the temperature.
-            laws[name](np.zeros(1))
-        ranges = (range_check(oil, key, temperature, viscosity) for key in names)
-        checks = (estimated_alpha(oil, temperature), *ranges)
+        conductivity = conductivity_at(oil, temperature, laws.get("conductivity_law"))
+        # A law that has no value at the temperature says so here, with the key of the temperature.
+        first = [laws[name](np.zeros(()))[1] for name in ("viscosity_law", "density_law")]
+        checks: tuple[Estimate | RangeCheck | None, ...] = ()
+        if many:
+            values = (viscosity, permittivity, 0.0 if conductivity is None else conductivity, *first)
+            viscosity = as_float(np.where(np.isfinite(sum(values)), viscosity, math.nan))
+        else:
+            ranges = (range_check(oil, key, temperature, viscosity) for key in names)
+            checks = (estimated_alpha(oil, temperature), *ranges)
         return Oil(
             viscosity=viscosity,
             relative_permittivity=permittivity,
@@ -85,11 +92,11 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
             heat_capacity_law=laws.get("heat_capacity_law"),
             laws={name.removesuffix("_law"): law for name, law in names.items()},
             checks=tuple(check for check in checks if check is not None),
-            inputs=oil.model_dump(mode="json", exclude_none=True),
+            inputs={} if many else oil.model_dump(mode="json", exclude_none=True),
             name=oil.base or "",
-            temperature=temperature,
+            temperature=given,
             density=density_of,
-            conductivity=conductivity_at(oil, temperature, laws.get("conductivity_law")),
+            conductivity=conductivity,
             conductivity_over=conductivity_over(oil, laws.get("conductivity_law")),
         )
 
@@ -100,8 +107,36 @@ def law_names(oil: Properties) -> dict[str, str]:
     return {key: name for key, name in names.items() if name is not None}
 
 
+def _checked(oil: Properties, temperature: Numbers | None) -> Numbers | None:
+    """Temperature [K] at which an oil has values; of many points, those at which it has none have NaN. Raises
+    InputError if the temperature of all points is outside the range of the oil.
+    """
+    if temperature is None or not is_many(temperature):
+        check_range(oil, temperature)
+        return _held_by_laws(oil, temperature)
+    tables = (oil.permittivity_table, oil.conductivity_table)
+    for ends in (oil.temperature_range, *(table.temperature for table in tables if table is not None)):
+        if ends is not None:
+            inside = np.greater_equal(temperature, ends[0]) & np.less_equal(temperature, ends[-1])
+            temperature = np.where(inside, temperature, math.nan)
+    return _held_by_laws(oil, temperature)
+
+
+def _held_by_laws(oil: Properties, temperature: Numbers | None) -> Numbers | None:
+    """Temperature [K]; of many points, NaN where a law of the oil does not hold at it."""
+    if temperature is None or not is_many(temperature, *oil.arrays().values()):
+        return temperature
+    for key, name in law_names(oil).items():
+        law = LAWS[key][name]
+        if law.holds is not None:
+            holds = law.holds(temperature, **_given(oil, law))
+            if is_many(holds):
+                temperature = np.where(holds, temperature, math.nan)
+    return temperature
+
+
 def bound(
-    oil: Properties, key: str, temperature: float | None, viscosity: float, known: Mapping[str, float]
+    oil: Properties, key: str, temperature: Numbers | None, viscosity: Numbers, known: Mapping[str, Numbers]
 ) -> BoundLaw:
     """Law of an oil for a key of ``LAWS``, with its parameters at a temperature [K]. ``temperature``,
     temperature [K]; None if there is none; ``viscosity``, viscosity of the oil at zero pressure and this
@@ -115,7 +150,8 @@ def bound(
     values = _parameters(oil, law, viscosity, temperature)
     own = {parameter.name for parameter in law.parameters}
     values |= {name: value for name, value in known.items() if name in own}
-    return BoundLaw(law.function, values, temperature)
+    found = BoundLaw(law.function, values, temperature)
+    return replace(found, function=over_points(law.function)) if found.many else found
 
 
 def sheet_conductivity(oil: Properties) -> BoundLaw | None:
@@ -124,14 +160,14 @@ def sheet_conductivity(oil: Properties) -> BoundLaw | None:
     return None if value is None else BoundLaw(constant_thermal_conductivity, {"thermal_conductivity": value})
 
 
-def conductivity_at(oil: Properties, temperature: float | None, law: BoundLaw | None) -> float | None:
+def conductivity_at(oil: Properties, temperature: Numbers | None, law: BoundLaw | None) -> Numbers | None:
     """Electrical conductivity at a temperature [S/m], by the table or the law of an oil; None without one."""
     table = oil.conductivity_table
     if table is not None:
         name = "lubricant.conductivity_table"
         at = required(temperature, name)
-        return float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
-    return None if law is None else float(law.function(temperature, **law.parameters))
+        return as_float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
+    return None if law is None else as_float(law.function(temperature, **law.parameters))
 
 
 def conductivity_over(oil: Properties, law: BoundLaw | None) -> Callable[[Array], Array] | None:
@@ -167,7 +203,7 @@ def check_range(oil: Properties, temperature: float | None) -> None:
         )
 
 
-def viscosity_at(oil: Properties, temperature: float | None) -> float:
+def viscosity_at(oil: Properties, temperature: Numbers | None) -> Numbers:
     """Viscosity of an oil at zero pressure and a temperature [K], in Pa s. Raises InputError if the viscosity
     depends on a temperature that is not given, or has no value at it.
     """
@@ -175,17 +211,19 @@ def viscosity_at(oil: Properties, temperature: float | None) -> float:
     if law is None:
         assert oil.viscosity is not None
         return oil.viscosity
-    return law(float(required(temperature, "the viscosity of the oil")))
+    return law(as_float(required(temperature, "the viscosity of the oil")))
 
 
-def viscosity_over_temperature(oil: Properties) -> Callable[[float], float] | None:
+def viscosity_over_temperature(oil: Properties) -> Callable[[Numbers], Numbers] | None:
     """Viscosity at zero pressure [Pa s] as a function of temperature [K]; None for a given viscosity."""
     own = VISCOSITY_LAWS[oil.viscosity_law]
     if own.atmospheric is not None:
-        return lambda at: float(own.atmospheric(at, **_given(oil, own)))  # type: ignore[misc]
+        atmospheric = over_points(own.atmospheric)
+        return lambda at: as_float(atmospheric(at, **_given(oil, own)))
     if oil.atmospheric_law is not None:
         law = LAWS["atmospheric_law"][oil.atmospheric_law]
-        return lambda at: float(law.function(at, **_given(oil, law)))
+        function = over_points(law.function)
+        return lambda at: as_float(function(at, **_given(oil, law)))
     sheet = oil.temperature
     if sheet is not None:
         walther = Walther.of(sheet.at_40(), sheet.at_100())
@@ -206,15 +244,16 @@ def depends_on_temperature(oil: Properties) -> bool:
     return density_over_reference(oil, oil.reference_temperature) is not None
 
 
-def temperature_coefficient(oil: Properties, temperature: float) -> float | None:
+def temperature_coefficient(oil: Properties, temperature: Numbers) -> Numbers | None:
     """Temperature coefficient of the viscosity, -d ln(eta)/dT [1/K]; None for a given viscosity."""
     law = viscosity_over_temperature(oil)
     if law is None:
         return None
-    return math.log(law(temperature - _STEP) / law(temperature + _STEP)) / (2.0 * _STEP)
+    cold, warm = (_held_by_laws(oil, temperature + step) for step in (-_STEP, _STEP))
+    return as_float(np.log(law(cold) / law(warm)) / (2.0 * _STEP))
 
 
-def density_at(oil: Properties, temperature: float | None) -> float | None:
+def density_at(oil: Properties, temperature: Numbers | None) -> Numbers | None:
     """Density of an oil at zero pressure and a temperature [K], in kg/m^3; None if it is not known.
 
     A density without a reference temperature or without an expansion is that at the temperature.
@@ -225,24 +264,27 @@ def density_at(oil: Properties, temperature: float | None) -> float | None:
     return None if oil.density is None else oil.density * (1.0 if ratio is None else ratio)
 
 
-def density_over_reference(oil: Properties, temperature: float | None) -> float | None:
+def density_over_reference(oil: Properties, temperature: Numbers | None) -> Numbers | None:
     """Density at zero pressure over that at the reference temperature; None if it is not known."""
     if temperature is None or oil.reference_temperature is None:
         return None
     difference = temperature - oil.reference_temperature
     by_law = DENSITY_LAWS[oil.density_law].thermal_expansion
     if by_law is not None:
-        return 1.0 / (1.0 + (oil.parameter(by_law) or 0.0) * difference)
+        expansion = oil.parameter(by_law)
+        return 1.0 / (1.0 + (0.0 if expansion is None else expansion) * difference)
     return None if oil.thermal_expansion is None else 1.0 - oil.thermal_expansion * difference
 
 
-def _given(oil: Properties, law: Law) -> dict[str, float]:
+def _given(oil: Properties, law: Law) -> dict[str, Numbers]:
     """Values of those parameters of a law that the table gives, by name, SI units."""
     values = {parameter.name: oil.parameter(parameter.name) for parameter in law.parameters}
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _parameters(oil: Properties, law: Law, viscosity: float, temperature: float | None) -> dict[str, float]:
+def _parameters(
+    oil: Properties, law: Law, viscosity: Numbers, temperature: Numbers | None
+) -> dict[str, Numbers]:
     """Parameters of a law at a temperature [K] at which the oil has this viscosity [Pa s].
 
     Those that the table lacks follow from the viscosity, or from the type of base oil. Those that it gives
@@ -262,23 +304,24 @@ def _parameters(oil: Properties, law: Law, viscosity: float, temperature: float 
         elif oil.atmospheric_law is not None and oil.viscosity is not None:
             # Parameters that a law such as Barus' does not have are factors, which cancel in the ratio.
             of = [1.0 if value is None else value for value in of]
-            values[parameter.name] *= rule.function(viscosity, *of) / rule.function(oil.viscosity, *of)
+            ratio = rule.function(viscosity, *of) / rule.function(oil.viscosity, *of)
+            values[parameter.name] = values[parameter.name] * ratio
     return values
 
 
-def permittivity_at(oil: Properties, temperature: float | None) -> float:
+def permittivity_at(oil: Properties, temperature: Numbers | None) -> Numbers:
     """Relative permittivity at zero pressure and a temperature [K]."""
     table = oil.permittivity_table
     if table is not None:
         name = "lubricant.permittivity_table"
         at = required(temperature, name)
-        return float(interpolated(at, table.temperature, table.relative_permittivity, table=name))
+        return as_float(interpolated(at, table.temperature, table.relative_permittivity, table=name))
     assert oil.relative_permittivity is not None
     ratio = density_over_reference(oil, temperature)
     if ratio is None:
         return oil.relative_permittivity
     law = PERMITTIVITY_LAWS[oil.permittivity_law]
-    return float(law.function(ratio, temperature, **_given(oil, law)))
+    return as_float(over_points(law.function)(ratio, temperature, **_given(oil, law)))
 
 
 def range_check(oil: Properties, key: str, temperature: float | None, viscosity: float) -> RangeCheck | None:
@@ -315,9 +358,10 @@ class Lubricant(Properties):
             )
         return self
 
-    def at(self, temperature: float | None, key: str = "contact.temperature") -> Oil:
-        """Numbers and laws of the oil at a temperature [K]. Raises InputError if the oil needs a temperature
-        and none is given, or if a law has no value at this temperature.
+    def at(self, temperature: Numbers | None, key: str = "contact.temperature") -> Oil:
+        """Numbers and laws of the oil at a temperature [K], or at the temperatures of many points, shape
+        (n,). Raises InputError if the oil needs a temperature and none is given, or if a law has no value at
+        this temperature. Of many points, those at which the oil has no value are ``Oil.refused``.
 
         Examples
         --------
@@ -328,7 +372,7 @@ class Lubricant(Properties):
         (12.46, 17.9)
         """
         latest = _latest[-1] if _latest else None
-        if latest is None or latest[0] is not self or latest[1] != temperature:
+        if latest is None or latest[0] is not self or not same(latest[1], temperature):
             # Tables are frozen, so that the oil of the same table at the same temperature is the same.
             latest = (self, temperature, oil_at(self, temperature, key))
             _latest[:] = [latest]
@@ -336,7 +380,31 @@ class Lubricant(Properties):
 
 
 # Oil that was made last, with its table and its temperature; a solution asks for its oil many times.
-_latest: list[tuple[Lubricant, float | None, Oil]] = []
+_latest: list[tuple[Lubricant, Numbers | None, Oil]] = []
+
+
+def refusals(
+    lubricant: Lubricant, temperature: Numbers | None, key: str = "contact.temperature"
+) -> list[InputError | None]:
+    """Errors of many points at which an oil has no value at its temperature [K]; None at the other points.
+
+    Each is the error that ``Lubricant.at`` raises for the oil and the temperature of the one point.
+
+    Examples
+    --------
+    >>> oil = Lubricant.from_dict({"base": "fva-3"})
+    >>> print(refusals(oil, np.array([313.15, 500.0]))[1])  # doctest: +ELLIPSIS
+    contact.temperature: got 226.9 degC; expected ...
+    """
+    refused = lubricant.at(temperature, key).refused
+    errors: list[InputError | None] = [None] * np.size(refused)
+    for index in np.flatnonzero(refused).tolist():
+        at = temperature if temperature is None else np.broadcast_to(temperature, refused.shape)[index]
+        try:
+            lubricant.single(index).at(None if at is None else float(at), key)
+        except InputError as error:
+            errors[index] = error
+    return errors
 
 
 T = TypeVar("T")
@@ -474,7 +542,7 @@ class _Found:
         check_parameters(self.table, choice, LAWS[choice][name])
         return name
 
-    def viscosity(self) -> float:
+    def viscosity(self) -> Numbers:
         """Viscosity at zero pressure [Pa s]."""
         check_viscosity(self.table)
         if LAWS["viscosity_law"][self.table.viscosity_law].atmospheric is not None:
@@ -483,7 +551,7 @@ class _Found:
             self.complete("atmospheric_law")
         return viscosity_at(self.table, self.temperature)
 
-    def permittivity(self) -> float:
+    def permittivity(self) -> Numbers:
         """Relative permittivity at zero pressure."""
         self.complete("permittivity_law")
         return permittivity_at(self.table, self.temperature)

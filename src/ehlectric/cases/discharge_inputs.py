@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from typing import Literal, Self
 
+import numpy as np
 from pydantic import model_validator
 
+from ehlectric.arrays import Numbers
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ALTERNATIVES
@@ -145,9 +147,10 @@ class BearingDischarge(Discharge):
                 takes="bearing.temperature in its place, at which the strength is taken",
             )
 
-    def at(self, temperature: float, key: str = "bearing.temperature") -> Discharge:
-        """Inputs of the discharge at a temperature [K], at which a strength table over temperature is read.
-        Raises InputError if the temperature is outside this table.
+    def at(self, temperature: Numbers, key: str = "bearing.temperature") -> Discharge:
+        """Inputs of the discharge at a temperature [K], at which a strength table over temperature is read;
+        of many points, shape (n,). Raises InputError if the temperature is outside this table; of many
+        points, those outside have NaN for their temperature and their strength.
 
         Examples
         --------
@@ -155,11 +158,17 @@ class BearingDischarge(Discharge):
         >>> BearingDischarge.from_dict({"strength_table": table}).at(343.15).temperature
         343.15
         """
-        table = self.model_dump(exclude_none=True, exclude=_OF_WHOLE_BEARING)
-        if self.strength_table is not None and self.strength_table.over == "temperature":
-            table["temperature"] = temperature
-        try:
-            return Discharge.from_dict(table)
-        except InputError as error:
-            whole = key if error.key == "temperature" else f"bearing.{error.key}"
-            raise error.retold(whole, error.text) from None
+        names = Discharge.model_fields.keys() - _OF_WHOLE_BEARING
+        kept = {name: value for name in names if (value := getattr(self, name)) is not None}
+        table, many = self.strength_table, bool(np.ndim(temperature))
+        if table is not None and table.over == "temperature":
+            outside = np.less(temperature, table.places[0]) | np.greater(temperature, table.places[-1])
+            kept["temperature"] = np.where(outside, np.nan, temperature) if many else temperature
+        # All other rules hold for this table, which was checked with them.
+        found = Discharge.model_construct(**kept)
+        if not many:
+            try:
+                found._check_temperature()
+            except InputError as error:
+                raise error.retold(key, error.text) from None
+        return found

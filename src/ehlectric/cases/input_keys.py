@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any, get_args, get_origin
+from typing import Any
 
 from pydantic.fields import FieldInfo
 
@@ -14,7 +14,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.oil_inputs import law_parameters
-from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
+from ehlectric.cases.table import Table, annotation_of, any_of, meant, nearest, number_of, table_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at, inputs, table_and_key
 from ehlectric.quantities.quantity import Quantity
@@ -234,28 +234,6 @@ def _in_a_table(key: str) -> bool:
     return any(name in model.known_keys() for model in (Case, BearingCase, DriveCase))
 
 
-def number_of(field: FieldInfo) -> Amount | Count | None:
-    """Quantity or count of a field that is a number; None for a text, a list or a choice.
-
-    Examples
-    --------
-    >>> number_of(input_field("contact.entrainment_speed")).unit
-    'm/s'
-    """
-    annotation = None if get_origin(field.annotation) is tuple else _annotation(field)
-    return None if isinstance(annotation, Amounts) else annotation
-
-
-def _annotation(field: FieldInfo) -> Amount | Amounts | Count | None:
-    """Annotation of a field that is a number or a list of numbers; None for other fields."""
-    parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
-    for part in parts:
-        for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
-            if isinstance(item, Amount | Amounts | Count):
-                return item
-    return None
-
-
 def unit_of(key: str) -> str:
     """SI unit of an input, as pint writes it.
 
@@ -270,7 +248,7 @@ def unit_of(key: str) -> str:
         return ""
     try:
         name = key.rstrip("0123456789").rstrip(".") if key[-2:-1] == "." else key
-        annotation = _annotation(input_field(name))
+        annotation = annotation_of(input_field(name))
     except InputError:
         return ""
     each = annotation.each if isinstance(annotation, Amounts) else annotation

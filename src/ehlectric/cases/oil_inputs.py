@@ -23,6 +23,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, InitErrorDetails
 
+from ehlectric.arrays import Numbers
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, Amounts, amount_at, with_bounds
 from ehlectric.cases.library.library_oils import Grade
@@ -37,7 +38,7 @@ from ehlectric.lubricant.electrical_laws import (
     RELATIVE_PERMITTIVITY,
 )
 from ehlectric.lubricant.heat_laws import HEAT_CAPACITY_LAWS, THERMAL_CONDUCTIVITY_LAWS
-from ehlectric.lubricant.law import Law, Parameter
+from ehlectric.lubricant.law import Law, Parameter, is_many, same
 from ehlectric.lubricant.over_temperature import ATMOSPHERIC_LAWS, Walther, density
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands_exponent
 
@@ -155,6 +156,19 @@ SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100"
 _at_100 = lru_cache(maxsize=64)(viscosity_at_100)
 
 
+def _of_index(at_40: Numbers, index: Numbers) -> Numbers:
+    """Kinematic viscosity at 100 degC [m^2/s] of an oil, or of many, with a viscosity index."""
+    if not is_many(at_40, index):
+        return _at_100(at_40, index)
+    if not (_latest and same(_latest[0][0], at_40) and same(_latest[0][1], index)):
+        _latest[:] = [(at_40, index, viscosity_at_100(at_40, index))]
+    return _latest[0][2]
+
+
+# Roots of many oils that were found last, with their arguments.
+_latest: list[tuple[Numbers, Numbers, Numbers]] = []
+
+
 class OilTemperature(Table, book="lubricant.temperature"):
     """Viscosity, density, thermal expansion and thermal conductivity of an oil over temperature."""
 
@@ -180,22 +194,22 @@ class OilTemperature(Table, book="lubricant.temperature"):
         self.at_100()
         return self
 
-    def at_40(self) -> float:
+    def at_40(self) -> Numbers:
         """Kinematic viscosity at 40 degC [m^2/s]: the given one, or the middle of the ISO viscosity grade."""
         if self.kinematic_viscosity_40 is not None:
             return self.kinematic_viscosity_40
         assert self.iso_vg is not None
         return grade_middle(self.iso_vg)
 
-    def at_100(self) -> float:
+    def at_100(self) -> Numbers:
         """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index. Raises
-        InputError if an oil with this index is too thin for ASTM D2270.
+        InputError if an oil with this index is too thin for ASTM D2270; of many oils, those have NaN.
         """
         if self.kinematic_viscosity_100 is not None:
             return self.kinematic_viscosity_100
         assert self.viscosity_index is not None
         try:
-            return _at_100(self.at_40(), self.viscosity_index)
+            return _of_index(self.at_40(), self.viscosity_index)
         except ValueError as error:
             got = f"{self.viscosity_index:g} ({error})"
             raise InputError(
@@ -217,9 +231,10 @@ def of_base_oil(oil: Properties) -> frozenset[str]:
     return frozenset({EXPONENT} if oil.parameter(ALPHA) is not None else {ALPHA, EXPONENT})
 
 
-def estimated_alpha(oil: Properties, temperature: float | None) -> Estimate | None:
+def estimated_alpha(oil: Properties, temperature: Numbers | None) -> Estimate | None:
     """Estimate of the coefficient at a temperature [K]; None where the table says what it is. Raises
-    InputError if the viscosity is outside the range in which the estimate holds.
+    InputError if the viscosity is outside the range in which the estimate holds; of many points, those have
+    NaN.
     """
     sheet = oil.temperature
     if sheet is None or sheet.base_oil is None or temperature is None or ALPHA not in of_base_oil(oil):
@@ -233,7 +248,7 @@ def estimated_alpha(oil: Properties, temperature: float | None) -> Estimate | No
     )
 
 
-def base_oil_values(oil: Properties, viscosity: float, temperature: float | None) -> dict[str, float]:
+def base_oil_values(oil: Properties, viscosity: Numbers, temperature: Numbers | None) -> dict[str, Numbers]:
     """Values of the parameters that follow from the type of base oil, at a viscosity [Pa s]."""
     names = of_base_oil(oil)
     estimate = estimated_alpha(oil, temperature)
@@ -420,11 +435,10 @@ class Properties(Table, book="lubricant"):
         """Whether the case gives a parameter of a law, or its data sheet the density."""
         return self.parameter(name) is not None or (name == "density" and self.temperature is not None)
 
-    def parameter(self, name: str) -> float | None:
+    def parameter(self, name: str) -> Numbers | None:
         """Value of a parameter of a law in SI units; None if the case does not give it."""
-        extra = self.__pydantic_extra__ or {}
-        value: float | None = extra[name] if name in extra else getattr(self, name)
-        return value
+        given: Numbers | None = (self.__pydantic_extra__ or {}).get(name)
+        return self.__dict__.get(name) if given is None else given
 
     @classmethod
     def key_names(cls) -> Iterator[str]:

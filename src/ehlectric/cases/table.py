@@ -34,17 +34,25 @@ from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.reading import read_text
 from ehlectric.runtime.values import Tabled
 
+if TYPE_CHECKING:
+    from ehlectric.arrays import Array
+
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "BOOK",
+    "arrays",
     "check_one_of",
     "check_over",
     "first_grid",
     "from_written",
     "known_keys",
     "own_laws",
+    "shape",
     "sign_of",
+    "single",
+    "with_arrays",
     "with_laws",
+    "with_values",
 }
 
 
@@ -215,6 +223,33 @@ class Table(BaseModel, metaclass=_Listed):
             got = f"{' and '.join(given)} together" if given else None
             raise InputError(given[0] if given else keys[0], got=got, takes=takes)
 
+    def arrays(self) -> dict[str, Array]:
+        """Arrays of the keys that have a number for each of many points, by dotted key; none by default."""
+        found: dict[str, Array] = {}
+        for name, value in (*self.__dict__.items(), *(self.__pydantic_extra__ or {}).items()):
+            if isinstance(value, Table):
+                found |= {f"{name}.{key}": array for key, array in value.arrays().items()}
+            elif getattr(value, "ndim", 0):
+                found[name] = value
+        return found
+
+    def with_values(self, values: Mapping[str, Any]) -> Self:
+        """Copy with values of dotted keys in its tables, which are not checked."""
+        nested: dict[str, dict[str, Any]] = {}
+        changes: dict[str, Any] = {}
+        for key, value in values.items():
+            first, _, rest = key.partition(".")
+            if rest:
+                nested.setdefault(first, {})[rest] = value
+            else:
+                changes[first] = value
+        changes |= {name: getattr(self, name).with_values(inner) for name, inner in nested.items()}
+        return self.model_copy(update=changes)
+
+    def single(self, index: int) -> Self:
+        """Table of one of many points, with its numbers as floats, which are not checked."""
+        return self.with_values({key: float(array[index]) for key, array in self.arrays().items()})
+
     @classmethod
     def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
         """Text that tells why a missing key is expected beside the given keys; empty by default."""
@@ -230,7 +265,11 @@ class CaseFile(Tabled, Table):
     """Table of a whole file: a case of a contact, a bearing or a drive."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units."""
+        """Return all values that are set as nested tables, in SI units; InputError for many points."""
+        if arrays := self.arrays():
+            raise InputError(
+                next(iter(arrays)), got="an array", takes="a number; single(index) has those of a point"
+            )
         return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
@@ -481,6 +520,29 @@ def table_of(annotation: Any) -> type[Table] | None:
     for candidate in candidates:
         if isinstance(candidate, type) and issubclass(candidate, Table):
             return candidate
+    return None
+
+
+def number_of(field: FieldInfo) -> Amount | Count | None:
+    """Quantity or count of a field that is a number; None for a text, a list or a choice.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.input_keys import input_field
+    >>> number_of(input_field("contact.entrainment_speed")).unit
+    'm/s'
+    """
+    annotation = None if get_origin(field.annotation) is tuple else annotation_of(field)
+    return None if isinstance(annotation, Amounts) else annotation
+
+
+def annotation_of(field: FieldInfo) -> Amount | Amounts | Count | None:
+    """Annotation of a field that is a number or a list of numbers; None for other fields."""
+    parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
+    for part in parts:
+        for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
+            if isinstance(item, Amount | Amounts | Count):
+                return item
     return None
 
 

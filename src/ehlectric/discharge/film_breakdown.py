@@ -111,8 +111,9 @@ class FieldUtilisation:
 
 def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Array | None = None) -> Array:
     """Dielectric strength of a film at given pressures. ``pressure`` [Pa], shape (...); ``temperature``,
-    temperature in a film with heat [K], in place of that of the discharge, shape (...). Returns dielectric
-    strength [V/m], shape (...).
+    temperature in a film with heat [K], in place of that of the discharge, shape (...). The discharge of many
+    points has values of shape (n,), which are the last axis of the pressures. Returns dielectric strength
+    [V/m], shape (...).
 
     Examples
     --------
@@ -124,11 +125,13 @@ def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Arra
     table = discharge.strength_table
     if table is None:
         constant = discharge.dielectric_strength
-        return np.full_like(pressure, 1.0 if constant is None else constant)
-    warm = np.full_like(pressure, discharge.temperature) if temperature is None else temperature
-    at = pressure if table.over == "pressure" else warm
-    strength: Array = np.interp(at, table.places, table.strength)
-    return strength
+        return np.zeros(np.shape(pressure)) + (1.0 if constant is None else constant)
+    if table.over == "pressure":
+        at: Numbers = pressure
+    else:
+        warm: Numbers = discharge.temperature if temperature is None else temperature
+        at = np.zeros(np.shape(pressure)) + warm
+    return np.asarray(np.interp(at, table.places, table.strength))
 
 
 @dataclass(frozen=True)

@@ -21,21 +21,21 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz import dry_contact
 
 
-def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:
+def inlet_shear_factor(viscosity: Numbers, slope: Numbers, speed: Numbers, conductivity: Numbers) -> Numbers:
     """Reduction factor of the central film thickness due to shear heating in the inlet, in pure rolling.
 
     1/(1 + 0.241 L^0.64) with the thermal loading parameter L = eta0 beta u^2/k
 
     ``viscosity``, viscosity eta0 at the inlet temperature [Pa s]; ``slope``, temperature coefficient of
     viscosity beta = -d ln(eta0)/dT [1/K]; ``speed``, mean speed u of both surfaces [m/s]; ``conductivity``,
-    thermal conductivity k of the oil [W/(m K)]. Returns central film thickness over the isothermal one, from
-    0 to 1.
+    thermal conductivity k of the oil [W/(m K)]; all of shape (...). Returns central film thickness over the
+    isothermal one, from 0 to 1, shape (...).
 
     W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
     thickness, ASME J. Lubr. Technol. 105 (1983) 187, doi:10.1115/1.3254563, eq. (8). It was derived for the
@@ -48,7 +48,7 @@ def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivit
     0.848
     """
     loading = viscosity * slope * speed**2 / conductivity
-    return float(1.0 / (1.0 + 0.241 * loading**0.64))
+    return as_float(1.0 / (1.0 + 0.241 * loading**0.64))
 
 
 # Constant K_rs of SKF's factor, by the way in which the oil is supplied. A flooded bearing has no reduction.
@@ -65,7 +65,7 @@ _RPM = 30.0 / math.pi
 
 
 def replenishment_factor(
-    speed: ArrayLike, viscosity: ArrayLike, *, bore: float, outer_diameter: float, supply: str, kind: str
+    speed: ArrayLike, viscosity: ArrayLike, *, bore: Numbers, outer_diameter: Numbers, supply: str, kind: str
 ) -> Array:
     """Kinematic replenishment factor of a rolling bearing after SKF.
 
@@ -73,8 +73,8 @@ def replenishment_factor(
 
     ``speed``, rotational speed n of the inner ring [rad/s], >= 0, shape (...); ``viscosity``, kinematic
     viscosity nu of the oil, or of the base oil of a grease, in operation [m^2/s], shape (...); ``bore`` and
-    ``outer_diameter``, bore d and outside diameter D of the bearing [m]. Returns factor from 0 to 1,
-    dimensionless, shape (...).
+    ``outer_diameter``, bore d and outside diameter D of the bearing [m], shape (...). Returns factor from 0
+    to 1, dimensionless, shape (...).
 
     SKF, Rolling bearings, PUB BU/P1 17000, and The SKF model for calculating the frictional moment. The form,
     K_rs, and K_Z of ball bearings agree in three or more independent programs; the K_Z of cylindrical rollers
@@ -94,7 +94,7 @@ def replenishment_factor(
     """
     turns, nu = _RPM * np.asarray(speed, dtype=float), 1e6 * np.asarray(viscosity, dtype=float)
     inner, outer = 1e3 * bore, 1e3 * outer_diameter
-    shape = (inner + outer) * math.sqrt(GEOMETRY_CONSTANTS[kind] / (2.0 * (outer - inner)))
+    shape = (inner + outer) * np.sqrt(GEOMETRY_CONSTANTS[kind] / (2.0 * (outer - inner)))
     return np.asarray(np.exp(-SUPPLY_CONSTANTS[supply] * nu * turns * shape))
 
 

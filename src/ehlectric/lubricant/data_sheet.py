@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
 from scipy.optimize import brentq
+from scipy.optimize.elementwise import find_root
 
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.errors import InputError, ResultWarning, shown
 
 # Viscosity grades of ISO 3448. The middle of a grade is its number in mm^2/s at 40 degC, except for the four
@@ -21,6 +24,9 @@ GRADE_WIDTH = 0.1
 # Range of viscosities at 100 degC for which ASTM D2270 gives its reference oils [mm^2/s]. Above 70 mm^2/s its
 # equations have no upper end; the largest value keeps the search finite.
 LEAST_AT_100, _MOST_AT_100 = 2.0, 1e4
+
+# Error of a viscosity at 100 degC that follows from an index [mm^2/s].
+_CLOSE = 1e-12
 
 # Reference oils of ASTM D2270-10, appendix X2: viscosities at 40 degC of an oil of index 0, which is
 # L = a Y^2 + b Y + c, and of one of index 100, H = d Y^2 + e Y + f, with the same viscosity Y at 100 degC, in
@@ -62,7 +68,12 @@ def grade_middle(grade: int) -> float:
 
 def _reference(at_100: float) -> tuple[float, float]:
     """Viscosities L and H at 40 degC of the reference oils with this viscosity at 100 degC, in mm^2/s."""
-    _, a, b, c, d, e, f = _REFERENCE[max(bisect_right(_FROM, at_100) - 1, 0)]
+    return _curves(_REFERENCE[max(bisect_right(_FROM, at_100) - 1, 0)][1:], at_100)
+
+
+def _curves(row: Iterable[Numbers], at_100: Numbers) -> tuple[Numbers, Numbers]:
+    """Viscosities L and H by the six constants of a row."""
+    a, b, c, d, e, f = row
     return (a * at_100 + b) * at_100 + c, (d * at_100 + e) * at_100 + f
 
 
@@ -89,16 +100,19 @@ def viscosity_index(at_40: float, at_100: float) -> float:
     return 100.0 + (math.pow(10.0, math.log10(high / u) / math.log10(y)) - 1.0) / _B
 
 
-def viscosity_at_100(at_40: float, index: float) -> float:
+def viscosity_at_100(at_40: Numbers, index: Numbers) -> Numbers:
     """Kinematic viscosity at 100 degC of an oil with a viscosity index: ASTM D2270 solved for it. ``at_40``,
-    kinematic viscosity at 40 degC [m^2/s]. Returns kinematic viscosity at 100 degC [m^2/s]. Raises ValueError
-    if the oil has less than 2 mm^2/s at 100 degC, or more than the equations are solved for.
+    kinematic viscosity at 40 degC [m^2/s]; it and the index are floats, or arrays of shape (...) of many
+    oils. Returns kinematic viscosity at 100 degC [m^2/s]. Raises ValueError if the oil has less than 2 mm^2/s
+    at 100 degC, or more than the equations are solved for; of many oils, those have NaN.
 
     Examples
     --------
     >>> round(viscosity_at_100(46e-6, 100.0) * 1e6, 2)
     6.76
     """
+    if np.ndim(at_40) or np.ndim(index):
+        return _many_at_100(1e6 * np.asarray(at_40), np.asarray(index, dtype=float))
     target = 1e6 * at_40
     bottom, top = LEAST_AT_100, _MOST_AT_100
     if not _at_40(bottom, index) <= target <= _at_40(top, index):
@@ -106,7 +120,7 @@ def viscosity_at_100(at_40: float, index: float) -> float:
             f"an oil with {target:g} mm^2/s at 40 degC and viscosity index {index:g} has less than "
             f"{LEAST_AT_100:g} mm^2/s at 100 degC, the least of ASTM D2270"
         )
-    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, index) - target, bottom, top, xtol=1e-12))
+    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, index) - target, bottom, top, xtol=_CLOSE))
 
 
 def _at_40(at_100: float, index: float) -> float:
@@ -115,6 +129,27 @@ def _at_40(at_100: float, index: float) -> float:
     if index <= 100.0:
         return low - 0.01 * index * (low - high)
     return high / math.pow(at_100, math.log10(1.0 + _B * (index - 100.0)))
+
+
+def _many_at_100(target: Array, index: Array) -> Array:
+    """Viscosities at 100 degC [m^2/s] of oils with viscosities at 40 degC [mm^2/s] and indices."""
+    target, index = np.broadcast_arrays(target, index)
+    constants = np.array(_REFERENCE)[:, 1:].T
+
+    def difference(at_100: Array, target: Array, index: Array) -> Array:
+        row = np.maximum(np.searchsorted(_FROM, at_100, side="right") - 1, 0)
+        low, high = _curves(constants[:, row], at_100)
+        above = high / at_100 ** np.log10(1.0 + _B * np.maximum(index - 100.0, 0.0))
+        return np.asarray(np.where(index <= 100.0, low - 0.01 * index * (low - high), above) - target)
+
+    ends = np.full(target.shape, LEAST_AT_100), np.full(target.shape, _MOST_AT_100)
+    known = (difference(ends[0], target, index) <= 0.0) & (difference(ends[1], target, index) >= 0.0)
+    found = np.full(target.shape, np.nan)
+    if np.any(known):
+        of = target[known], index[known]
+        bracket = ends[0][known], ends[1][known]
+        found[known] = find_root(difference, bracket, args=of, tolerances={"xatol": _CLOSE}).x
+    return 1e-6 * found
 
 
 # Kinematic viscosities for which the correlations were compared with measured coefficients [m^2/s].
@@ -134,7 +169,7 @@ GOLD = (
 class Estimate:
     """Estimated value of a property, with its scatter and its source."""
 
-    value: float  # estimated value, SI units
+    value: Numbers  # estimated value, SI units
     scatter: float  # relative deviation of measured values from the estimate, which nine of ten do not exceed
     source: str
     base_oil: str
@@ -146,7 +181,7 @@ class Estimate:
         yield ResultWarning.of("estimated-alpha", alpha=alpha, base_oil=self.base_oil, percent=percent)
 
 
-def so_klaus(kinematic_viscosity: float, slope: float, density: float) -> float:
+def so_klaus(kinematic_viscosity: Numbers, slope: Numbers, density: Numbers) -> Numbers:
     """Pressure-viscosity coefficient of a mineral oil after So and Klaus.
 
     alpha = 1.216 + 4.143 L^3.0627 + 2.848e-4 b^5.1903 L^1.5976 - 3.999 L^3.0975 rho^0.1162, in 10 1/GPa, with
@@ -166,9 +201,9 @@ def so_klaus(kinematic_viscosity: float, slope: float, density: float) -> float:
     >>> round(so_klaus(96e-6, 3.585, 863.0) * 1e9, 1)
     28.1
     """
-    log, grams = math.log10(1e6 * kinematic_viscosity), 1e-3 * density
+    log, grams = np.log10(1e6 * kinematic_viscosity), 1e-3 * density
     straight = 1.216 + 4.143 * log**3.0627 + 2.848e-4 * slope**5.1903 * log**1.5976
-    return float(1e-8 * (straight - 3.999 * log**3.0975 * grams**0.1162))
+    return as_float(1e-8 * (straight - 3.999 * log**3.0975 * grams**0.1162))
 
 
 @dataclass(frozen=True)
@@ -188,9 +223,9 @@ class Gold:
     s: float
     t: float
 
-    def __call__(self, kinematic_viscosity: float, slope: float, density: float) -> float:  # noqa: ARG002
+    def __call__(self, kinematic_viscosity: Numbers, slope: Numbers, density: Numbers) -> Numbers:  # noqa: ARG002
         """Pressure-viscosity coefficient [1/Pa] at a kinematic viscosity [m^2/s]."""
-        return 1e-9 * self.s * float((1e6 * kinematic_viscosity) ** self.t)
+        return as_float(1e-9 * self.s * (1e6 * kinematic_viscosity) ** self.t)
 
 
 @dataclass(frozen=True)
@@ -198,7 +233,7 @@ class BaseOil:
     """Type of base oil: its correlation for the pressure-viscosity coefficient."""
 
     # Coefficient [1/Pa] as a function of kinematic viscosity [m^2/s], slope and density [kg/m^3].
-    correlation: Callable[[float, float, float], float]
+    correlation: Callable[[Numbers, Numbers, Numbers], Numbers]
     scatter: float  # relative deviation that nine of ten measured coefficients do not exceed
     source: str
 
@@ -212,14 +247,17 @@ BASE_OILS = {
 }
 
 
-def alpha_estimate(base_oil: str, kinematic_viscosity: float, *, slope: float, density: float) -> Estimate:
+def alpha_estimate(
+    base_oil: str, kinematic_viscosity: Numbers, *, slope: Numbers, density: Numbers
+) -> Estimate:
     """Pressure-viscosity coefficient of an oil, estimated from its type of base oil.
 
     ``kinematic_viscosity``, kinematic viscosity at ambient pressure and the temperature of the oil [m^2/s];
     ``slope``, constant B of ASTM D341, dimensionless; see ``Walther``; ``density``, density at ambient
     pressure and the temperature of the oil [kg/m^3]. Returns coefficient [1/Pa], with its scatter and its
-    source. Raises InputError if the type is not known, or the viscosity is outside the range in which the
-    correlations were compared with measurements.
+    source; the arguments are floats, or arrays of shape (...) of many points. Raises InputError if the type
+    is not known, or the viscosity is outside the range in which the correlations were compared with
+    measurements; of many points, those outside have NaN.
 
     The publications' own scatter could not be read. The scatter given here is that of the coefficients in
     the unit tests of this module: table 10.2 of ESDU 85027 (1985) with 13 mineral oils, castor oil, a
@@ -237,7 +275,10 @@ def alpha_estimate(base_oil: str, kinematic_viscosity: float, *, slope: float, d
         raise InputError(
             "temperature.base_oil", got=shown(base_oil), takes=f"one of {', '.join(map(repr, BASE_OILS))}"
         )
-    if not LEAST <= kinematic_viscosity <= MOST:
+    outside = ~(np.greater_equal(kinematic_viscosity, LEAST) & np.less_equal(kinematic_viscosity, MOST))
+    if np.ndim(kinematic_viscosity):
+        kinematic_viscosity = np.where(outside, np.nan, kinematic_viscosity)
+    elif outside:
         raise InputError(
             "temperature.base_oil",
             got=f"an oil with {1e6 * kinematic_viscosity:.3g} mm^2/s at its temperature",

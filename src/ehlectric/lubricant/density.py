@@ -8,7 +8,7 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import Law, parameters_of, required
 
@@ -20,22 +20,22 @@ LEAST_VOLUME = 0.5
 class TaitState(TypedDict):
     """Parameters of ``tait``, which laws take that follow its volume."""
 
-    tait_k0_prime: float
-    tait_k00: float
-    tait_beta_k: float
-    tait_expansion: float
-    reference_temperature: float
+    tait_k0_prime: Numbers
+    tait_k00: Numbers
+    tait_beta_k: Numbers
+    tait_expansion: Numbers
+    reference_temperature: Numbers
 
 
 def tait(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    tait_k0_prime: Numbers,
+    tait_k00: Numbers,
+    tait_beta_k: Numbers,
+    tait_expansion: Numbers,
+    reference_temperature: Numbers,
 ) -> tuple[Array, Array]:
     """Density ratio after Tait's equation of state, and its derivative by pressure.
 
@@ -70,7 +70,7 @@ def tait(
     return 1.0 / volume, np.where(liquid, 1.0 / ((modulus + p * steepness) * volume**2), 0.0)
 
 
-def tait_modulus(temperature: ArrayLike | None, k00: float, beta_k: float, law: str = "tait") -> Array:
+def tait_modulus(temperature: ArrayLike | None, k00: Numbers, beta_k: Numbers, law: str = "tait") -> Array:
     """Bulk modulus at zero pressure, K0 = K00 exp(-beta_K T), in Pa. ``temperature`` [K], shape (...);
     ``k00`` and ``beta_k``, constants K00 [Pa] and beta_K [1/K].
 
@@ -86,11 +86,11 @@ def tait_pressure(
     density_ratio: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    tait_k0_prime: float,
-    tait_k00: float,
-    tait_beta_k: float,
-    tait_expansion: float,
-    reference_temperature: float,
+    tait_k0_prime: Numbers,
+    tait_k00: Numbers,
+    tait_beta_k: Numbers,
+    tait_expansion: Numbers,
+    reference_temperature: Numbers,
 ) -> Array:
     """Pressure [Pa] at which Tait's equation has a density ratio; the inverse of ``tait``. ``density_ratio``,
     density over that at zero pressure and the same temperature, dimensionless, from 1 to 2, shape (...);
@@ -121,11 +121,11 @@ def murnaghan(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    murnaghan_k0_prime: float,
-    murnaghan_k00: float,
-    murnaghan_beta_k: float,
-    murnaghan_expansion: float,
-    reference_temperature: float,
+    murnaghan_k0_prime: Numbers,
+    murnaghan_k00: Numbers,
+    murnaghan_beta_k: Numbers,
+    murnaghan_expansion: Numbers,
+    reference_temperature: Numbers,
 ) -> tuple[Array, Array]:
     """Density ratio after Murnaghan's equation of state, and its derivative by pressure.
 
@@ -171,7 +171,7 @@ MURNAGHAN = Law(
 
 
 def dowson_higginson(
-    pressure: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: Numbers, density_c2: Numbers
 ) -> tuple[Array, Array]:
     """Density ratio after Dowson and Higginson, and its derivative by pressure.
 

@@ -9,13 +9,14 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.lubricant.density import LEAST_VOLUME, TaitState, tait, tait_pressure
 from ehlectric.lubricant.law import (
     GLASS_VISCOSITY,
     Law,
     glass_warnings,
+    is_many,
     parameters_of,
     required,
     within,
@@ -28,10 +29,10 @@ def doolittle(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    doolittle_viscosity: float,
-    doolittle_b: float,
-    doolittle_r0: float,
-    doolittle_epsilon: float,
+    doolittle_viscosity: Numbers,
+    doolittle_b: Numbers,
+    doolittle_r0: Numbers,
+    doolittle_epsilon: Numbers,
     **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Doolittle's free-volume law, and its derivative by pressure.
@@ -84,63 +85,72 @@ class _Doolittle:
 
     def __init__(
         self,
-        doolittle_viscosity: float,
-        doolittle_b: float,
-        doolittle_r0: float,
-        doolittle_epsilon: float,
+        doolittle_viscosity: Numbers,
+        doolittle_b: Numbers,
+        doolittle_r0: Numbers,
+        doolittle_epsilon: Numbers,
         **state: Unpack[TaitState],
     ) -> None:
         self.viscosity, self.epsilon = doolittle_viscosity, doolittle_epsilon
         self.b, self.r0, self.state = doolittle_b, doolittle_r0, state
         self.expansion, self.reference = state["tait_expansion"], state["reference_temperature"]
 
-    def occupied(self, warmer: Array) -> Array:
+    def occupied(self, warmer: Numbers) -> Numbers:
         """Occupied volume w."""
         return 1.0 + self.epsilon * warmer
 
-    def expanded(self, warmer: Array) -> Array:
+    def expanded(self, warmer: Numbers) -> Numbers:
         """Volume v at zero pressure."""
         return 1.0 + self.expansion * warmer
 
-    def free(self, warmer: Array) -> Array:
+    def free(self, warmer: Numbers) -> Numbers:
         """Free volume v - R0 w at zero pressure."""
         return self.expanded(warmer) - self.r0 * self.occupied(warmer)
 
-    def share(self) -> float:
+    def share(self) -> Numbers:
         """Occupied over free volume, w/(v - R0 w), at the glass transition."""
-        exponent = float(np.log(GLASS_VISCOSITY / self.viscosity))
+        exponent = np.log(GLASS_VISCOSITY / self.viscosity)
         return exponent / (self.b * self.r0) + 1.0 / (1.0 - self.r0)
 
-    def least_free(self, occupied: Array) -> Array:
+    def least_free(self, occupied: Numbers) -> Numbers:
         """Free volume v - R0 w at the glass transition."""
         return occupied / self.share()
 
-    def glass(self) -> float:
+    def glass(self) -> Numbers:
         """Temperature of the glass transition at zero pressure [K]."""
         share, slope = self.share(), self.expansion - self.r0 * self.epsilon
         return self.reference + (share * (1.0 - self.r0) - 1.0) / (self.epsilon - share * slope)
 
-    def warmer(self, temperature: ArrayLike | None) -> Array:
+    def warmer(self, temperature: ArrayLike | None) -> Numbers:
         """Difference of a temperature to the reference temperature [K], where the oil is a liquid."""
         at = required(temperature, _NAME)
-        if self.expansion <= self.epsilon:
+        falls = np.asarray(self.expansion > self.epsilon)
+        if not falls.all() and (wrong := np.asarray(~(falls | np.isnan(at)))).any():
+            values = (self.epsilon, self.expansion)
+            epsilon, expansion = (np.broadcast_to(value, wrong.shape)[wrong][0] for value in values)
             raise InputError(
                 "doolittle_epsilon",
-                got=f"{self.epsilon:g} 1/K",
-                takes=f"less than tait_expansion, {self.expansion:g} 1/K: viscosity falls with temperature",
+                got=f"{epsilon:g} 1/K",
+                takes=f"less than tait_expansion, {expansion:g} 1/K: viscosity falls with temperature",
             )
-        most = self.reference - 1.0 / self.epsilon if self.epsilon < 0.0 else math.inf
         reason = "its glass transition at ambient pressure, and an occupied volume"
-        return within(at, _NAME, self.glass(), most, reason) - self.reference
+        return within(at, _NAME, self.glass(), self.most(), reason) - self.reference
+
+    def most(self) -> Numbers:
+        """Temperature at which no occupied volume is left [K]; infinite where it does not shrink."""
+        if not is_many(self.epsilon):
+            return self.reference - 1.0 / self.epsilon if self.epsilon < 0.0 else math.inf
+        shrinks = np.less(self.epsilon, 0.0)
+        return np.where(shrinks, self.reference - 1.0 / np.where(shrinks, self.epsilon, 1.0), math.inf)
 
 
 def doolittle_ambient(
     temperature: ArrayLike,
     *,
-    doolittle_viscosity: float,
-    doolittle_b: float,
-    doolittle_r0: float,
-    doolittle_epsilon: float,
+    doolittle_viscosity: Numbers,
+    doolittle_b: Numbers,
+    doolittle_r0: Numbers,
+    doolittle_epsilon: Numbers,
     **state: Unpack[TaitState],
 ) -> Array:
     """Viscosity at zero pressure after Doolittle's free-volume law.
@@ -170,6 +180,13 @@ def doolittle_ambient(
     )
 
 
+def _holds(temperature: Array, **parameters: Numbers) -> Mask:
+    """Whether temperatures [K] are those of a liquid with an occupied volume."""
+    oil = _Doolittle(**parameters)
+    falls = np.greater(oil.expansion, oil.epsilon)
+    return np.asarray(falls & (temperature > oil.glass()) & (temperature < oil.most()))
+
+
 def _warnings(
     max_pressure: float, viscosity: float, temperature: float | None = None, **parameters: float
 ) -> Iterator[ResultWarning]:
@@ -187,5 +204,6 @@ DOOLITTLE = Law(
     parameters_of(doolittle, tait),
     warnings=_warnings,
     needs_temperature=True,
+    holds=_holds,
     atmospheric=doolittle_ambient,
 )

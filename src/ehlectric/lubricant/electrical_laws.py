@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import R as GAS_CONSTANT
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.errors import InputError
 from ehlectric.lubricant.law import Law, parameter, parameters_of, required
 
 
 def clausius_mossotti(
-    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: Numbers
 ) -> Array:
     """Relative permittivity of a compressed dielectric liquid after Clausius and Mossotti.
 
@@ -23,7 +23,8 @@ def clausius_mossotti(
     ``density_ratio``, density over the density at zero pressure, rho/rho0, dimensionless, > 0, shape (...);
     ``temperature`` [K]; ``relative_permittivity``, relative permittivity eps_r at the density rho0,
     dimensionless, >= 1. Returns relative permittivity, dimensionless, shape (...). Raises InputError if the
-    density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
+    density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1). An array of permittivities is that of
+    many points, of which those beyond the pole have NaN.
 
     Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law holds for molecules without a
     dipole moment. For polar liquids use ``constant_permittivity``.
@@ -35,7 +36,10 @@ def clausius_mossotti(
     """
     rho = np.asarray(density_ratio, dtype=float)
     denominator = relative_permittivity + 2.0 - (relative_permittivity - 1.0) * rho
-    if np.any(denominator <= 0.0):
+    beyond = denominator <= 0.0
+    if np.ndim(relative_permittivity):
+        denominator = np.where(beyond, np.nan, denominator)
+    elif np.any(beyond):
         raise InputError.worded(
             "lubricant.permittivity_law",
             "'clausius-mossotti' has a pole at the density ratio "
@@ -43,11 +47,14 @@ def clausius_mossotti(
             f"reaches {np.max(rho):.4g}; a polar liquid takes 'constant'",
             takes="'constant'",
         )
-    return (relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho) / denominator
+    permittivity: Array = (
+        relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho
+    ) / denominator
+    return permittivity
 
 
 def constant_permittivity(
-    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: Numbers
 ) -> Array:
     """Relative permittivity that does not change with density. ``density_ratio``, density over the density at
     zero pressure, rho/rho0, dimensionless, shape (...); ``temperature`` [K]; ``relative_permittivity``,
@@ -58,7 +65,7 @@ def constant_permittivity(
     >>> float(constant_permittivity(1.2, relative_permittivity=2.4))
     2.4
     """
-    return np.full_like(np.asarray(density_ratio, dtype=float), relative_permittivity)
+    return np.asarray(np.zeros(np.shape(density_ratio)) + relative_permittivity)
 
 
 RELATIVE_PERMITTIVITY = parameter("relative_permittivity")
@@ -69,7 +76,7 @@ PERMITTIVITY_LAWS = {
 }
 
 
-def constant_conductivity(temperature: ArrayLike | None = None, *, conductivity: float) -> Array:
+def constant_conductivity(temperature: ArrayLike | None = None, *, conductivity: Numbers) -> Array:
     """Electrical conductivity that does not change with temperature. ``temperature`` [K], shape (...);
     ``conductivity``, electrical conductivity sigma [S/m]. Returns electrical conductivity [S/m], shape (...).
 
@@ -78,15 +85,15 @@ def constant_conductivity(temperature: ArrayLike | None = None, *, conductivity:
     >>> float(constant_conductivity(333.15, conductivity=1e-12))
     1e-12
     """
-    return np.full(np.shape(0.0 if temperature is None else temperature), conductivity)
+    return np.asarray(np.zeros(np.shape(0.0 if temperature is None else temperature)) + conductivity)
 
 
 def arrhenius(
     temperature: ArrayLike | None,
     *,
-    conductivity: float,
-    conductivity_activation: float,
-    conductivity_temperature: float,
+    conductivity: Numbers,
+    conductivity_activation: Numbers,
+    conductivity_temperature: Numbers,
 ) -> Array:
     """Electrical conductivity after Arrhenius, sigma = sigma_ref exp(-(E/R)(1/T - 1/T_ref)).
 

@@ -13,7 +13,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.lubricant.density import TaitState, tait
 from ehlectric.lubricant.law import Law, parameters_of, required
@@ -39,7 +39,7 @@ def _beyond_larsson(
 
 
 def constant_thermal_conductivity(
-    pressure: ArrayLike, temperature: ArrayLike | None = None, *, thermal_conductivity: float
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, thermal_conductivity: Numbers
 ) -> tuple[Array, Array]:
     """Thermal conductivity that changes neither with pressure nor with temperature. ``pressure`` [Pa],
     shape (...); ``temperature`` [K]; ``thermal_conductivity`` [W/(m K)]. Returns thermal conductivity
@@ -51,16 +51,16 @@ def constant_thermal_conductivity(
     0.134
     """
     p = np.asarray(pressure, dtype=float)
-    return np.full_like(p, thermal_conductivity), np.zeros_like(p)
+    return np.zeros_like(p) + thermal_conductivity, np.zeros_like(p)
 
 
 def larsson_thermal_conductivity(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    thermal_conductivity: float,
-    larsson_c1: float,
-    larsson_c2: float,
+    thermal_conductivity: Numbers,
+    larsson_c1: Numbers,
+    larsson_c2: Numbers,
 ) -> tuple[Array, Array]:
     """Thermal conductivity after Larsson et al., k = k0 (1 + c1 p/(1 + c2 p)), and its derivative.
 
@@ -89,11 +89,11 @@ def scaled_thermal_conductivity(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    scaling_k_base: float,
-    scaling_k_factor: float,
-    scaling_k_exponent: float,
-    scaling_a: float,
-    scaling_q: float,
+    scaling_k_base: Numbers,
+    scaling_k_factor: Numbers,
+    scaling_k_exponent: Numbers,
+    scaling_a: Numbers,
+    scaling_q: Numbers,
     **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Thermal conductivity as a function of temperature and volume, and its derivative by pressure.
@@ -104,7 +104,8 @@ def scaled_thermal_conductivity(
     reference temperature T_R [K]; ``scaling_k_base`` and ``scaling_k_factor``, constants B and C [W/(m K)];
     ``scaling_k_exponent``, ``scaling_a`` and ``scaling_q``, constants s, A and q, dimensionless. Returns
     thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)], shape (...). Raises
-    InputError if the temperature is missing, or kappa is not positive.
+    InputError if the temperature is missing, or kappa is not positive; of many temperatures, those where it
+    is not have NaN.
 
     Habchi and others, Tribol. Int. 43 (2010) 1842, for the mineral oil Shell T9, as later works quote it. The
     constants A and q have not been compared with the printed ones.
@@ -120,7 +121,10 @@ def scaled_thermal_conductivity(
     at = required(temperature, "thermal_conductivity_law 'scaling'")
     v, v_slope = volume(pressure, at, state)
     part = scaling_a * at / state["reference_temperature"] * v**scaling_q
-    if not np.all(part > -1.0):
+    wrong = part <= -1.0
+    if np.ndim(at):
+        part = np.where(wrong, np.nan, part)
+    elif np.any(wrong):
         raise InputError(
             "scaling_a",
             got=f"{scaling_a:g}, with which kappa of thermal_conductivity_law 'scaling' is not positive;",
@@ -148,7 +152,7 @@ THERMAL_CONDUCTIVITY_LAWS = {
 
 
 def constant_heat_capacity(
-    pressure: ArrayLike, temperature: ArrayLike | None = None, *, heat_capacity: float, density: float
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, heat_capacity: Numbers, density: Numbers
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity rho c that changes neither with pressure nor with temperature.
 
@@ -162,20 +166,20 @@ def constant_heat_capacity(
     1700000.0
     """
     p = np.asarray(pressure, dtype=float)
-    return np.full_like(p, heat_capacity * density), np.zeros_like(p)
+    return np.zeros_like(p) + heat_capacity * density, np.zeros_like(p)
 
 
 def larsson_heat_capacity(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    volumetric_heat_capacity: float,
-    larsson_temperature: float,
-    larsson_beta: float,
-    larsson_b1: float,
-    larsson_b2: float,
-    larsson_k1: float,
-    larsson_k2: float,
+    volumetric_heat_capacity: Numbers,
+    larsson_temperature: Numbers,
+    larsson_beta: Numbers,
+    larsson_b1: Numbers,
+    larsson_b2: Numbers,
+    larsson_k1: Numbers,
+    larsson_k2: Numbers,
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity after Larsson et al., and its derivative by pressure.
 
@@ -202,7 +206,8 @@ def larsson_heat_capacity(
     """
     p = np.asarray(pressure, dtype=float)
     warmer = required(temperature, "heat_capacity_law 'larsson'") - larsson_temperature
-    held = np.minimum(p, -larsson_b1 / (2.0 * larsson_b2)) if larsson_b2 < 0.0 else p
+    turns = np.less(larsson_b2, 0.0)
+    held = np.minimum(p, np.where(turns, -larsson_b1 / (2.0 * np.where(turns, larsson_b2, -1.0)), np.inf))
     heat = 1.0 + larsson_beta * (1.0 + (larsson_b1 + larsson_b2 * held) * held) * warmer
     heat_slope = larsson_beta * (larsson_b1 + 2.0 * larsson_b2 * held) * warmer
     squeeze = 1.0 + larsson_k1 * p / (1.0 + larsson_k2 * p)
@@ -217,9 +222,9 @@ def scaled_heat_capacity(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    scaling_c_base: float,
-    scaling_c_factor: float,
-    scaling_c_exponent: float,
+    scaling_c_base: Numbers,
+    scaling_c_factor: Numbers,
+    scaling_c_exponent: Numbers,
     **state: Unpack[TaitState],
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity as a function of temperature and volume, and its derivative by pressure.

@@ -4,17 +4,22 @@ transition.
 A law of viscosity, density, thermal conductivity or heat capacity is ``law(pressure, temperature, *,
 parameters...) -> (value, derivative by pressure)``. A law of permittivity is ``law(density_ratio,
 temperature, *, parameters...) -> value``. A law at ambient pressure, of viscosity or electrical conductivity,
-is ``law(temperature, *, parameters...) -> value``. The temperature [K] broadcasts with the first argument.
+is ``law(temperature, *, parameters...) -> value``. The temperature [K] broadcasts with the first argument,
+and so do the parameters: they are floats, or arrays of shape (n,) of n points, which are the last axis.
 Without a temperature, a law returns its value at the temperature for which the case gives the parameters. An
 isothermal law always does so, in the shape of the first argument. A law that changes with temperature raises
-``InputError`` without one.
+``InputError`` without one. A temperature that is NaN is that of a point that was refused before: the law has
+NaN there, and no error.
 
 To add a law, write its function and add a ``Law`` to the table of its module: ``VISCOSITY_LAWS``,
 ``ATMOSPHERIC_LAWS``, ``DENSITY_LAWS``, ``PERMITTIVITY_LAWS``, ``CONDUCTIVITY_LAWS``,
 ``THERMAL_CONDUCTIVITY_LAWS`` or ``HEAT_CAPACITY_LAWS``. Add a line to ``parameters.toml`` for each new
 parameter, or give the entry a ``Parameter``. Nothing else needs an edit: the keys of ``[lubricant]``, their
 bounds and messages, the labels of figures and the table of keys in the documentation are read from these
-tables.
+tables. A function that does not take arrays of parameters and temperatures is called for one point after the
+other with ``numpy.vectorize`` where many points are computed at once, which takes some microseconds for each
+pressure and point. A law without values at some temperatures tells so by ``Law.holds``; an error of its
+function is that of all points.
 """
 
 from __future__ import annotations
@@ -29,7 +34,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 
@@ -118,11 +123,58 @@ class Law:
     # ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
     hint: Callable[[float, Mapping[str, float]], str] | None = None
     needs_temperature: bool = False
+    # ``holds(temperature, **parameters)`` tells for each point whether the law has a value at its temperature
+    # [K]; None for a law that has one at all temperatures.
+    holds: Callable[..., Mask] | None = None
     # ``atmospheric(temperature, **parameters)`` returns the viscosity eta0 [Pa s] at zero pressure and a
     # temperature [K], for a viscosity law that has one of its own.
     atmospheric: Callable[..., Array] | None = None
     # Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
     thermal_expansion: str | None = None
+
+
+def is_many(*values: Any) -> bool:
+    """Whether one of some numbers is an array of many points.
+
+    Examples
+    --------
+    >>> is_many(1.0, None), is_many(1.0, np.ones(3))
+    (False, True)
+    """
+    return any(getattr(value, "ndim", 0) for value in values)
+
+
+def same(first: Numbers | None, second: Numbers | None) -> bool:
+    """Whether two numbers are equal; arrays, which are not compared, are the same object.
+
+    Examples
+    --------
+    >>> same(313.15, 313.15), same(np.array([313.15]), np.array([313.15]))
+    (True, False)
+    """
+    return first is second or (not is_many(first, second) and bool(first == second))
+
+
+def over_points(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Function of a law for parameters and temperatures of many points. A function that takes no arrays is
+    called for one point after the other.
+
+    Examples
+    --------
+    >>> import math
+    >>> over_points(lambda temperature, *, b: math.exp(b / temperature))(300.0, b=np.array([0.0, 300.0]))
+    array([1.        , 2.71828183])
+    """
+
+    def call(*arguments: Any, **parameters: Any) -> Any:
+        try:
+            return function(*arguments, **parameters)
+        except InputError:
+            raise
+        except (TypeError, ValueError):
+            return np.vectorize(function)(*arguments, **parameters)
+
+    return call
 
 
 def required(temperature: ArrayLike | None, law: str) -> Array:
@@ -139,20 +191,21 @@ def required(temperature: ArrayLike | None, law: str) -> Array:
 
 
 def refused(values: Array, allowed: Mask, unit: str) -> str:
-    """First value that a law does not allow, with its unit, for a message; empty if all are allowed.
+    """First value that a law does not allow, with its unit, for a message; empty if all are allowed or NaN.
 
     Examples
     --------
     >>> refused(np.array([1.0, -2.0]), np.array([True, False]), "Pa s")
     '-2 Pa s'
     """
-    wrong = values[~allowed]
+    wrong = values[~(allowed | np.isnan(values))]
     return f"{float(wrong.flat[0]):.5g} {unit}".strip() if wrong.size else ""
 
 
-def within(temperature: ArrayLike | None, law: str, least: float, most: float, reason: str) -> Array:
+def within(temperature: ArrayLike | None, law: str, least: Numbers, most: Numbers, reason: str) -> Array:
     """Temperatures [K] that a law needs, as an array. Raises InputError if there is none, or one is outside
-    the range of the law, whose ends are not part of it; the message names the law and its range.
+    the range of the law, whose ends are not part of it; the message names the law and its range. Temperatures
+    that are NaN are returned as they are.
 
     Examples
     --------
@@ -160,11 +213,16 @@ def within(temperature: ArrayLike | None, law: str, least: float, most: float, r
     313.15
     """
     at = required(temperature, law)
-    if wrong := refused(at, (at > least) & (at < most), "K"):
+    inside = np.asarray((at > least) & (at < most))
+    if inside.all():
+        return at
+    wrong = ~(inside | np.isnan(at))
+    if np.any(wrong):
+        first, least, most = (np.broadcast_to(value, wrong.shape)[wrong][0] for value in (at, least, most))
         ends = [f"above {least:.5g} K"] * math.isfinite(least) + [f"below {most:.5g} K"] * math.isfinite(most)
         raise InputError(
             "temperature",
-            got=f"{wrong};",
+            got=f"{first:.5g} K;",
             takes=f"{' and '.join(ends)}, the range of {law}: {reason}",
         )
     return at

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.lubricant.law import (
     LARGEST_EXPONENT,
     Law,
     glass_warnings,
     parameters_of,
-    within,
+    required,
 )
 
 _NAME = "viscosity_law 'modulus'"
@@ -25,10 +26,10 @@ def modulus(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    modulus_a1: float,
-    modulus_a2: float,
-    modulus_b1: float,
-    modulus_b2: float,
+    modulus_a1: Numbers,
+    modulus_a2: Numbers,
+    modulus_b1: Numbers,
+    modulus_b2: Numbers,
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after the modulus equation, and its derivative by pressure.
 
@@ -61,23 +62,38 @@ def modulus(
 
 
 def _constants(
-    temperature: ArrayLike | None, modulus_a1: float, modulus_a2: float, modulus_b1: float, modulus_b2: float
+    temperature: ArrayLike | None,
+    modulus_a1: Numbers,
+    modulus_a2: Numbers,
+    modulus_b1: Numbers,
+    modulus_b2: Numbers,
 ) -> tuple[Array, Array]:
     """A [Pa] and B at a temperature at which the viscosity rises with pressure."""
-    reason = "the viscosity does not rise with pressure outside it"
-    end = -modulus_a1 / modulus_a2 if modulus_a2 else math.nan
-    at = within(
-        temperature,
-        _NAME,
-        end if modulus_a2 > 0.0 else -math.inf,
-        end if modulus_a2 < 0.0 else math.inf,
-        reason,
+    at = required(temperature, _NAME)
+    a = modulus_a1 + modulus_a2 * at
+    wrong = a <= 0.0
+    if wrong.any():
+        values = (at, modulus_a1, modulus_a2)
+        _refuse(*(float(np.broadcast_to(value, np.shape(a))[wrong].flat[0]) for value in values))
+    return a, modulus_b1 + modulus_b2 * at
+
+
+def _refuse(temperature: float, a1: float, a2: float) -> NoReturn:
+    """Raise the error of a temperature [K] at which A is not positive."""
+    if a2 == 0.0:
+        raise InputError("modulus_a1", got=f"{a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K")
+    end, word = -a1 / a2, "above" if a2 > 0.0 else "below"
+    raise InputError(
+        "temperature",
+        got=f"{temperature:.5g} K;",
+        takes=f"{word} {end:.5g} K, the range of {_NAME}: the viscosity does not rise with pressure outside "
+        "it",
     )
-    if modulus_a2 == 0.0 and modulus_a1 <= 0.0:
-        raise InputError(
-            "modulus_a1", got=f"{modulus_a1:g} Pa", takes="above 0 Pa where modulus_a2 is 0 Pa/K"
-        )
-    return modulus_a1 + modulus_a2 * at, modulus_b1 + modulus_b2 * at
+
+
+def _holds(temperature: Array, *, modulus_a1: Numbers, modulus_a2: Numbers, **_others: Numbers) -> Mask:
+    """Whether the viscosity rises with pressure at temperatures [K]."""
+    return np.asarray(modulus_a1 + modulus_a2 * temperature > 0.0)
 
 
 def _warnings(
@@ -96,4 +112,5 @@ MODULUS = Law(
     parameters_of(modulus),
     warnings=_warnings,
     needs_temperature=True,
+    holds=_holds,
 )

@@ -1,4 +1,4 @@
-"""Oil at one temperature: its numbers, and its laws as functions of pressure."""
+"""Oil at one temperature, or at that of each of many points: its numbers, and its laws over pressure."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.errors import ResultWarning
-from ehlectric.lubricant.law import PressureLaw
+from ehlectric.lubricant.law import PressureLaw, is_many
 from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
 
 # What the laws of an oil describe, in the order of files.
@@ -41,8 +41,13 @@ class BoundLaw:
     """
 
     function: Callable[..., Any]
-    parameters: Mapping[str, float]  # values of its parameters by name, SI units
-    temperature: float | None = None  # temperature of the oil [K]; None if the case gives none
+    parameters: Mapping[str, Numbers]  # values of its parameters by name, SI units
+    temperature: Numbers | None = None  # temperature of the oil [K]; None if the case gives none
+
+    @property
+    def many(self) -> bool:
+        """Whether the law has parameters or temperatures of many points."""
+        return is_many(self.temperature, *self.parameters.values())
 
     def __call__(self, argument: ArrayLike, temperature: ArrayLike | None = None, /) -> Any:
         """Value of the law at a pressure [Pa] or a density ratio, and at a temperature [K]."""
@@ -78,7 +83,12 @@ class RangeCheck:
 
 @dataclass(frozen=True, eq=False)
 class Oil:
-    """Oil at one temperature.
+    """Oil at one temperature, or at many points with their temperatures and properties.
+
+    Numbers of the oil are floats, or arrays of shape (n,) of n points; those that do not differ between
+    points may stay floats. The points are the last axis of the pressures and density ratios that the laws of
+    many points take. A point at which the oil has no value has NaN for its viscosity and its laws, and
+    ``checks`` are empty for many points, as warnings are texts about one.
 
     Examples
     --------
@@ -92,8 +102,8 @@ class Oil:
     (2e-08, 20.0)
     """
 
-    viscosity: float  # viscosity eta0 at zero pressure [Pa s]
-    relative_permittivity: float  # relative permittivity at zero pressure, dimensionless
+    viscosity: Numbers  # viscosity eta0 at zero pressure [Pa s]
+    relative_permittivity: Numbers  # relative permittivity at zero pressure, dimensionless
     ambient_pressure: float  # pressure around the contact [Pa]
     # ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
     log_viscosity: PressureLaw
@@ -110,11 +120,11 @@ class Oil:
     # Keys of the case from which the oil is made, SI units, for files.
     inputs: Mapping[str, Any] = field(default_factory=dict)
     name: str = ""  # name of the oil in the library; empty for an oil of the user's own
-    temperature: float | None = None  # temperature [K]; None if the case gives none
+    temperature: Numbers | None = None  # temperature [K]; None if the case gives none
     # density and conductivity: density [kg/m^3] and electrical conductivity [S/m] at zero pressure; None
     # where they are not known.
-    density: float | None = None
-    conductivity: float | None = None
+    density: Numbers | None = None
+    conductivity: Numbers | None = None
     # Electrical conductivity [S/m] as a function of the temperature [K]; None where it is not known.
     conductivity_over: Callable[[Array], Array] | None = None
     # thermal_conductivity_law and heat_capacity_law: thermal conductivity [W/(m K)] and volumetric heat
@@ -122,6 +132,13 @@ class Oil:
     # where they are not known.
     thermal_conductivity_law: PressureLaw | None = None
     heat_capacity_law: PressureLaw | None = None
+
+    @property
+    def refused(self) -> Mask:
+        """Points at which the oil has no value at its temperature, shape (...); ``case_oil.refusals`` has the
+        error of each.
+        """
+        return np.asarray(np.isnan(self.viscosity))
 
     def warnings(self, max_pressure: float) -> Iterator[ResultWarning]:
         """Warnings about the laws in a contact with this Hertz pressure [Pa]."""
@@ -131,12 +148,12 @@ class Oil:
             yield ResultWarning.of("law-range", "no_alpha_star", law=self.laws.get("viscosity", ""))
 
     @cached_property
-    def alpha(self) -> float:
+    def alpha(self) -> Numbers:
         """Pressure-viscosity coefficient alpha, the slope of ln(eta) at zero pressure [1/Pa]."""
         return initial_alpha(self.log_viscosity)
 
     @cached_property
-    def alpha_star(self) -> float:
+    def alpha_star(self) -> Numbers:
         """Reciprocal asymptotic pressure-viscosity coefficient alpha* [1/Pa]; film formulas take it."""
         return reciprocal_asymptotic_alpha(self.log_viscosity)
 
@@ -155,16 +172,16 @@ class Oil:
         }
 
     @property
-    def thermal_conductivity(self) -> float | None:
+    def thermal_conductivity(self) -> Numbers | None:
         """Thermal conductivity at zero pressure [W/(m K)]; None where it is not known."""
         return None if self.thermal_conductivity_law is None else _at_zero(self.thermal_conductivity_law)
 
     @property
-    def heat_capacity(self) -> float | None:
+    def heat_capacity(self) -> Numbers | None:
         """Volumetric heat capacity at zero pressure [J/(m^3 K)]; None where it is not known."""
         return None if self.heat_capacity_law is None else _at_zero(self.heat_capacity_law)
 
 
-def _at_zero(law: PressureLaw) -> float:
+def _at_zero(law: PressureLaw) -> Numbers:
     """Value of a law at zero pressure."""
-    return float(law(np.zeros(1))[0][0])
+    return as_float(law(np.zeros(()))[0])

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import InputError
 from ehlectric.lubricant.law import Law, parameters_of, refused, within
 from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
@@ -20,7 +20,9 @@ from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
 ROELANDS_TEMPERATURE = 138.0
 
 
-def vogel(temperature: ArrayLike | None, *, vogel_viscosity: float, vogel_b: float, vogel_c: float) -> Array:
+def vogel(
+    temperature: ArrayLike | None, *, vogel_viscosity: Numbers, vogel_b: Numbers, vogel_c: Numbers
+) -> Array:
     """Viscosity at ambient pressure after Vogel, eta = K exp(B/(T - C)).
 
     ``temperature`` [K], shape (...); ``vogel_viscosity``, constant K, the viscosity at unlimited temperature
@@ -40,7 +42,7 @@ def vogel(temperature: ArrayLike | None, *, vogel_viscosity: float, vogel_b: flo
 
 
 def roelands_over_temperature(
-    temperature: ArrayLike | None, *, viscosity: float, reference_temperature: float, roelands_s0: float
+    temperature: ArrayLike | None, *, viscosity: Numbers, reference_temperature: Numbers, roelands_s0: Numbers
 ) -> Array:
     """Viscosity at ambient pressure after Roelands.
 
@@ -62,11 +64,12 @@ def roelands_over_temperature(
     [0.04, 0.0108]
     """
     law, least = "atmospheric_law 'roelands'", math.exp(-ROELANDS_CONSTANT)
-    if not viscosity > least:
+    # Points with such parameters have no temperature at which the law holds.
+    if np.ndim(viscosity) == 0 and not viscosity > least:
         takes = f"above {least:.2g} Pa s, the range of {law}"
         raise InputError("viscosity", got=f"{viscosity:.5g} Pa s;", takes=takes)
     at = within(temperature, law, ROELANDS_TEMPERATURE, math.inf, "its pole")
-    if reference_temperature <= ROELANDS_TEMPERATURE:
+    if np.ndim(reference_temperature) == 0 and reference_temperature <= ROELANDS_TEMPERATURE:
         takes = f"above {ROELANDS_TEMPERATURE:g} K, the pole of {law}"
         raise InputError("reference_temperature", got=f"{reference_temperature:g} K", takes=takes)
     ratio = (at - ROELANDS_TEMPERATURE) / (reference_temperature - ROELANDS_TEMPERATURE)
@@ -74,10 +77,26 @@ def roelands_over_temperature(
     return np.asarray(np.exp(reduced * ratio**-roelands_s0 - ROELANDS_CONSTANT))
 
 
+def _vogel_holds(temperature: Array, *, vogel_c: Numbers, **_others: Numbers) -> Mask:
+    """Whether temperatures [K] are above the pole."""
+    return np.asarray(temperature > vogel_c)
+
+
+def _roelands_holds(
+    temperature: Array, *, viscosity: Numbers, reference_temperature: Numbers, roelands_s0: Numbers
+) -> Mask:
+    """Whether temperatures [K], reference temperature and viscosity are above the poles."""
+    above = np.greater(viscosity, math.exp(-ROELANDS_CONSTANT)) & (temperature > ROELANDS_TEMPERATURE)
+    return np.asarray(above & np.greater(reference_temperature, ROELANDS_TEMPERATURE))
+
+
 ATMOSPHERIC_LAWS = {
-    "vogel": Law(vogel, parameters_of(vogel), needs_temperature=True),
+    "vogel": Law(vogel, parameters_of(vogel), needs_temperature=True, holds=_vogel_holds),
     "roelands": Law(
-        roelands_over_temperature, parameters_of(roelands_over_temperature), needs_temperature=True
+        roelands_over_temperature,
+        parameters_of(roelands_over_temperature),
+        needs_temperature=True,
+        holds=_roelands_holds,
     ),
 }
 
@@ -89,6 +108,9 @@ COLD, HOT = 313.15, 373.15
 # Constant that ASTM D341 adds to the kinematic viscosity, and the smallest viscosity for which a constant is
 # accurate enough [mm^2/s].
 _ADDED, _LEAST = 0.7, 2.0
+
+# log10(nu + 0.7) above which an oil counts as solid.
+_SOLID = 300.0
 
 
 @dataclass(frozen=True)
@@ -105,50 +127,56 @@ class Walther:
     14.85
     """
 
-    # a and b: constants A and B, dimensionless.
-    a: float
-    b: float
+    # a and b: constants A and B, dimensionless; floats, or arrays of shape (...) of many oils.
+    a: Numbers
+    b: Numbers
 
     @classmethod
-    def of(cls, at_40: float, at_100: float) -> Walther:
+    def of(cls, at_40: Numbers, at_100: Numbers) -> Walther:
         """Walther equation of an oil from its kinematic viscosities at 40 and 100 degC [m^2/s]. Raises
-        InputError if the viscosity does not fall with temperature, or is too low for the equation.
+        InputError if the viscosity does not fall with temperature, or is too low for the equation; of many
+        oils, those have NaN.
         """
-        if not at_40 > at_100:
-            raise InputError(
-                "temperature.kinematic_viscosity_100",
-                got=f"{at_100:g} m^2/s",
-                takes=f"less than kinematic_viscosity_40, {at_40:g} m^2/s",
+        falls, thick = np.greater(at_40, at_100), np.greater_equal(at_100, 1e-6 * _LEAST)
+        known = falls & thick
+        if np.ndim(known):
+            at_40, at_100 = np.where(known, at_40, np.nan), np.where(known, at_100, np.nan)
+        elif not known:
+            takes = (
+                f"at least {1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form"
+                if falls
+                else f"less than kinematic_viscosity_40, {at_40:g} m^2/s"
             )
-        if at_100 < 1e-6 * _LEAST:
-            raise InputError(
-                "temperature.kinematic_viscosity_100",
-                got=f"{at_100:g} m^2/s",
-                takes=f"at least {1e-6 * _LEAST:g} m^2/s, for which ASTM D341 holds in its short form",
-            )
-        cold, hot = (math.log10(math.log10(1e6 * nu + _ADDED)) for nu in (at_40, at_100))
+            key = "temperature.kinematic_viscosity_100"
+            raise InputError(key, got=f"{at_100:g} m^2/s", takes=takes)
+        cold, hot = (np.log10(np.log10(1e6 * nu + _ADDED)) for nu in (at_40, at_100))
         b = (cold - hot) / math.log10(HOT / COLD)
         return cls(cold + b * math.log10(COLD), b)
 
-    def viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m^2/s] at an absolute temperature [K]. Raises InputError if the viscosity is
-        too low for the equation, or the oil is solid at this temperature.
+    def viscosity(self, temperature: Numbers) -> Numbers:
+        """Kinematic viscosity [m^2/s] at an absolute temperature [K], shape (...). Raises InputError if the
+        viscosity is too low for the equation, or the oil is solid at this temperature; of many temperatures
+        or oils, those where it is so have NaN.
         """
-        double = math.pow(10.0, self.a - self.b * math.log10(temperature))
-        if double > 300.0:
+        double = 10.0 ** (self.a - self.b * np.log10(temperature))
+        solid = double > _SOLID
+        nu = 10.0 ** np.where(solid, 0.0, double) - _ADDED
+        thin = nu < _LEAST
+        if np.ndim(nu):
+            return np.where(solid | thin, np.nan, 1e-6 * nu)
+        if solid:
             raise InputError("temperature", got=f"{temperature:g} K, at which the oil is solid")
-        nu = math.pow(10.0, double) - _ADDED
-        if nu < _LEAST:
+        if thin:
             raise InputError(
                 "temperature",
                 got=f"{temperature:g} K, at which the oil has {nu:.3g} mm^2/s;",
                 takes=f"one at which it has {_LEAST:g} mm^2/s or more, for which ASTM D341 holds in its "
                 "short form",
             )
-        return 1e-6 * nu
+        return 1e-6 * float(nu)
 
 
-def density(at_15: float, expansion: float, temperature: float) -> float:
+def density(at_15: Numbers, expansion: Numbers, temperature: Numbers) -> Numbers:
     """Density of an oil at a temperature, rho = rho_15 (1 - a (T - 288.15 K)). ``at_15``, density rho_15 at
     15 degC [kg/m^3]; ``expansion``, coefficient a of thermal expansion [1/K]; ``temperature``, absolute
     temperature T [K]. Returns density rho [kg/m^3].

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.doolittle import DOOLITTLE
 from ehlectric.lubricant.law import Derivation, Law, PressureLaw, parameter
@@ -23,15 +23,16 @@ ROELANDS_CONSTANT = 9.67
 
 
 def roelands_exponent(
-    viscosity: float, pressure_viscosity_coefficient: float, roelands_pressure: float
-) -> float:
+    viscosity: Numbers, pressure_viscosity_coefficient: Numbers, roelands_pressure: Numbers
+) -> Numbers:
     """Exponent z of Roelands' law from viscosity and pressure-viscosity coefficient.
 
     z = alpha p0/(ln eta0 + 9.67), with eta0 in Pa s.
 
     ``viscosity``, viscosity eta0 at zero pressure [Pa s]; ``pressure_viscosity_coefficient``, slope alpha of
-    ln eta at zero pressure [1/Pa]; ``roelands_pressure``, constant p0 [Pa]. Returns exponent z,
-    dimensionless; infinite for a viscosity below the pole of the relation at 6.3e-5 Pa s.
+    ln eta at zero pressure [1/Pa]; ``roelands_pressure``, constant p0 [Pa]; floats, or arrays of shape (...).
+    Returns exponent z, dimensionless, shape (...); infinite for a viscosity below the pole of the relation at
+    6.3e-5 Pa s.
 
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
     lubricating oils, thesis, Delft, 1966.
@@ -41,18 +42,20 @@ def roelands_exponent(
     >>> round(roelands_exponent(0.04, 22e-9, 0.198e9), 3)
     0.675
     """
-    reduced = math.log(viscosity) + ROELANDS_CONSTANT
-    return pressure_viscosity_coefficient * roelands_pressure / reduced if reduced > 0.0 else math.inf
+    reduced = np.log(viscosity) + ROELANDS_CONSTANT
+    below = reduced <= 0.0
+    exponent = pressure_viscosity_coefficient * roelands_pressure / np.where(below, 1.0, reduced)
+    return as_float(np.where(below, math.inf, exponent))
 
 
-def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float) -> float:
+def roelands_alpha(viscosity: Numbers, roelands_z: Numbers, roelands_pressure: Numbers) -> Numbers:
     """Pressure-viscosity coefficient of Roelands' law from the viscosity at a temperature.
 
     alpha = z (ln eta0 + 9.67)/p0, with eta0 in Pa s.
 
     ``viscosity``, viscosity eta0 at zero pressure and at this temperature [Pa s]; ``roelands_z``, exponent z,
-    dimensionless; it hardly changes with temperature; ``roelands_pressure``, constant p0 [Pa]. Returns
-    pressure-viscosity coefficient alpha [1/Pa].
+    dimensionless; it hardly changes with temperature; ``roelands_pressure``, constant p0 [Pa]; floats, or
+    arrays of shape (...). Returns pressure-viscosity coefficient alpha [1/Pa], shape (...).
 
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
     lubricating oils, thesis, Delft, 1966.
@@ -62,16 +65,16 @@ def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float
     >>> round(roelands_alpha(0.04, 0.67, 0.198e9) * 1e9, 2)
     21.83
     """
-    return roelands_z * (math.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure
+    return as_float(roelands_z * (np.log(viscosity) + ROELANDS_CONSTANT) / roelands_pressure)
 
 
 def roelands(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    pressure_viscosity_coefficient: float,
-    roelands_z: float,
-    roelands_pressure: float,
+    pressure_viscosity_coefficient: Numbers,
+    roelands_z: Numbers,
+    roelands_pressure: Numbers,
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Roelands, and its derivative by pressure.
 
@@ -93,12 +96,13 @@ def roelands(
     15.22
     """
     ratio = 1.0 + np.asarray(pressure, dtype=float) / roelands_pressure
-    exponent = pressure_viscosity_coefficient * roelands_pressure / roelands_z * (ratio**roelands_z - 1.0)
-    return exponent, pressure_viscosity_coefficient * ratio ** (roelands_z - 1.0)
+    power = ratio**roelands_z
+    exponent = pressure_viscosity_coefficient * roelands_pressure / roelands_z * (power - 1.0)
+    return exponent, pressure_viscosity_coefficient * power / ratio
 
 
 def barus(
-    pressure: ArrayLike, temperature: ArrayLike | None = None, *, pressure_viscosity_coefficient: float
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, pressure_viscosity_coefficient: Numbers
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after Barus, and its derivative by pressure.
 
@@ -116,7 +120,7 @@ def barus(
     22.0
     """
     p = np.asarray(pressure, dtype=float)
-    return pressure_viscosity_coefficient * p, np.full_like(p, pressure_viscosity_coefficient)
+    return pressure_viscosity_coefficient * p, np.zeros_like(p) + pressure_viscosity_coefficient
 
 
 def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
@@ -187,8 +191,6 @@ VISCOSITY_LAWS = {
 }
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
-
 # Pressures among which the one is sought that raises the viscosity e times [Pa].
 _SOUGHT = np.geomspace(1e5, 1e10, 101)
 
@@ -196,10 +198,19 @@ _SOUGHT = np.geomspace(1e5, 1e10, 101)
 # is about 10 GPa for an oil: laws that saturate would never end.
 _ENDS = np.concatenate([np.linspace(0.0, 40.0, 41), np.geomspace(40.0, 200.0, 17)[1:]])
 
+# Places and weights of Gauss-Legendre quadrature with 8 nodes in each interval, over the same pressure.
+_NODES, _OF_NODES = np.polynomial.legendre.leggauss(8)
+_PLACES = np.add(0.5 * (_ENDS[1:] + _ENDS[:-1]), np.multiply.outer(_NODES, 0.5 * np.diff(_ENDS))).T.ravel()
+_WEIGHTS = np.outer(0.5 * np.diff(_ENDS), _OF_NODES).ravel()
 
-def initial_alpha(law: PressureLaw) -> float:
+# Largest number of pressures times points at which the quadrature calls a law at once; it fits the cache.
+_AT_ONCE = 2**15
+
+
+def initial_alpha(law: PressureLaw) -> Numbers:
     """Pressure-viscosity coefficient alpha at zero pressure, the slope of ln(eta), in 1/Pa. ``law``,
-    ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
+    ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns a float,
+    or an array of shape (...) for a law whose parameters have this shape.
 
     Examples
     --------
@@ -207,16 +218,18 @@ def initial_alpha(law: PressureLaw) -> float:
     >>> initial_alpha(lambda pressure: barus(pressure, pressure_viscosity_coefficient=2e-8))
     2e-08
     """
-    return float(law(np.zeros(1))[1][0])
+    return as_float(law(np.zeros(()))[1])
 
 
-def reciprocal_asymptotic_alpha(law: PressureLaw) -> float:
+def reciprocal_asymptotic_alpha(law: PressureLaw) -> Numbers:
     """Reciprocal asymptotic pressure-viscosity coefficient alpha*, in 1/Pa.
 
     alpha* = 1/Int_0^inf eta(0)/eta(p) dp, which film formulas take.
 
-    ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
-    coefficient alpha* [1/Pa]; zero for a viscosity that does not rise with pressure.
+    ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Its
+    parameters are floats, or arrays of shape (...); then it is called with pressures of shape (k, ...).
+    Returns coefficient alpha* [1/Pa], a float or an array of shape (...); zero for a viscosity that does not
+    rise with pressure, and NaN for a law that has no value.
 
     S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, after Blok (1963).
     The integral ends at some 200 times the pressure that raises the viscosity e times, about 10 GPa, because
@@ -229,13 +242,15 @@ def reciprocal_asymptotic_alpha(law: PressureLaw) -> float:
     20.0
     """
     scale = _scale(law)
-    return 0.0 if scale == math.inf else 1.0 / _integral(law, scale * _ENDS)
+    rises = scale != math.inf
+    return as_float(rises / _integral(law, np.where(rises, scale, 1.0)))
 
 
-def unfinished_share(law: PressureLaw) -> float:
+def unfinished_share(law: PressureLaw) -> Numbers:
     """Share of the integral of alpha* that a further range of pressure of the same length would add, at most.
     ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
-    share, dimensionless; far below 1e-4 for an oil.
+    share, dimensionless, a float or an array of shape (...) as ``reciprocal_asymptotic_alpha`` does; far
+    below 1e-4 for an oil.
 
     Examples
     --------
@@ -244,24 +259,34 @@ def unfinished_share(law: PressureLaw) -> float:
     True
     """
     scale = _scale(law)
-    if scale == math.inf:
-        return 0.0
-    end = scale * _ENDS[-1:]
-    return float(end[0] * np.exp(-np.asarray(law(end)[0], dtype=float)[0]) * reciprocal_asymptotic_alpha(law))
+    rises = scale != math.inf
+    scale = np.where(rises, scale, 1.0)
+    end = scale * _ENDS[-1]
+    left = end * np.exp(-np.asarray(law(end[np.newaxis])[0], dtype=float)[0])
+    return as_float(rises * left / _integral(law, scale))
 
 
-def _scale(law: PressureLaw) -> float:
-    """Pressure that raises the viscosity about e times [Pa]; infinite if the viscosity does not rise."""
-    exponent = np.asarray(law(_SOUGHT)[0], dtype=float)
-    above = np.flatnonzero(exponent >= 1.0)
-    if above.size:
-        return float(_SOUGHT[above[0]])
-    return float(_SOUGHT[-1] / exponent[-1]) if exponent[-1] > 0.0 else math.inf
+def _scale(law: PressureLaw) -> Array:
+    """Pressure that raises the viscosity about e times [Pa], shape (...); infinite if it does not rise."""
+    axes = np.ndim(law(np.zeros(()))[0]) if getattr(law, "many", True) else 0
+    exponent = np.asarray(law(_SOUGHT.reshape(-1, *[1] * axes))[0], dtype=float)
+    above = exponent >= 1.0
+    scale, reached = _SOUGHT[above.argmax(axis=0)], above.any(axis=0)
+    if reached.all():
+        return np.asarray(scale)
+    last = exponent[-1]
+    rises = last > 0.0
+    slow = np.where(rises, _SOUGHT[-1] / np.where(rises, last, 1.0), math.inf)
+    return np.where(np.isnan(last), math.nan, np.where(reached, scale, slow))
 
 
-def _integral(law: PressureLaw, ends: Array) -> float:
-    """Integral of eta(0)/eta(p) over pressure [Pa], by Gauss-Legendre quadrature between the ends [Pa]."""
-    middle, half = 0.5 * (ends[1:] + ends[:-1]), 0.5 * np.diff(ends)
-    pressure = middle[:, np.newaxis] + half[:, np.newaxis] * _NODES
-    exponent = np.reshape(law(pressure.ravel())[0], pressure.shape)
-    return float(half @ (np.exp(-exponent) @ _WEIGHTS))
+def _integral(law: PressureLaw, scale: Array) -> Array:
+    """Integral of eta(0)/eta(p) over pressure [Pa], shape (...), by Gauss-Legendre quadrature over the
+    pressure that raises the viscosity e times [Pa], shape (...).
+    """
+    total, step = np.zeros(scale.size), max(1, _AT_ONCE // scale.size)
+    for k in range(0, _PLACES.size, step):
+        pressure = np.multiply.outer(_PLACES[k : k + step], scale)
+        exponent = np.reshape(law(pressure)[0], (-1, scale.size))
+        total += _WEIGHTS[k : k + step] @ np.exp(-exponent)
+    return total.reshape(scale.shape) * scale

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import Law, glass_warnings, parameters_of, within
 
@@ -21,14 +21,14 @@ def yasutomi(
     pressure: ArrayLike,
     temperature: ArrayLike | None = None,
     *,
-    yasutomi_glass_viscosity: float,
-    yasutomi_glass_temperature: float,
-    yasutomi_a1: float,
-    yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
+    yasutomi_glass_viscosity: Numbers,
+    yasutomi_glass_temperature: Numbers,
+    yasutomi_a1: Numbers,
+    yasutomi_a2: Numbers,
+    yasutomi_b1: Numbers,
+    yasutomi_b2: Numbers,
+    yasutomi_c1: Numbers,
+    yasutomi_c2: Numbers,
 ) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity after the improved Yasutomi law, and its derivative by pressure.
 
@@ -77,14 +77,14 @@ def yasutomi(
 def yasutomi_viscosity(
     temperature: ArrayLike,
     *,
-    yasutomi_glass_viscosity: float,
-    yasutomi_glass_temperature: float,
-    yasutomi_a1: float,
-    yasutomi_a2: float,
-    yasutomi_b1: float,
-    yasutomi_b2: float,
-    yasutomi_c1: float,
-    yasutomi_c2: float,
+    yasutomi_glass_viscosity: Numbers,
+    yasutomi_glass_temperature: Numbers,
+    yasutomi_a1: Numbers,
+    yasutomi_a2: Numbers,
+    yasutomi_b1: Numbers,
+    yasutomi_b2: Numbers,
+    yasutomi_c1: Numbers,
+    yasutomi_c2: Numbers,
 ) -> Array:
     """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
 
@@ -108,9 +108,14 @@ def yasutomi_viscosity(
     return np.asarray(yasutomi_glass_viscosity * np.exp(exponent))
 
 
-def _above_glass(temperature: ArrayLike | None, glass: float) -> Array:
+def _above_glass(temperature: ArrayLike | None, glass: Numbers) -> Array:
     """Temperature [K] above the glass transition at zero pressure."""
     return within(temperature, _NAME, glass, math.inf, "its glass transition at ambient pressure")
+
+
+def _holds(temperature: Array, *, yasutomi_glass_temperature: Numbers, **_others: Numbers) -> Mask:
+    """Whether temperatures [K] are above the glass transition at zero pressure."""
+    return np.asarray(temperature > yasutomi_glass_temperature)
 
 
 def _warnings(
@@ -136,5 +141,6 @@ YASUTOMI = Law(
     parameters_of(yasutomi),
     warnings=_warnings,
     needs_temperature=True,
+    holds=_holds,
     atmospheric=yasutomi_viscosity,
 )

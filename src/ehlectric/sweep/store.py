@@ -16,7 +16,8 @@ from types import MappingProxyType
 from typing import Any, Self, get_args
 
 from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
-from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.table import number_of
 from ehlectric.errors import CODES_OF_TEXTS, TEXTS, DamagedError, InputError, WriteError
 from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, refusing
 from ehlectric.runtime.files import ADVICE, now, refuse_special

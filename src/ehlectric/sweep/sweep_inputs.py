@@ -26,8 +26,8 @@ from ehlectric.cases.drive_case import (
     swept_case_of_file,
     with_found_files,
 )
-from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number_of
-from ehlectric.cases.table import Table, Title, nearest, nearest_key, parser_of, read_toml
+from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of
+from ehlectric.cases.table import Table, Title, nearest, nearest_key, number_of, parser_of, read_toml
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.sheets import BREAKDOWNS

@@ -19,7 +19,8 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, DRIVE, drive_with
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.input_keys import describe, input_field, number_of
+from ehlectric.cases.input_keys import describe, input_field
+from ehlectric.cases.table import number_of
 from ehlectric.quantities import units
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.units import in_unit, si_unit

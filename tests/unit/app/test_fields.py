@@ -11,7 +11,8 @@ from ehlectric.app.form_fields import BEARING_GROUPS, Field
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import case_of_dict
-from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.table import number_of
 from ehlectric.lubricant.data_sheet import GRADES
 from ehlectric.quantities import units
 from ehlectric.quantities.units import in_unit, si_unit

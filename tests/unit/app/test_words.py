@@ -10,7 +10,8 @@ from ehlectric.app.form_fields.field import in_field_unit, shown_text, written_t
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import case_of_dict
-from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.table import number_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.units import in_unit, printed, si_unit
 from ehlectric.runs.example_files import example_text

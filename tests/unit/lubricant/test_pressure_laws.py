@@ -18,7 +18,14 @@ from ehlectric.lubricant import doolittle as free_volume
 from ehlectric.lubricant import electrical_laws, heat_laws, modulus, yasutomi
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, tait_pressure
 from ehlectric.lubricant.law import GLASS_VISCOSITY, LARGEST_EXPONENT
-from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha, roelands
+from ehlectric.lubricant.viscosity import (
+    VISCOSITY_LAWS,
+    barus,
+    initial_alpha,
+    reciprocal_asymptotic_alpha,
+    roelands,
+    unfinished_share,
+)
 from tests.helpers.each import each
 from tests.unit.lubricant.oils import (
     DOOLITTLE,
@@ -440,3 +447,25 @@ def test_a_viscosity_that_saturates_early_has_no_alpha_star(b1, codes):
     """1/B is 61 for FVA 3 at 40 degC, a factor of 1e26; with b1 = 0.3 it is 2.5, a factor of 13."""
     oil = Lubricant.from_dict({"base": "fva-3", "modulus_b1": b1}).at(313.15)
     assert [warning.code for warning in oil.warnings(0.5e9)] == codes
+
+
+def test_coefficients_of_many_oils_are_those_of_each():
+    """Points are the last axis of a law; each oil is integrated as if it were alone."""
+    random = np.random.default_rng(7)
+    alpha, z = random.uniform(8e-9, 4e-8, (3, 40)), random.uniform(0.3, 0.9, (3, 40))
+    alpha[1, 5] = np.nan
+
+    def oil(a, b):
+        return partial(roelands, pressure_viscosity_coefficient=a, roelands_z=b, roelands_pressure=0.196e9)
+
+    for coefficient in (initial_alpha, reciprocal_asymptotic_alpha, unfinished_share):
+        found = coefficient(oil(alpha, z))
+        alone = [coefficient(oil(a, b)) for a, b in zip(alpha.flat, z.flat, strict=True)]
+        np.testing.assert_allclose(found, np.reshape(alone, alpha.shape), rtol=1e-12)
+        assert np.flatnonzero(np.isnan(found)).tolist() == [45]
+
+
+def test_of_many_oils_one_does_not_rise_with_pressure():
+    alpha = np.array([2e-8, 0.0, -1e-9])
+    law = partial(barus, pressure_viscosity_coefficient=alpha)
+    assert reciprocal_asymptotic_alpha(law) == pytest.approx([2e-8, 0.0, 0.0], rel=1e-9)

@@ -7,8 +7,9 @@ from ehlectric.app.form_fields.contact_fields import groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.drive_case import case_of_dict
-from ehlectric.cases.input_keys import TABLES, describe, input_field, input_of, number_of, phrase
+from ehlectric.cases.input_keys import TABLES, describe, input_field, input_of, phrase
 from ehlectric.cases.oil_inputs import law_parameters
+from ehlectric.cases.table import number_of
 from ehlectric.quantities.inputs import form, input_at, inputs
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep

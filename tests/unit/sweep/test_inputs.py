@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, Sweep
-from ehlectric.cases.input_keys import input_field, number_of
+from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.table import number_of
 from ehlectric.contact.conditions import resolve
 from ehlectric.sweep.points import Range
 from tests.cli.conftest import CASE as CASE_FILE

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 
-from ehlectric.arrays import Array, Numbers
-from ehlectric.bearing.loads.geometry import BallBearing, plain
+from ehlectric.arrays import Array, Numbers, as_float
+from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.formulas.hertz import dry_contact
 
 # Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error
@@ -43,7 +43,7 @@ def contact_stiffness(bearing: BallBearing, modulus: Numbers, angle: Numbers, *,
     9.24
     """
     radii = bearing.radii(angle, inner=inner)
-    return plain(dry_contact(1.0, radii.radius_x, radii.radius_y, modulus).approach ** -1.5)
+    return as_float(dry_contact(1.0, radii.radius_x, radii.radius_y, modulus).approach ** -1.5)
 
 
 def _interpolated(ratio: Array, inner_groove: Array, outer_groove: Array) -> Array:

@@ -21,7 +21,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array, Numbers
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.hertz import reduced_radius
 
@@ -55,11 +55,6 @@ class ContactRadii:
         return reduced_radius(self.element_y, self.ring_y)
 
 
-def plain(value: Numbers) -> Numbers:
-    """Float of a number without dimensions; arrays remain as they are."""
-    return float(value) if np.ndim(value) == 0 else value
-
-
 def _rolling_radius(
     element_diameter: Numbers, pitch_diameter: Numbers, angle: Numbers, *, inner: bool
 ) -> Numbers:
@@ -68,7 +63,7 @@ def _rolling_radius(
     sign = 1.0 if inner else -1.0
     curvature = sign * 2.0 * cosine / (pitch_diameter - sign * element_diameter * cosine)
     flat = curvature == 0.0
-    return plain(np.where(flat, math.inf, 1.0 / np.where(flat, 1.0, curvature)))
+    return as_float(np.where(flat, math.inf, 1.0 / np.where(flat, 1.0, curvature)))
 
 
 def _first(wrong: Numbers, *values: Numbers) -> tuple[float, ...] | None:
@@ -177,7 +172,7 @@ class BallBearing:
         if self.radial_clearance is not None:
             return self.radial_clearance
         assert self.contact_angle is not None
-        return plain(4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2)
+        return as_float(4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2)
 
     @property
     def radial_distance(self) -> Numbers:
@@ -190,12 +185,12 @@ class BallBearing:
         if self.contact_angle is not None:
             return self.contact_angle
         play = np.maximum(0.0, self.clearance) / (4.0 * self.groove_distance)
-        return plain(2.0 * np.arcsin(np.sqrt(play)))
+        return as_float(2.0 * np.arcsin(np.sqrt(play)))
 
     @property
     def endplay(self) -> Numbers:
         """Axial internal clearance (endplay) from one end to the other, 2 A sin a_0 [m]."""
-        return plain(2.0 * self.groove_distance * np.sin(self.free_angle))
+        return as_float(2.0 * self.groove_distance * np.sin(self.free_angle))
 
     @property
     def offsets(self) -> tuple[Numbers, Numbers]:

@@ -16,8 +16,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ehlectric.arrays import Array, IntArray, Mask, Numbers
-from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_force, plain, rolling_speeds
+from ehlectric.arrays import Array, IntArray, Mask, Numbers, as_float
+from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_force, rolling_speeds
 from ehlectric.bearing.loads.ring import Batch, BearingEquilibrium, Operation, balance, refuse_unbalanced
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
@@ -65,7 +65,7 @@ class RollerEquilibrium(BearingEquilibrium):
     @property
     def cage_speed(self) -> Numbers:
         """Angular speed of the cage about the axis of the bearing [rad/s]."""
-        return plain(self.speeds.cage)
+        return as_float(self.speeds.cage)
 
 
 def line_stiffness(length: Numbers, modulus: Numbers) -> Numbers:
@@ -86,7 +86,7 @@ def line_stiffness(length: Numbers, modulus: Numbers) -> Numbers:
     >>> round(line_stiffness(10e-3, steel) / 1e3 ** (10 / 9))
     278332
     """
-    return plain(_STANDARD * length ** (8.0 / 9.0) * modulus / _STEEL)
+    return as_float(_STANDARD * length ** (8.0 / 9.0) * modulus / _STEEL)
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium, check_ball_loads
-from ehlectric.bearing.loads.geometry import BallBearing, Geometry, Speeds, plain
+from ehlectric.bearing.loads.geometry import BallBearing, Geometry, Speeds
 from ehlectric.bearing.loads.ring import Operation, refuse_unbalanced
 from ehlectric.bearing.loads.roller_loads import RollerEquilibrium, check_roller_loads
 
@@ -85,7 +85,7 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
         "gyroscopic_moment": None if at.gyroscopic_moment is None else _largest(at.gyroscopic_moment),
         "cage_speed": at.cage_speed,
         # All rollers have the same speed.
-        "element_speed": _largest(spin) if spin.ndim == at.position.ndim else plain(spin),
+        "element_speed": _largest(spin) if spin.ndim == at.position.ndim else as_float(spin),
         "entrainment_speed": inner,
         "entrainment_speed_inner": inner,
         "entrainment_speed_outer": outer,
@@ -95,4 +95,4 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
 
 def _largest(values: Array) -> Numbers:
     """Largest value over the elements, shape (...)."""
-    return plain(np.max(values, axis=-1))
+    return as_float(np.max(values, axis=-1))
