@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from ehlectric.arrays import Numbers
 from ehlectric.bearing.loads.ball_loads import ball_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
@@ -32,8 +33,8 @@ class Kind(Generic[G, C]):
     # Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all elements.
     equilibrium: Callable[[G, Operation, float, float], Equilibrium]
     contact: Callable[[RingContacts[G], float], C]  # contacts with a ring and load [N] -> contact
-    # Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
-    rigid_capacitance: Callable[[RingContacts[G], float], float]
+    # Contacts with a ring and gaps [m] -> capacitances in vacuum [F] of rigid elements and the raceway.
+    rigid_capacitance: Callable[[RingContacts[G], Numbers], Numbers]
     loads: int  # number of loads that are solved for each ring, without those of light elements
     # Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling direction.
     dry_exponents: tuple[float, float, float]

@@ -28,47 +28,48 @@ would be 30 % of the total at h0/r = 1e-3. It is less in a groove, which partly 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
-from ehlectric.formulas.hertz import DryContact, line_opening, point_deflection, reduced_radius
+from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius
+from ehlectric.formulas.hertz_outside import unit_deflection
 
 
 @dataclass(frozen=True)
 class Raceway:
-    """Groove of one ring, and the ball in it."""
+    """Groove of one ring, and the ball in it; numbers, or arrays of shape (...) for many points."""
 
     # ball_radius and groove_radius: radius r of the ball and r_g of the groove [m].
-    ball_radius: float
-    groove_radius: float
-    pitch_radius: float  # distance R_o from the axis of the bearing to the centre of the ball [m]
-    shoulder_angle: float  # angle psi at which the groove ends, on both sides of its bottom [rad]
-    contact_angle: float  # angle psi of the contact, alpha [rad]
+    ball_radius: Numbers
+    groove_radius: Numbers
+    pitch_radius: Numbers  # distance R_o from the axis of the bearing to the centre of the ball [m]
+    shoulder_angle: Numbers  # angle psi at which the groove ends, on both sides of its bottom [rad]
+    contact_angle: Numbers  # angle psi of the contact, alpha [rad]
     outer: bool
 
     @classmethod
     def of(
         cls,
-        element_diameter: float,
-        pitch_diameter: float,
-        groove: float,
-        shoulder_height: float,
+        element_diameter: Numbers,
+        pitch_diameter: Numbers,
+        groove: Numbers,
+        shoulder_height: Numbers,
         *,
         outer: bool,
-        contact_angle: float = 0.0,
+        contact_angle: Numbers = 0.0,
     ) -> Raceway:
         """Raceway of a bearing from the dimensions that catalogues state.
 
         ``element_diameter`` and ``pitch_diameter``, diameter D of the balls, and diameter of the circle of
-        their centres [m]; ``contact_angle``, contact angle from the radial direction [rad]. Raises InputError
-        where the groove radius is too small, the shoulder height is out of range, or the groove ends before
-        the contact.
+        their centres [m]; ``contact_angle``, contact angle from the radial direction [rad]; all of shape
+        (...). Raises InputError where a groove radius is too small, a shoulder height is out of range, or the
+        groove of a single point ends before the contact. ``holds`` tells the latter for arrays.
 
         Examples
         --------
@@ -78,33 +79,83 @@ class Raceway:
         >>> round(float(np.degrees(race.shoulder_angle)), 1)
         52.0
         """
-        if groove <= 0.5:
-            raise InputError("groove radius over ball diameter", f"must be above 0.5; got {shown(groove)}")
-        if not 0.0 < shoulder_height <= groove:
-            raise InputError(
-                "shoulder_height",
-                f"must be above 0 and at most the groove radius over the ball diameter, {groove:g}; "
-                f"got {shown(shoulder_height)}",
-            )
-        shoulder = float(np.arccos(1.0 - shoulder_height / groove))
-        if abs(contact_angle) >= shoulder:
+        _check_groove(groove, shoulder_height)
+        shoulder = np.arccos(1.0 - shoulder_height / groove)
+        race = cls(
+            0.5 * element_diameter,
+            groove * element_diameter,
+            0.5 * pitch_diameter,
+            shoulder,
+            contact_angle,
+            outer,
+        )
+        if np.ndim(race.holds) == 0 and not race.holds:
             raise InputError(
                 "contact_angle",
                 f"must be below {np.degrees(shoulder):.1f} degrees, where a groove of shoulder_height "
                 f"{shoulder_height:g} ends; got {np.degrees(contact_angle):.1f} degrees",
             )
-        radius = 0.5 * element_diameter
-        return cls(
-            radius, groove * element_diameter, 0.5 * pitch_diameter, shoulder, float(contact_angle), outer
+        return race
+
+    @property
+    def holds(self) -> Mask:
+        """Whether the contact is in the groove, shape (...)."""
+        inside: Mask = np.abs(self.contact_angle) < self.shoulder_angle
+        return inside
+
+    @property
+    def radius_x(self) -> Numbers:
+        """Reduced radius Rx of ball and raceway along rolling [m], shape (...)."""
+        cosine, sign = np.cos(self.contact_angle), 1.0 if self.outer else -1.0
+        rolling = cosine / (self.pitch_radius + sign * self.ball_radius * cosine)
+        return 1.0 / (1.0 / self.ball_radius - sign * rolling)
+
+    @property
+    def radius_y(self) -> Numbers:
+        """Reduced radius Ry of ball and groove across rolling [m], shape (...)."""
+        return 1.0 / (1.0 / self.ball_radius - 1.0 / self.groove_radius)
+
+    def beside(self, axes: int) -> Raceway:
+        """Raceways of many points with further axes, for their loads or for nodes."""
+        numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
+        spread = {name: beside(value, axes) for name, value in numbers.items()}
+        return replace(self, **spread) if spread else self
+
+    def at(self, points: Numbers) -> Raceway:
+        """Raceways of some of the points; ``points``, an index of arrays of shape (...)."""
+        numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
+        return replace(self, **{name: value[points] for name, value in numbers.items()}) if numbers else self
+
+
+def _check_groove(groove: Numbers, shoulder_height: Numbers) -> None:
+    """Refuse a groove without room for the ball, and shoulders that are none or higher than its radius."""
+    narrow = np.ravel(groove)[np.ravel(groove <= 0.5)]
+    if narrow.size:
+        raise InputError(
+            "groove radius over ball diameter", f"must be above 0.5; got {shown(float(narrow[0]))}"
+        )
+    groove, shoulder_height = np.broadcast_arrays(groove, shoulder_height)
+    wrong = ~((shoulder_height > 0.0) & (shoulder_height <= groove))
+    if np.any(wrong):
+        raise InputError(
+            "shoulder_height",
+            f"must be above 0 and at most the groove radius over the ball diameter, {groove[wrong][0]:g}; "
+            f"got {shown(float(shoulder_height[wrong][0]))}",
         )
 
 
-def groove_gap(race: Raceway, gap: float | Array, x: Array, y: Array) -> Array:
+def beside(values: Numbers, axes: int = 1) -> Numbers:
+    """Values of many points with further axes for their nodes; a number stays one."""
+    return values if np.ndim(values) == 0 else np.asarray(values)[(..., *[np.newaxis] * axes)]
+
+
+def groove_gap(race: Raceway, gap: Numbers, x: Array, y: Array) -> Array:
     """Gap between a rigid ball and points on its raceway, along the radius of the ball.
 
     ``gap``, gap h0 of the rigid bodies at the contact [m]; ``x`` and ``y``, distance from the contact along
-    the arcs of the raceway: along rolling and across the groove [m]. Returns gap [m]; close to the contact it
-    is h0 + x^2/(2 Rx) + y^2/(2 Ry), shape (...).
+    the arcs of the raceway: along rolling and across the groove [m]. For raceways of many points, of shape
+    (...), positions have the shape (..., n) and gaps the shape (..., 1) or (..., n). Returns gap [m]; close
+    to the contact it is h0 + x^2/(2 Rx) + y^2/(2 Ry), shape (...).
 
     Examples
     --------
@@ -115,23 +166,24 @@ def groove_gap(race: Raceway, gap: float | Array, x: Array, y: Array) -> Array:
     >>> print(np.round(groove_gap(race, 1e-6, x, np.zeros(2)) * 1e6, 3))
     [1.    2.041]
     """
+    race = race.beside(1)
     psi = race.contact_angle + y / race.groove_radius
     return distance_at(race, gap, psi, np.sin(0.5 * x / race_radius(race, gap, psi)) ** 2)
 
 
-def offset_centre(race: Raceway, gap: float | Array) -> Any:
+def offset_centre(race: Raceway, gap: Numbers) -> Numbers:
     """Distance e from the centre of the ball to the centre of the groove [m]."""
     return race.groove_radius - race.ball_radius - gap
 
 
-def race_radius(race: Raceway, gap: float | Array, psi: Array) -> Array:
+def race_radius(race: Raceway, gap: Numbers, psi: Array) -> Array:
     """Radius R of the raceway about the axis of the bearing, at the angle psi [m]."""
     inwards = race.groove_radius * np.cos(psi) - offset_centre(race, gap) * np.cos(race.contact_angle)
     radius: Array = race.pitch_radius + (inwards if race.outer else -inwards)
     return radius
 
 
-def distance_at(race: Raceway, gap: float | Array, psi: Array, q: Array) -> Array:
+def distance_at(race: Raceway, gap: Numbers, psi: Array, q: Array) -> Array:
     """Gap along the radius of the ball [m] at psi [rad] and q = sin^2(phi/2)."""
     near, u = race.ball_radius + gap, psi - race.contact_angle
     across = 4.0 * race.groove_radius * offset_centre(race, gap) * np.sin(0.5 * u) ** 2
@@ -140,18 +192,7 @@ def distance_at(race: Raceway, gap: float | Array, psi: Array, q: Array) -> Arra
     return distance
 
 
-def tilt_at(race: Raceway, gap: float | Array, psi: Array, q: Array) -> Array:
-    """Angle from the ball's radius to the raceway's normal [rad] at psi [rad] and q = sin^2(phi/2)."""
-    e, s = offset_centre(race, gap), 1.0 if race.outer else -1.0
-    # Components of Q - O along the normal of the raceway and perpendicular to it.
-    flat, linear, square = _sideways(race, gap, psi)
-    along = race.groove_radius - e * np.cos(psi - race.contact_angle)
-    sideways = np.sqrt(np.maximum(0.0, flat + (linear - square * q) * q))
-    tilt: Array = np.arctan2(sideways, along + 2.0 * s * np.cos(psi) * race.pitch_radius * q)
-    return tilt
-
-
-def _sideways(race: Raceway, gap: float | Array, psi: Array) -> tuple[Array, Array, Array]:
+def _sideways(race: Raceway, gap: Numbers, psi: Array) -> tuple[Array, Array, Array]:
     """Coefficients of the squared distance of O from the normal of the raceway at Q.
 
     It is flat + linear q - square q^2, with q = sin^2(phi/2) [m^2].
@@ -161,7 +202,7 @@ def _sideways(race: Raceway, gap: float | Array, psi: Array) -> tuple[Array, Arr
     return aside**2, 4.0 * pitch * (pitch - s * np.sin(psi) * aside), (2.0 * pitch * np.cos(psi)) ** 2
 
 
-def reach(race: Raceway, gap: float | Array, psi: Array, obliquity: float) -> Array:
+def reach(race: Raceway, gap: Numbers, psi: Array, obliquity: float) -> Array:
     """Azimuth at which the raceway's normal meets the ball at an angle to the ball's normal [rad]."""
     flat, linear, square = _sideways(race, gap, psi)
     left = np.maximum(0.0, (race.ball_radius * np.sin(obliquity)) ** 2 - flat)
@@ -173,46 +214,68 @@ def reach(race: Raceway, gap: float | Array, psi: Array, obliquity: float) -> Ar
 # Quadrature nodes along rolling and across the groove; tests check that the integral is accurate to 1e-8.
 _ALONG, _ACROSS = 40, 64
 
-# Quadrature nodes along rolling and across the groove of each part around a film: beside it, ahead of it, and
-# behind it. The deflection at the nodes takes most of the computing time; the gap changes fastest behind a
-# film, which ends close to the Hertz ellipse. The error of each part is below 1e-8 of the whole.
-_BESIDE, _AHEAD, _BEHIND = (12, 20), (12, 14), (20, 32)
+# Quadrature nodes around a film: along rolling and across the groove beside it; along rolling ahead of it
+# and behind it; across the groove ahead of it, and in each of four parts behind it. The gap changes fastest
+# behind a film, which ends close to the Hertz ellipse. The error of each part is below 1e-9 of the whole.
+_BESIDE, _TAILS, _AHEAD, _BEHIND = (12, 8), 20, 14, 10
+
+# Largest distance of the foci from the middle over the side of a film, for the nodes beside it.
+_INSIDE = 0.95
 
 # Angle between the normals of ball and raceway where the half of the ball that faces the raceway ends [rad].
 _HALF = 0.5 * np.pi
 
-# Elastic deflection that widens the gap between rigid bodies [m], as a function of the position (x, y) [m].
+# Elastic deflection that widens the gap between rigid bodies [m], as a function of the squares of the
+# distances from the contact along and across entrainment [m^2].
 Opening = Callable[[Array, Array], Array]
+
+# Largest relative difference of the ratios of semi-axes that are those of one ratio, up to rounding.
+_SAME = 1e-14
 
 
 @dataclass(frozen=True)
 class LoadedContact:
     """Bodies around a solved film, deflected by the Hertz pressure and otherwise rigid.
 
-    Contacts of several loads are held together: all values but the modulus are arrays of shape (...) then.
+    Contacts of several loads or points are held together: values are arrays of shape (...) then.
     """
 
     dry: DryContact  # dry contact under the same load
-    modulus: float  # reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+    modulus: Numbers  # reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
     # Gap that the undeflected bodies would have at the contact [m]. It is about the film thickness less the
     # elastic approach, and mostly negative.
-    offset: float | Array
+    offset: Numbers
     # Largest relative difference from the solved film thickness along the edge of the film's domain.
-    mismatch: float | Array
+    mismatch: Numbers
+    # Ratio of the semi-axes, where it is known with fewer different values than those of the dry contacts.
+    ratio: Numbers | None = None
 
     def opening(self, x: Array, y: Array) -> Array:
         """Deflection that widens the gap at positions x and y from the contact [m], shapes (..., m, n)."""
-        return point_deflection(x, y, _spread(self.dry, 2), self.modulus)
+        return _opening_of(self.dry, self.modulus, 2, self.ratio)(x * x, y * y)
+
+
+def _opening_of(dry: DryContact, modulus: Numbers, axes: int, ratio: Numbers | None = None) -> Opening:
+    """Deflection at points of which each contact has ``axes`` axes."""
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    if ratio is None:
+        ratio = a / b
+    if np.ndim(ratio) and np.size(ratio) and np.ptp(ratio) <= _SAME * np.max(ratio):
+        ratio = float(np.ravel(ratio)[0])
+    over, scale = beside(b**-2.0, axes), beside(dry.max_pressure * a / modulus, axes)
+    ratio = beside(ratio, axes)
+    return lambda x2, y2: scale * unit_deflection(x2 * over, y2 * over, ratio)
 
 
 def groove_capacitance(
-    race: Raceway, gap: float, relative_permittivity: float = 1.0, *, obliquity: float = _HALF
-) -> float:
+    race: Raceway, gap: Numbers, relative_permittivity: Numbers = 1.0, *, obliquity: float = _HALF
+) -> Numbers:
     """Capacitance between an unloaded, rigid ball and its raceway.
 
     ``gap``, gap h0 at the contact angle [m], positive; ``relative_permittivity``, relative permittivity of
     the medium in the gap, dimensionless; ``obliquity``, end of the integral along rolling: where the normal
-    of the raceway meets the ball at this angle from the normal of the ball [rad]. Returns capacitance [F].
+    of the raceway meets the ball at this angle from the normal of the ball [rad]. Gap, permittivity and the
+    numbers of ``race`` broadcast. Returns capacitance [F], shape (...).
 
     Examples
     --------
@@ -224,25 +287,34 @@ def groove_capacitance(
     >>> round(whole * 1e12, 1), round(1.0 - middle / whole, 2)
     (15.3, 0.02)
     """
-    steepness = abs(offset_centre(race, gap)) * race.groove_radius / race.ball_radius
-    # Angle from the contact at which the gap is twice as large.
-    scale = np.sqrt(2.0 * gap / max(steepness, 2.0 * gap))
-    angles, weights = _across(race, -np.inf, np.inf, scale, _ACROSS)
-    along = _along(race, gap, angles, np.zeros(_ACROSS), obliquity, _closed, _ALONG)
-    return float(2.0 * epsilon_0 * relative_permittivity * np.vdot(weights, along))
+    shape = np.broadcast_shapes(np.shape(gap), *(np.shape(value) for value in vars(race).values()))
+
+    def whole(race: Raceway, gap: Numbers) -> Array:
+        steepness = np.abs(offset_centre(race, gap)) * race.groove_radius / race.ball_radius
+        # Angle from the contact at which the gap is twice as large.
+        scale = np.sqrt(2.0 * gap / np.maximum(steepness, 2.0 * gap))
+        ends = (sign * race.shoulder_angle - race.contact_angle for sign in (-1.0, 1.0))
+        u, weights = stretched(next(ends), next(ends), scale, _ACROSS)
+        along = _along(race, gap, beside(race.contact_angle) + u, None, obliquity, None, _ALONG)
+        charge: Array = np.add.reduce(weights * along, axis=-1)
+        return charge
+
+    found = _in_chunks(whole, shape, _ALONG * _ACROSS, race, gap)
+    return 2.0 * epsilon_0 * relative_permittivity * found
 
 
 def outside_capacitance(
     race: Raceway,
     contact: LoadedContact,
-    domain: tuple[float | Array, float | Array, float | Array],
-    relative_permittivity: float = 1.0,
+    domain: tuple[Numbers, Numbers, Numbers],
+    relative_permittivity: Numbers = 1.0,
     *,
     obliquity: float = _HALF,
-) -> Array:
+    shoulders: bool = True,
+) -> Numbers:
     """Capacitance between a loaded ball and its raceway outside the domain of the solved film.
 
-    Contacts of several loads are integrated together.
+    Contacts of several loads and points are integrated together.
 
     The gap is that of rigid bodies with the gap ``contact.offset``, widened by the deflection under the Hertz
     pressure. This deflection is exact for half-spaces. Film pressure and Hertz pressure carry the same load,
@@ -252,33 +324,84 @@ def outside_capacitance(
 
     ``domain``, inlet, outlet and side of the film's domain, inlet <= x <= outlet and abs(y) <= side [m],
     shape (...); ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless;
-    ``obliquity``, end of the integral along rolling, as in ``groove_capacitance`` [rad]. Returns capacitance
-    [F], shape (...).
+    ``obliquity``, end of the integral along rolling, as in ``groove_capacitance`` [rad]; ``shoulders``, False
+    for a groove that continues beyond its shoulders up to the side of a domain that is wider than the groove,
+    where the capacitance inside this domain is subtracted: an analytic function. The numbers of ``race`` and
+    of ``contact`` have the shape (...). Returns capacitance [F], shape (...).
     """
-    inlet, outlet, side = domain
-    edge = side / race.groove_radius
+    dry = contact.dry
+    ratio = dry.semi_axis_y / dry.semi_axis_x if contact.ratio is None else contact.ratio
+    numbers = (dry.semi_axis_x, ratio, dry.max_pressure, contact.modulus, contact.offset, *domain)
+    shape = np.broadcast_shapes(*(np.shape(value) for value in (*vars(race).values(), *numbers)))
 
-    # First and last angle from the contact, scale, beginning of the integral along rolling [m], number of
-    # equal parts, and nodes: inlet and outlet are alike on both sides, and each tail is beyond one of them.
-    parts = (
-        (-np.inf, -edge, 0.5 * edge, 0.0, 2.0, _BESIDE),
-        (edge, np.inf, 0.5 * edge, 0.0, 2.0, _BESIDE),
-        (-edge, edge, edge, -inlet, 1.0, _AHEAD),
-        (-edge, edge, edge, outlet, 1.0, _BEHIND),
-    )
-    total, offset = np.zeros(np.shape(contact.offset)), _beside(contact.offset)
-    for first, last, scale, begins, number, (along, across) in parts:
-        angles, weights = _across(race, first, last, scale, across)
-        starts = _beside(begins) / race_radius(race, offset, angles)
-        charges = _along(race, contact.offset, angles, starts, obliquity, contact.opening, along)
-        total = total + number * np.sum(weights * charges, axis=-1)
-    return epsilon_0 * relative_permittivity * total
+    def outside(race: Raceway, *numbers: Numbers) -> Array:
+        b, ratio, pressure, modulus, offset, *domain = numbers
+        a = ratio * b
+        opening = _opening_of(DryContact(b, a, pressure, 0.0), modulus, 2, ratio)
+        focus = np.sqrt(np.maximum(0.0, a**2 - b**2))
+        return _outside(race, offset, opening, (*domain, focus), obliquity, shoulders=shoulders)
+
+    nodes = 2 * _BESIDE[0] * _BESIDE[1] + _TAILS * (_AHEAD + 4 * _BEHIND)
+    return epsilon_0 * relative_permittivity * _in_chunks(outside, shape, nodes, race, *numbers)
+
+
+def _outside(
+    race: Raceway,
+    offset: Numbers,
+    opening: Opening,
+    lengths: tuple[Numbers, ...],
+    obliquity: float,
+    *,
+    shoulders: bool,
+) -> Array:
+    """Integral of the charge density outside the domain of the film [m], shape (...)."""
+    inlet, outlet, side, focus = lengths
+    rg = race.groove_radius
+    total: Array = np.zeros(())
+    for (psi, weights), begins, number, nodes in (
+        # Inlet and outlet are alike on both sides of the film.
+        (_sides(race, side / rg, focus / rg, shoulders=shoulders), None, 2.0, _BESIDE[0]),
+        _tails(race, tuple(end / rg for end in (-inlet, outlet, side, focus)), shoulders=shoulders),
+    ):
+        starts = None if begins is None else begins * beside(rg)
+        charges = _along(race, offset, psi, starts, obliquity, opening, nodes)
+        total = total + number * np.add.reduce(weights * charges, axis=-1)
+    return total
+
+
+# Nodes that are computed together: few enough for the processor's cache.
+_BLOCK = 50_000
+
+
+def _in_chunks(
+    function: Callable[..., Array], shape: tuple[int, ...], nodes: int, race: Any, *numbers: Numbers
+) -> Numbers:
+    """Function of a raceway and numbers, for some points at a time; ``nodes``, nodes of a point.
+
+    Numbers and raceway broadcast to ``shape``; numbers that do not vary stay so.
+    """
+    size = int(np.prod(shape, dtype=int))
+    if shape == ():
+        return float(function(race, *numbers))
+    if size * nodes <= _BLOCK:
+        return np.broadcast_to(function(race, *numbers), shape)
+
+    def flat(value: Numbers) -> Numbers:
+        return value if np.ndim(value) == 0 else np.broadcast_to(value, shape).ravel()
+
+    race = replace(race, **{name: flat(value) for name, value in vars(race).items()})
+    numbers = tuple(flat(value) for value in numbers)
+    found, step = np.empty(size), max(1, _BLOCK // nodes)
+    for start in range(0, size, step):
+        part = slice(start, start + step)
+        found[part] = function(race.at(part), *(v if np.ndim(v) == 0 else v[part] for v in numbers))
+    return found.reshape(shape)
 
 
 def match_film(
     race: Raceway,
     dry: DryContact,
-    modulus: float,
+    modulus: Numbers,
     *,
     x: Array,
     y: Array,
@@ -297,99 +420,189 @@ def match_film(
     ``opened``, deflection at the points, where it is known [m], shape (..., n).
     """
     if opened is None:
-        opened = point_deflection(x, y, _spread(dry, 1), modulus)
-    undeflected = thickness - opened
-
-    def missing(offset: Array) -> Array:
-        return undeflected - groove_gap(race, offset, x, y)
-
-    offset, mismatch = matched_offset(missing, thickness)
+        opened = _opening_of(dry, modulus, 1)(x * x, y * y)
+    missing = missing_gap(race, thickness - opened, x, y)
+    offset, mismatch = matched_offset(missing, thickness, start=-np.asarray(dry.approach))
     return LoadedContact(dry, modulus, offset, mismatch)
 
 
-def _closed(x: Array, y: Array) -> Array:
-    return np.zeros(np.broadcast(x, y).shape)
+def missing_gap(race: Raceway, undeflected: Array, x: Array, y: Array) -> Callable[[Array], Array]:
+    """Gap of undeflected bodies [m] less the gap that they have with an offset, as a function of the offset.
+
+    ``undeflected``, gap at the points x and y from the contact [m], shape (..., n). The offset has the shape
+    (..., 1) [m].
+    """
+    race = race.beside(1)
+    u = y / race.groove_radius
+    psi = race.contact_angle + u
+    across, cosine = 4.0 * race.groove_radius * np.sin(0.5 * u) ** 2, np.cos(psi)
+
+    def missing(offset: Array) -> Array:
+        near, e = race.ball_radius + offset, offset_centre(race, offset)
+        inwards = race.groove_radius * cosine - e * np.cos(race.contact_angle)
+        radius = race.pitch_radius + (inwards if race.outer else -inwards)
+        further = across * e + 4.0 * race.pitch_radius * radius * np.sin(0.5 * x / radius) ** 2
+        left: Array = undeflected - offset - further / (np.sqrt(near**2 + further) + near)
+        return left
+
+    return missing
 
 
-def _spread(dry: DryContact, axes: int) -> DryContact:
-    """Dry contacts with further axes for their nodes."""
-    values: list[Any] = [_beside(values, axes) for values in astuple(dry)]
-    return DryContact(*values)
+def _in_groove(race: Raceway, *, shoulders: bool) -> Callable[[Numbers], Numbers]:
+    """Function that moves an angle from the contact into the groove, if that has shoulders."""
+    low, high = -race.shoulder_angle - race.contact_angle, race.shoulder_angle - race.contact_angle
+    return lambda angle: np.minimum(np.maximum(angle, low), high) if shoulders else angle
 
 
-def _beside(values: float | Array, axes: int = 1) -> Array:
-    """Values of contacts with further axes for their nodes."""
-    found: Array = np.asarray(values)[(..., *[np.newaxis] * axes)]
-    return found
+def _sides(race: Raceway, edge: Numbers, focus: Numbers, *, shoulders: bool) -> tuple[Array, Array]:
+    """Nodes psi [rad] and weights from the sides of a film, at +-``edge`` [rad], to the shoulders.
+
+    The deflection is singular at the foci of the ellipse, at +-``focus`` [rad].
+    """
+    angle, within = race.contact_angle, _in_groove(race, shoulders=shoulders)
+    focus = np.minimum(focus, _INSIDE * edge)
+    scale = 0.5 * (edge - focus)
+    low = stretched(-race.shoulder_angle - angle + focus, within(-edge) + focus, scale, _BESIDE[1])
+    high = stretched(within(edge) - focus, race.shoulder_angle - angle - focus, scale, _BESIDE[1])
+    middle = beside(angle)
+    psi = middle - beside(focus) + low[0], middle + beside(focus) + high[0]
+    return np.concatenate(psi, axis=-1), np.concatenate([low[1], high[1]], axis=-1)
 
 
-def _across(
-    race: Raceway, first: float | Array, last: float | Array, scale: float | Array, nodes: int
-) -> tuple[Array, Array]:
-    """Nodes psi [rad] and weights between two angles from the contact, as far as both are in the groove."""
-    low, high = (sign * race.shoulder_angle - race.contact_angle for sign in (-1.0, 1.0))
-    ends = (np.clip(np.asarray(end, dtype=float), low, high) for end in (first, last))
-    u, weights = stretched(next(ends), next(ends), scale, nodes)
-    return race.contact_angle + u, weights
+def _tails(
+    race: Raceway, angles: tuple[Numbers, ...], *, shoulders: bool
+) -> tuple[tuple[Array, Array], Array, float, int]:
+    """Nodes psi [rad] and weights ahead of a film and behind it, and where the integrals along rolling begin.
+
+    The deflection at a distance x along rolling has singular points across it at +-c +- ix, where c is the
+    distance of the foci of the ellipse from its middle. Behind the film x is short, so that nodes are dense
+    near the foci. ``angles``, inlet, outlet, side and c over the radius of the groove.
+    """
+    inlet, outlet, edge, focus = angles
+    angle, within = race.contact_angle, _in_groove(race, shoulders=shoulders)
+    focus = np.minimum(focus, edge)
+    parts = [stretched(within(-edge), within(edge), edge, _AHEAD)]
+    for near, far in ((-focus, -edge), (-focus, 0.0), (focus, 0.0), (focus, edge)):
+        middle = beside(near)
+        u, weights = stretched(within(near) - near, within(far) - near, outlet, _BEHIND)
+        parts.append((middle + u, np.abs(weights)))
+    begins = [
+        np.broadcast_to(beside(start), part[0].shape)
+        for start, part in zip((inlet, outlet, outlet, outlet, outlet), parts, strict=True)
+    ]
+    u, weights = (np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True))
+    return (beside(angle) + u, weights), np.concatenate(begins, axis=-1), 1.0, _TAILS
 
 
 def _along(
     race: Raceway,
-    gap: float | Array,
+    gap: Numbers,
     psi: Array,
-    start: Array,
+    begins: Array | None,
     obliquity: float,
-    opening: Opening,
+    opening: Opening | None,
     nodes: int,
 ) -> Array:
-    """Integral of the charge density along one side of the raceway, from an azimuth on, for each psi [m]."""
-    gap, psi, start = _beside(gap, 2), psi[..., np.newaxis], start[..., np.newaxis]
-    radius, y = race_radius(race, gap, psi), race.groove_radius * (psi - race.contact_angle)
-    middle = distance_at(race, gap, psi, np.zeros_like(psi)) + opening(np.zeros_like(y), y)
-    # Azimuth at which the gap is twice that in the middle; for a tail, the azimuth at which it starts.
-    scale = np.sqrt(2.0 * race.ball_radius * np.abs(middle) / (radius * race.pitch_radius))
-    scale = np.where(start > 0.0, start, scale)
+    """Integral of the charge density along one side of the raceway, times r_g, for each psi [m].
+
+    ``gap``, shape (...); ``psi``, shape (..., m); ``begins``, distance along rolling from which on the
+    integral counts [m], shape (..., m), None where it is all of the side. Returns shape (..., m).
+    """
+    race, gap, psi = race.beside(2), beside(gap, 2), psi[..., np.newaxis]
+    r, rg, pitch, s = race.ball_radius, race.groove_radius, race.pitch_radius, 1.0 if race.outer else -1.0
+    e, near, u, cosine = offset_centre(race, gap), r + gap, psi - race.contact_angle, np.cos(psi)
+    radius = race_radius(race, gap, psi)
+    across, y2 = 4.0 * rg * e * np.sin(0.5 * u) ** 2, (rg * u) ** 2
     last = reach(race, gap, psi, obliquity)
-    phi, weights = (values[..., 0, :] for values in stretched(np.minimum(start, last), last, scale, nodes))
-    q = np.sin(0.5 * phi) ** 2
-    distance, tilt = distance_at(race, gap, psi, q), tilt_at(race, gap, psi, q)
-    curvature = np.cos(psi) / radius * (1.0 if race.outer else -1.0) + 1.0 / race.groove_radius
-    density = charge_density(distance + opening(radius * phi, y), tilt, 2.0 / race.ball_radius, curvature)
-    charge: Array = race.groove_radius * radius[..., 0] * np.sum(density * weights, axis=-1)
-    return charge
+    start: Numbers = 0.0
+    if begins is None:
+        middle = gap + across / (np.sqrt(near**2 + across) + near)
+        if opening is not None:
+            middle = middle + opening(np.zeros_like(y2), y2)
+        # Azimuth at which the gap is twice that in the middle.
+        scale = np.sqrt(2.0 * r * np.abs(middle) / (radius * pitch))
+    else:
+        scale = begins[..., np.newaxis] / radius
+        start = np.minimum(scale, last)
+    phi, weights = (values[..., 0, :] for values in stretched(start, last, scale, nodes))
+    square = phi * phi
+    phi *= 0.5
+    q = np.sin(phi, out=phi)
+    q *= q
+    further = 4.0 * pitch * radius * q
+    further += across
+    away = further + near**2
+    away = np.sqrt(away, out=away)
+    # Angle between the normals by its cosine, the component of Q - O along the normal of the raceway over
+    # abs(Q - O). An error of the sine cancels in the ratio of the sine to its angle.
+    q *= 2.0 * s * cosine * pitch
+    q += rg - e * np.cos(u)
+    q /= away
+    further /= np.add(away, near, out=away)
+    further += gap
+    if opening is not None:
+        further += opening(np.multiply(square, radius**2, out=square), y2)
+    sine = np.multiply(q, q, out=away)
+    sine = np.sqrt(np.maximum(1.0 - sine, _FLAT), out=away)
+    # charge_density, of which the constant part is integrated with the weights alone.
+    curvature = s * cosine / radius + 1.0 / rg
+    constant = (2.0 / r / 6.0 + curvature / 3.0)[..., 0]
+    total: Array = np.add.reduce(weights, axis=-1) * -constant
+    further *= np.arctan2(sine, q, out=q)
+    weights *= sine
+    weights /= further
+    total += np.add.reduce(weights, axis=-1)
+    total *= (rg * radius)[..., 0]
+    return total
 
 
-# Quadrature nodes on each side of the contact; tests check that the integral is accurate to 1e-8.
-_NODES = 48
+# Square of the sine of the least angle between normals: smaller angles do not change the charge.
+_FLAT = 1e-20
+
+
+# Quadrature nodes on each side of a rigid roller, and around a film; the integrals are accurate to 1e-11.
+_NODES, _TAIL_NODES = 24, 28
 
 
 @dataclass(frozen=True)
 class RollerRaceway:
-    """Raceway of one ring, and the roller on it."""
+    """Raceway of one ring, and the roller on it; numbers, or arrays of shape (...) for many points."""
 
     # roller_radius and race_radius: radius r of the roller and R of the raceway [m].
-    roller_radius: float
-    race_radius: float
+    roller_radius: Numbers
+    race_radius: Numbers
     outer: bool
 
     @property
-    def curvature(self) -> float:
+    def curvature(self) -> Numbers:
         """Curvature of the raceway, positive where it is concave [1/m]."""
         return (1.0 if self.outer else -1.0) / self.race_radius
 
-    def pitch_radius(self, gap: float) -> float:
+    def pitch_radius(self, gap: Numbers) -> Numbers:
         """Distance R_o from the axis of the bearing to the centre of the roller, for a gap [m]."""
         return self.race_radius - (1.0 if self.outer else -1.0) * (self.roller_radius + gap)
 
+    def at(self, points: Numbers) -> RollerRaceway:
+        """Raceways of some of the points; ``points``, an index of arrays of shape (...)."""
+        radii = (r if np.ndim(r) == 0 else r[points] for r in (self.roller_radius, self.race_radius))
+        return RollerRaceway(next(radii), next(radii), self.outer)
+
+    def beside(self, axes: int) -> RollerRaceway:
+        """Raceways of many points with further axes, for their loads or for nodes."""
+        return replace(
+            self, roller_radius=beside(self.roller_radius, axes), race_radius=beside(self.race_radius, axes)
+        )
+
 
 def roller_capacitance(
-    race: RollerRaceway, gap: float, relative_permittivity: float = 1.0, *, obliquity: float = _HALF
-) -> float:
+    race: RollerRaceway, gap: Numbers, relative_permittivity: Numbers = 1.0, *, obliquity: float = _HALF
+) -> Numbers:
     """Capacitance per length between an unloaded, rigid roller and its raceway.
 
     ``gap``, smallest gap h0 [m], positive; ``relative_permittivity``, relative permittivity of the medium in
     the gap, dimensionless; ``obliquity``, end of the integral: where the normal of the raceway meets the
-    roller at this angle from the normal of the roller [rad]. Returns capacitance per length [F/m].
+    roller at this angle from the normal of the roller [rad]. Gap, permittivity and the numbers of ``race``
+    broadcast. Returns capacitance per length [F/m], shape (...).
 
     Examples
     --------
@@ -401,23 +614,28 @@ def roller_capacitance(
     >>> round(float(roller_capacitance(race, 1e-6) / parabolas), 3)
     0.987
     """
-    pitch = race.pitch_radius(gap)
-    # Azimuth at which the gap is twice the smallest one.
-    scale = np.sqrt(2.0 * race.roller_radius * gap / (race.race_radius * pitch))
-    phi, weights = stretched(0.0, _reach(race, gap, obliquity), scale, _NODES)
-    distance, tilt = _distances(race, gap, phi)
-    return 2.0 * epsilon_0 * relative_permittivity * _charge(race, distance, tilt, weights)
+
+    def whole(race: RollerRaceway, gap: Numbers) -> Array:
+        pitch = race.pitch_radius(gap)
+        # Azimuth at which the gap is twice the smallest one.
+        scale = np.sqrt(2.0 * race.roller_radius * gap / (race.race_radius * pitch))
+        phi, weights = stretched(0.0, _reach(race, gap, obliquity), scale, _NODES)
+        distance, tilt = _distances(race.beside(1), beside(gap), phi)
+        return _charge(race, distance, tilt, weights)
+
+    shape = np.broadcast_shapes(np.shape(gap), np.shape(race.roller_radius), np.shape(race.race_radius))
+    return 2.0 * epsilon_0 * relative_permittivity * _in_chunks(whole, shape, _NODES, race, gap)
 
 
 def roller_tails(
     race: RollerRaceway,
-    half_width: float,
-    domain: tuple[float, float],
-    thickness: tuple[float, float],
-    relative_permittivity: float = 1.0,
+    half_width: Numbers,
+    domain: tuple[Numbers, Numbers],
+    thickness: tuple[Numbers, Numbers],
+    relative_permittivity: Numbers = 1.0,
     *,
     obliquity: float = _HALF,
-) -> tuple[float, float]:
+) -> tuple[Numbers, Numbers]:
     """Capacitance per length outside the domain of a solved line contact, at its inlet and at its outlet.
 
     The gap is that of touching circles, widened by the deflection under the Hertz pressure. At each end a
@@ -426,9 +644,9 @@ def roller_tails(
     ``half_width``, half-width b of the dry contact [m]; ``domain``, inlet and outlet of the film's domain,
     along the arc of the raceway from the contact [m]; ``thickness``, film thickness at inlet and outlet [m];
     ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless; ``obliquity``,
-    end of the integral, as in ``roller_capacitance`` [rad]. Returns capacitance per length [F/m], each about
-    2 eps0 eps R/abs(x) with the reduced radius R; it is zero where the domain reaches beyond the end of the
-    integral.
+    end of the integral, as in ``roller_capacitance`` [rad]. All of them and the numbers of ``race``
+    broadcast. Returns capacitance per length [F/m], shape (...), each about 2 eps0 eps R/abs(x) with the
+    reduced radius R; it is zero where the domain reaches beyond the end of the integral.
 
     Examples
     --------
@@ -441,32 +659,55 @@ def roller_tails(
     >>> inlet == outlet, round(inlet / (2.0 * epsilon_0 * reduced / 4e-4), 2)
     (True, 0.91)
     """
-
-    def tail(start: float, film: float) -> float:
-        first, last = start / race.race_radius, _reach(race, 0.0, obliquity)
-        if first >= last:
-            return 0.0
-        phi, weights = stretched(first, last, first, _NODES)
-        distance, tilt = _distances(race, 0.0, np.append(phi, first))
-        gap = distance + _opening(race, half_width, np.append(phi, first) * race.race_radius)
-        return _charge(race, gap[:-1] + film - gap[-1], tilt[:-1], weights)
-
     scale = epsilon_0 * relative_permittivity
-    return scale * tail(-domain[0], thickness[0]), scale * tail(domain[1], thickness[1])
+    inlet, outlet = (
+        scale * roller_tail(race, half_width, start, film, obliquity=obliquity)
+        for start, film in zip((-np.asarray(domain[0]), domain[1]), thickness, strict=True)
+    )
+    return inlet, outlet
 
 
-def _opening(race: RollerRaceway, half_width: float, x: Array) -> Array:
+def roller_tail(
+    race: RollerRaceway, half_width: Numbers, start: Numbers, film: Numbers, *, obliquity: float = _HALF
+) -> Numbers:
+    """Capacitance per length over eps0 on one side of a solved line contact, as in ``roller_tails``.
+
+    ``start``, end of the film's domain, a distance along the raceway from the contact [m]; ``film``, film
+    thickness there [m]; with ``half_width`` and ``race`` they broadcast to the shape (...). Returns the
+    capacitance per length over eps0, dimensionless, shape (...).
+    """
+
+    def tail(race: RollerRaceway, half_width: Numbers, start: Numbers, film: Numbers) -> Array:
+        first, last, nodes = start / race.race_radius, _reach(race, 0.0, obliquity), race.beside(1)
+        # The integral from the end on is zero where the domain reaches beyond it.
+        phi, weights = stretched(np.minimum(first, last), last, first, _TAIL_NODES)
+        at = np.concatenate([phi, np.broadcast_to(beside(first), (*phi.shape[:-1], 1))], axis=-1)
+        distance, tilt = _distances(nodes, 0.0, np.minimum(at, beside(last)))
+        gap = distance + _opening(nodes, beside(half_width), at * nodes.race_radius)
+        # Where nothing is left, the gap that would continue the film may be negative.
+        change = np.where(beside(first < last), beside(film) - gap[..., -1:], 0.0)
+        charge = _charge(race, gap[..., :-1] + change, tilt[..., :-1], weights)
+        return np.where(first < last, charge, 0.0)
+
+    numbers = half_width, start, film
+    shape = np.broadcast_shapes(*map(np.shape, (race.roller_radius, race.race_radius, *numbers)))
+    return _in_chunks(tail, shape, _TAIL_NODES, race, *numbers)
+
+
+def _opening(race: RollerRaceway, half_width: Numbers, x: Array) -> Array:
     """Gap of the dry contact less that of undeflected parabolas, up to a constant [m]."""
     return line_opening(x, half_width, reduced_radius(race.roller_radius, -1.0 / race.curvature))
 
 
-def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> float:
-    """Integral of the charge density over the arc of the raceway, dimensionless."""
-    density = charge_density(gap, tilt, 1.0 / race.roller_radius, race.curvature)
-    return race.race_radius * float(np.vdot(weights, density))
+def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> Array:
+    """Integral of the charge density over the arc of the raceway, dimensionless, shape (...)."""
+    nodes = race.beside(1)
+    density = charge_density(gap, tilt, 1.0 / nodes.roller_radius, nodes.curvature)
+    charge: Array = race.race_radius * np.add.reduce(weights * density, axis=-1)
+    return charge
 
 
-def _distances(race: RollerRaceway, gap: float, phi: Array) -> tuple[Array, Array]:
+def _distances(race: RollerRaceway, gap: Numbers, phi: Array) -> tuple[Array, Array]:
     """Gap along the radius of the roller [m], and angle from it to the normal of the raceway [rad]."""
     pitch, near, q = race.pitch_radius(gap), race.roller_radius + gap, np.sin(0.5 * phi) ** 2
     further = 4.0 * race.race_radius * pitch * q
@@ -475,6 +716,7 @@ def _distances(race: RollerRaceway, gap: float, phi: Array) -> tuple[Array, Arra
     return gap + beyond, np.arctan2(pitch * np.sin(phi), along)
 
 
-def _reach(race: RollerRaceway, gap: float, obliquity: float) -> float:
+def _reach(race: RollerRaceway, gap: Numbers, obliquity: float) -> Numbers:
     """Azimuth at which the raceway's normal meets the roller at an angle to the roller's normal [rad]."""
-    return float(np.arcsin(race.roller_radius * np.sin(obliquity) / race.pitch_radius(gap)))
+    azimuth: Numbers = np.arcsin(race.roller_radius * np.sin(obliquity) / race.pitch_radius(gap))
+    return azimuth

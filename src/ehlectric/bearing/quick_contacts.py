@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
 import numpy as np
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.ball_gaps import UnitContact, around_directly, between_directly, parts_around_ellipse
 from ehlectric.bearing.conditions import gap_breakdown
+from ehlectric.bearing.gap_tables import around_of_rollers
 from ehlectric.bearing.ring_contacts import (
+    BALL_DOMAINS,
     BallContact,
     Contact,
     ContactSolution,
     RollerContact,
-    around_balls,
     check_contact,
+    raceway_of,
+    roller_raceway_of,
     solution_of,
     without_regime,
 )
@@ -27,7 +31,6 @@ from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid
-from ehlectric.contact.conditions import default_side
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
@@ -38,7 +41,6 @@ from ehlectric.formulas.film_point import chittenden
 from ehlectric.formulas.hertz import (
     DryContact,
     axis_ratio,
-    dry_contact,
     line_gap,
     line_pressure,
     point_deflection,
@@ -269,46 +271,23 @@ def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
     if balls:
         yield from _around_balls(balls)
         return
-    for quick in contacts:
-        contact = quick.contact
-        assert isinstance(contact, RollerContact)
-        b, x = contact.conditions.half_width, np.array(quick.domain[:2])
-        gap = quick.films[1] + b**2 / contact.conditions.reduced_radius * line_gap(x)
-        yield contact.around((b * x,), gap)
+    rollers = [quick.contact for quick in contacts if isinstance(quick.contact, RollerContact)]
+    b = np.array([contact.conditions.half_width for contact in rollers])
+    inlet, outlet, _ = np.array([quick.domain for quick in contacts]).T
+    films = np.array([quick.films[1] for quick in contacts])
+    race = roller_raceway_of(rollers[0].ring)
+    around = rollers[0].length * around_of_rollers(race, b, (-inlet, outlet), films)
+    # The gap outside continues the film at both ends.
+    yield from ((outside, 0.0) for outside in around.tolist())
 
 
 def _around_balls(balls: Sequence[tuple[QuickContact, BallContact]]) -> Iterator[tuple[float, float]]:
     """Capacitances in vacuum [F] around the domains of balls, and how far their gaps are off, relative."""
-    ring, conditions = balls[0][1].ring, balls[0][1].conditions
-    rx, ry, modulus = conditions.radius_x, conditions.radius_y, conditions.reduced_modulus
-    dry = DryContact(*np.array([astuple(contact.dry) for _, contact in balls]).T)
-    domains = np.array([quick.domain for quick, _ in balls]).T
-    films = np.array([quick.films[1] for quick, _ in balls])[:, np.newaxis]
-    rims = np.stack([_unit_rim(axis_ratio(rx, ry), *quick.domain) for quick, _ in balls], axis=1)
-    b, a, pressure, approach = (values[:, np.newaxis] for values in vars(dry).values())
-    x, y, opened = b * rims[0], a * rims[1], pressure * b / modulus * rims[2]
-    gap = np.maximum(0.0, x**2 / (2.0 * rx) + y**2 / (2.0 * ry) + opened - approach)
-    domain = dry.semi_axis_x * domains[0], dry.semi_axis_x * domains[1], dry.semi_axis_y * domains[2]
-    found = around_balls(ring, dry, domain, (x, y), films + gap, opened)
-    yield from ((float(outside), float(mismatch)) for outside, mismatch in zip(*found, strict=True))
-
-
-@lru_cache(maxsize=128)
-def _unit_rim(ratio: float, inlet: float, outlet: float, side: float) -> Array:
-    """Nodes on the edge of a ball's domain in semi-axes, and deflection over p_h b/E', shape (3, n).
-
-    The deflection is the same on both sides across entrainment.
-    """
-    along, across = np.linspace(inlet, outlet, _NODES[0]), np.linspace(0.0, side, _NODES[1] // 2 + 1)
-    # Both ends from the middle to the side, and the side without its ends.
-    x = np.concatenate([np.full(across.shape, inlet), np.full(across.shape, outlet), along[1:-1]])
-    y = np.concatenate([across, across, np.full(along.size - 2, side)])
-    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
-    half = np.stack([x, y, point_deflection(x, ratio * y, unit, 1.0)])
-    other = half[:, y > 0.0] * np.array([[1.0], [-1.0], [1.0]])
-    rim = np.concatenate([half, other], axis=1)
-    rim.flags.writeable = False
-    return rim
+    b = np.array([contact.dry.semi_axis_x for _, contact in balls])
+    inlet, outlet, side = np.array([quick.domain for quick, _ in balls]).T
+    films = np.array([quick.films[1] for quick, _ in balls])
+    found = around_directly(raceway_of(balls[0][1].ring), b, (inlet, outlet, side), films)
+    yield from zip(*(values.tolist() for values in found), strict=True)
 
 
 def _further(contact: Contact, domain: tuple[float, float, float], central: float) -> float:
@@ -321,14 +300,11 @@ def _further(contact: Contact, domain: tuple[float, float, float], central: floa
             x, weights = _geometric(abs(near), abs(far))
             total += contact.length * b * float(np.sum(weights / (central + scale * line_gap(x))))
         return total
-    dry, conditions = contact.dry, contact.conditions
-    b, a = dry.semi_axis_x, dry.semi_axis_y
-    for x, y, weights, opened in _unit_beyond(a / b, conditions.side, domain):
-        rigid = (b * x) ** 2 / (2.0 * conditions.radius_x) + (a * y) ** 2 / (2.0 * conditions.radius_y)
-        bent = dry.max_pressure * b / conditions.reduced_modulus * opened
-        gap = central + np.maximum(0.0, rigid + bent - dry.approach)
-        total += 2.0 * b * a * float(np.sum(weights / gap))
-    return total
+    conditions, b = contact.conditions, contact.dry.semi_axis_x
+    unit = UnitContact.of(conditions.radius_x, conditions.radius_y)
+    default, wide = (-POINT[0], POINT[1], conditions.side), (-domain[0], *domain[1:])
+    middle = np.array([central * conditions.radius_x / b**2])
+    return float(conditions.radius_x * between_directly(unit, default, wide, middle)[0])
 
 
 def _geometric(near: float, far: float) -> tuple[Array, Array]:
@@ -336,32 +312,6 @@ def _geometric(near: float, far: float) -> tuple[Array, Array]:
     ratio = np.log(far / near)
     nodes = near * np.exp(ratio * _AT)
     return nodes, ratio * nodes * _PART
-
-
-@lru_cache(maxsize=128)
-def _unit_beyond(
-    ratio: float, side: float, domain: tuple[float, float, float]
-) -> list[tuple[Array, Array, Array, Array]]:
-    """Nodes in semi-axes, weights, deflection over p_h b/E' between the default domain and a wider one."""
-    far = domain[2]
-    across = far * _AT**2, far * 2.0 * _AT * _PART
-    strips = [
-        (_geometric(abs(near), abs(end)), across)
-        for near, end in zip(POINT, domain[:2], strict=True)
-        if end != near
-    ]
-    if far > side:
-        strips += [((end * _AT, abs(end) * _PART), _geometric(side, far)) for end in POINT]
-    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
-    return [
-        (
-            x[:, np.newaxis],
-            y,
-            np.outer(along, beside),
-            point_deflection(x[:, np.newaxis], ratio * y, unit, 1.0),
-        )
-        for (x, along), (y, beside) in strips
-    ]
 
 
 def by_formula(
@@ -430,7 +380,7 @@ def by_atlas(contact: Contact) -> QuickContact:
     oil, numbers, radii, b = contact.ring.oil, film.film, contact.ring.radii, contact.axes[0]
     # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h of a ball has the unit Rx.
     if isinstance(contact, BallContact):
-        unit, parts = radii.radius_x, _around_ball(radii.radius_y / radii.radius_x)
+        unit, parts = radii.radius_x, _around_ball(float(radii.radius_y / radii.radius_x))
     else:
         unit, parts = contact.length * radii.radius_x / b, _around_roller()
     middle = film.central_thickness * radii.radius_x / b**2
@@ -530,31 +480,9 @@ def _around_roller() -> tuple[_Part, _Part]:
     return parts[0], parts[1]
 
 
-@lru_cache(maxsize=32)
 def _around_ball(radius_ratio: float) -> tuple[_Part, _Part]:
     """Gap before and behind the middle of a ball's contact, outside the Hertz ellipse.
 
-    Lengths are in b and gaps in b^2/Rx. Beside the ellipse, x is the cosine of an angle, so that its edge is
-    smooth in this angle; away from it nodes are dense at the edge.
+    Lengths are in b and gaps in b^2/Rx.
     """
-    dry = dry_contact(1.0, 1.0, radius_ratio, 1.0)
-    b, a = dry.semi_axis_x, dry.semi_axis_y
-    side = default_side(a / b)
-    # Beside the ellipse: angle and distance from its edge.
-    angle, far = 0.5 * np.pi * _ATLAS_NODES[:, np.newaxis], _ATLAS_NODES**3
-    edge = np.sin(angle)
-    beside = np.cos(angle), edge + (side - edge) * far
-    weights = 0.5 * np.pi * edge * _WEIGHTS[:, np.newaxis] * (side - edge) * 3.0 * _ATLAS_NODES**2 * _WEIGHTS
-    parts = []
-    for end in POINT:
-        length = abs(end) - 1.0
-        ahead = 1.0 + length * _ATLAS_NODES[:, np.newaxis] ** 3, side * _ATLAS_NODES
-        more = length * 3.0 * (_ATLAS_NODES**2 * _WEIGHTS)[:, np.newaxis] * side * _WEIGHTS
-        # Both halves across entrainment.
-        both = 2.0 * a / b * np.stack([weights, more])
-        x, y = (np.stack(np.broadcast_arrays(*pair)) for pair in zip(beside, ahead, strict=True))
-        x, y = b * x, a * y
-        rigid = 0.5 * (x**2 + y**2 / radius_ratio)
-        gap = np.maximum(0.0, rigid + point_deflection(x, y, dry, 1.0) - dry.approach) / b**2
-        parts.append((both, gap))
-    return parts[0], parts[1]
+    return parts_around_ellipse(radius_ratio, BALL_DOMAINS)

@@ -11,20 +11,20 @@ from typing import ClassVar, Generic, TypeAlias
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ehlectric.arrays import Array, N, Numbers
+from ehlectric.arrays import Array, N, Numbers, as_float
+from ehlectric.bearing.ball_gaps import DomainLaw
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
+from ehlectric.bearing.gap_tables import rigid_balls, rigid_rollers
 from ehlectric.bearing.gaps import (
     Raceway,
     RollerRaceway,
-    groove_capacitance,
     match_film,
     outside_capacitance,
-    roller_capacitance,
     roller_tails,
 )
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.cases.grid_inputs import Grid, Solver, point_grid
+from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid, Solver, point_grid
 from ehlectric.contact.check import FARTHEST
 from ehlectric.contact.conditions import (
     Conditions,
@@ -50,6 +50,17 @@ REFINE = 0.02
 # pressure builds up, and the most that a grid holds ahead and beside, in semi-axes. The domain costs below
 # 1 % of the film, or 15 % where a ball hardly presses.
 _ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, FARTHEST["point"]
+
+# The same as a law of the domains of many balls: the default domain of solved contacts is the shortest one.
+BALL_DOMAINS = DomainLaw(
+    inlet=-DEFAULT_ENDS[True][0],
+    outlet=DEFAULT_ENDS[True][1],
+    side=default_side,
+    along=_ALONG,
+    behind=_BEHIND,
+    across=_ACROSS,
+    most=(_MOST[0], 0.1 * _MOST[0], _MOST[1]),
+)
 
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
 # film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
@@ -227,8 +238,9 @@ class BallContact:
         rim = np.ones_like(thickness, dtype=bool)
         rim[1:-1, 1:-1] = False
         domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
-        outside, mismatch = around_balls(self.ring, self.dry, domain, (x[rim], y[rim]), thickness[rim])
-        return float(outside), float(mismatch)
+        raceway, modulus = raceway_of(self.ring), self.ring.conditions.modulus
+        matched = match_film(raceway, self.dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
+        return as_float(outside_capacitance(raceway, matched, domain)), as_float(matched.mismatch)
 
 
 @dataclass(frozen=True)
@@ -344,8 +356,8 @@ class RollerContact:
         """
         (x,) = nodes
         ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
-        tails = roller_tails(_roller_raceway(self.ring), self.conditions.half_width, *ends)
-        return self.length * sum(tails), 0.0
+        tails = roller_tails(roller_raceway_of(self.ring), self.conditions.half_width, *ends)
+        return as_float(self.length * sum(tails)), 0.0
 
 
 Contact: TypeAlias = BallContact | RollerContact
@@ -405,42 +417,20 @@ def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:
     )
 
 
-def _roller_raceway(ring: RingContacts[RollerBearing]) -> RollerRaceway:
+def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     """Raceway of one ring, with a roller on it."""
     radii = ring.radii
     return RollerRaceway(radii.element_x, abs(radii.ring_x), outer=not ring.inner)
 
 
-def around_balls(
-    ring: RingContacts[BallBearing],
-    dry: DryContact,
-    domain: tuple[float | Array, float | Array, float | Array],
-    rim: tuple[Array, Array],
-    thickness: Array,
-    opened: Array | None = None,
-) -> tuple[Array, Array]:
-    """Capacitances as of ``BallContact.around``, for balls under several loads at once.
-
-    ``dry``, dry contacts, values of shape (...); ``domain``, inlet, outlet and side of the domains [m],
-    shape (...); ``rim``, points on the edges of the domains, along and across entrainment [m],
-    shape (..., n); ``thickness``, film thickness at the points [m], shape (..., n); ``opened``, deflection at
-    the points, where it is known [m], shape (..., n). Returns values as of ``BallContact.around``,
-    shape (...).
-    """
-    raceway, (x, y) = raceway_of(ring), rim
-    modulus = ring.conditions.modulus
-    matched = match_film(raceway, dry, modulus, x=x, y=y, thickness=thickness, opened=opened)
-    return outside_capacitance(raceway, matched, domain), np.asarray(matched.mismatch)
+def rigid_ball(ring: RingContacts[BallBearing], gap: Numbers) -> Numbers:
+    """Capacitance in vacuum [F] of a rigid ball and its groove, a gap [m] apart, shape (...)."""
+    return as_float(rigid_balls(raceway_of(ring), gap))
 
 
-def rigid_ball(ring: RingContacts[BallBearing], gap: float) -> float:
-    """Capacitance in vacuum [F] of a rigid ball and its groove, a gap [m] apart."""
-    return groove_capacitance(raceway_of(ring), gap)
-
-
-def rigid_roller(ring: RingContacts[RollerBearing], gap: float) -> Numbers:
-    """Capacitance in vacuum [F] of a rigid roller and its raceway, a gap [m] apart."""
-    return ring.conditions.geometry.roller_length * roller_capacitance(_roller_raceway(ring), gap)
+def rigid_roller(ring: RingContacts[RollerBearing], gap: Numbers) -> Numbers:
+    """Capacitance in vacuum [F] of a rigid roller and its raceway, a gap [m] apart, shape (...)."""
+    return as_float(ring.conditions.geometry.roller_length * rigid_rollers(roller_raceway_of(ring), gap))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

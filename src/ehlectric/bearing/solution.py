@@ -118,7 +118,7 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
     """Values of rigid bodies at a gap [m]; it is at least the central film of the lightest solved load."""
     conditions, rigid = ring.conditions, kind_of(ring).rigid_capacitance
     apart = np.maximum(gap, curve.solutions[0].values.central_thickness)
-    vacuum = np.array([rigid(ring, float(thickness)) for thickness in apart])
+    vacuum = rigid(ring, apart)
     none = np.zeros_like(apart)
     return ContactValues(
         max_pressure=none,

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ehlectric.arrays import Numbers, as_float
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.errors import InputError, within
@@ -320,18 +321,19 @@ def point_conditions(
     )
 
 
-def default_side(ratio: float) -> float:
+def default_side(ratio: Numbers) -> Numbers:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
 
     The ``ratio`` k = a/b is that of the semi-axes of the dry contact, a across and b along entrainment,
-    dimensionless. The result is half of the domain's width, in semi-axes across, dimensionless.
+    dimensionless, shape (...). The result is half of the domain's width, in semi-axes across, dimensionless,
+    shape (...).
 
     Examples
     --------
     >>> default_side(1.0), round(default_side(9.3), 2), default_side(0.2)
     (3.0, 1.75, 4.5)
     """
-    return min(_MOST_SIDE, _LEAST_SIDE + (_CIRCLE_SIDE - _LEAST_SIDE) / ratio)
+    return as_float(np.minimum(_MOST_SIDE, _LEAST_SIDE + (_CIRCLE_SIDE - _LEAST_SIDE) / ratio))
 
 
 def resolve(case: Case) -> Conditions:

@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.formulas.polynomials import gauss_legendre
 
 # Modes of the slot, and waves of the gap for each of them and for each ratio of slot pitch to opening. The
@@ -191,11 +191,20 @@ def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) ->
     points, weights = gauss_legendre(nodes)
     scale = np.asarray(scale, dtype=float)[..., np.newaxis]
     first, last = (np.arcsinh(np.asarray(at, dtype=float)[..., np.newaxis] / scale) for at in (start, end))
-    at = first + (last - first) * (0.5 * (points + 1.0))
-    return scale * np.sinh(at), (last - first) * (0.5 * weights) * scale * np.cosh(at)
+    length = last - first
+    # scale sinh and cosh by one exponential. Where sinh cancels, x is small next to the scale.
+    rises = np.exp(first + length * (0.5 * (points + 1.0)))
+    rises *= 0.5 * scale
+    falls = np.divide(0.25 * np.square(scale), rises)
+    x = rises - falls
+    rises += falls
+    rises *= length * (0.5 * weights)
+    return x, rises
 
 
-def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple[Array, Array]:
+def matched_offset(
+    missing: Callable[[Array], Array], thickness: Array, *, start: Numbers = 0.0
+) -> tuple[Array, Array]:
     """Offset of a gap with which it continues a film along the edge of the film's domain.
 
     With this offset the error of 1/h adds up to zero over the edge. The gap need not fit at every point.
@@ -203,8 +212,9 @@ def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple
 
     ``missing``, function that gives, for offsets of shape (..., 1) [m], the film thickness less the gap at
     each point of the edge, shape (..., n) [m]; ``thickness``, film thickness at the points [m],
-    shape (..., n). Returns ``offset``, offset [m], shape (...); ``mismatch``, largest difference between film
-    thickness and gap over the film thickness, dimensionless, shape (...).
+    shape (..., n); ``start``, first guess of the offset [m], shape (...). Returns ``offset``, offset [m],
+    shape (...); ``mismatch``, largest difference between film thickness and gap over the film thickness,
+    dimensionless, shape (...).
 
     Examples
     --------
@@ -217,7 +227,8 @@ def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple
     """
     weights = thickness**-2.0 / np.sum(thickness**-2.0, axis=-1, keepdims=True)
     enough = _SETTLED * np.min(thickness, axis=-1)
-    offset = step = before = np.zeros(thickness.shape[:-1])
+    step = before = np.zeros(thickness.shape[:-1])
+    offset = step + start
     for _ in range(12):
         left = missing(offset[..., np.newaxis])
         error = np.sum(weights * left, axis=-1)

@@ -315,8 +315,9 @@ def test_twice_the_nodes_change_nothing_outside(outer, load, film, monkeypatch):
     contact = LoadedContact(dry, E, film - dry.approach, 0.0)
     found = [outside_capacitance(race, contact, domain) for domain in domains]
     with monkeypatch.context() as patch:
-        for name in ("_BESIDE", "_AHEAD", "_BEHIND"):
-            patch.setattr(capacitances, name, tuple(2 * nodes for nodes in getattr(capacitances, name)))
+        for name in ("_BESIDE", "_TAILS", "_AHEAD", "_BEHIND"):
+            nodes = getattr(capacitances, name)
+            patch.setattr(capacitances, name, (24, 20) if name == "_BESIDE" else 2 * nodes)
         finer = [outside_capacitance(race, contact, domain) for domain in domains]
     assert found == pytest.approx(finer, rel=1e-8, abs=0.0)
 

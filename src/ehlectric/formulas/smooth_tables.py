@@ -1,0 +1,231 @@
+"""Interpolation of smooth functions of several variables by polynomials on few nodes.
+
+The nodes along each variable are Leja points on its range: each is where the product of the distances to the
+nodes before it is largest, so that more nodes can be added to those that are known. The i-th Newton
+polynomial is zero at the nodes before the i-th and one there. Polynomials of several variables are products
+of these. A product is used only with all products of lower numbers, so that its coefficient is the error that
+the others leave at its node. Products are added next to those with large coefficients, until all beyond are
+small.
+
+M. A. Chkifa, A. Cohen and C. Schwab, Found. Comput. Math. 14 (2014) 601, doi:10.1007/s10208-013-9154-z.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import product
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from ehlectric.arrays import Array, IntArray, Mask
+
+# Function of several variables at m points, shape (variables, m) -> (m,).
+Function = Callable[[Array], Array]
+
+# Most nodes along a variable, and most nodes in all.
+_MOST_ALONG, _MOST = 60, 2500
+
+# Coefficient over the tolerance beyond which products are added, its part that is expected of the next
+# product, and points between the nodes at which a table is compared with its function.
+_LARGE, _NEXT, _CHECKED = 0.5, 0.1, 24
+
+# Points that are computed together: few enough for the processor's cache.
+_BLOCK = 512
+
+
+@cache
+def leja_points() -> Array:
+    """Leja points on -1 to 1, the first in the middle.
+
+    Examples
+    --------
+    >>> leja_points()[:3].tolist()
+    [0.0, -1.0, 1.0]
+    """
+    fine = -np.cos(np.linspace(0.0, np.pi, 4001))
+    points, distances = [0.0], np.abs(fine)
+    while len(points) < _MOST_ALONG:
+        points.append(float(fine[np.argmax(distances)]))
+        distances = distances * np.abs(fine - points[-1])
+    return np.array(points)
+
+
+def _newton(at: Array, number: int) -> Array:
+    """Newton polynomials of the first nodes at points from -1 to 1, shape (number, m)."""
+    nodes, steps = leja_points(), _steps()
+    values, factor = np.empty((number, at.size)), np.empty(at.size)
+    values[0] = 1.0
+    for i in range(1, number):
+        np.subtract(at, nodes[i - 1], out=factor)
+        factor *= steps[i]
+        np.multiply(values[i - 1], factor, out=values[i])
+    return values
+
+
+@cache
+def _steps() -> Array:
+    """Factors by which the inverse of the product of the distances of a node to those before it grows."""
+    nodes = leja_points()
+    ends = np.array([np.prod(nodes[i] - nodes[:i]) for i in range(nodes.size)])
+    return np.concatenate([[1.0], ends[:-1] / ends[1:]])
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothTable:
+    """Polynomial of several variables in a box."""
+
+    low: Array  # least value of each variable, shape (variables,)
+    high: Array  # largest value of each variable, shape (variables,)
+    numbers: IntArray  # numbers of the polynomials of each product, shape (products, variables)
+    coefficients: Array  # coefficient of each product, shape (products,)
+    error: float  # largest difference from the function at points between the nodes
+
+    def holds(self, *variables: Array) -> Mask:
+        """Whether points are in the box, shape (...)."""
+        inside: Mask = np.ones((), dtype=bool)
+        for value, low, high in zip(variables, self.low, self.high, strict=True):
+            inside = inside & (value >= low) & (value <= high)
+        return inside
+
+    def __call__(self, *variables: Array, group: IntArray | None = None) -> Array:
+        """Values at points in the box, shape (m,); variables of shape (m,).
+
+        ``group``, for each point the place of the value of the first variable, where many points have the
+        same one: the first variable then has the shape (groups,).
+        """
+        rows, columns, matrix = self._plan
+        at = [self._scaled(values, k) for k, values in enumerate(variables)]
+        counts = [matrix.shape[1], *(int(column.max()) + 1 for column in columns)]
+        newton = [_newton(values, count) for values, count in zip(at, counts, strict=True)]
+        # Coefficients of the products of all variables but the first, for each value of the first one.
+        of_first = matrix @ newton[0]
+        size = at[-1].size
+        group = np.arange(size) if group is None else group
+        found, work = np.empty(size), np.empty((2, len(matrix), min(size, _BLOCK)))
+        for start in range(0, size, _BLOCK):
+            part = slice(start, start + _BLOCK)
+            total = np.ones((1, found[part].size))
+            for row, column, values in zip(rows[:-1], columns[:-1], newton[1:-1], strict=True):
+                total = total[row] * values[column, part]
+            products, other = work[:, :, : total.shape[1]]
+            np.take(total, rows[-1], axis=0, out=products, mode="clip")
+            np.take(newton[-1][:, part], columns[-1], axis=0, out=other, mode="clip")
+            products *= other
+            if of_first.shape[1] == 1:
+                np.dot(of_first[:, 0], products, out=found[part])
+            else:
+                np.take(of_first, group[part], axis=1, out=other, mode="clip")
+                np.einsum("ij,ij->j", products, other, out=found[part])
+        return found
+
+    def _scaled(self, values: Array, variable: int) -> Array:
+        """Variable from -1 to 1; 0 where its range is a point."""
+        low, high = self.low[variable], self.high[variable]
+        if high <= low:
+            return np.zeros(1 if variable == 0 else np.shape(values))
+        scaled: Array = (2.0 * values - (low + high)) / (high - low)
+        return scaled
+
+    @cached_property
+    def _plan(self) -> tuple[list[IntArray], list[IntArray], Array]:
+        """How the products of all variables but the first are made, one variable after the other.
+
+        For each of these variables, the row of the products of those before it, and the number of its
+        polynomial; coefficients, shape (products of all but the first, numbers of the first).
+        """
+        others, place = np.unique(self.numbers[:, 1:], axis=0, return_inverse=True)
+        matrix = np.zeros((len(others), int(self.numbers[:, 0].max()) + 1))
+        matrix[place.ravel(), self.numbers[:, 0]] = self.coefficients
+        rows, numbers, heads = [], [], others
+        for _ in range(others.shape[1]):
+            numbers.append(heads[:, -1])
+            heads, row = np.unique(heads[:, :-1], axis=0, return_inverse=True)
+            rows.append(row.ravel())
+        return rows[::-1], numbers[::-1], matrix
+
+
+def smooth_table(function: Function, low: Array, high: Array, tolerance: float) -> SmoothTable | None:
+    """Polynomial that meets a function in a box to a tolerance; None where that takes too many nodes.
+
+    ``function``, analytic function of points of shape (variables, m), two variables or more; ``low`` and
+    ``high``, box, shape (variables,); ``tolerance``, largest difference at points between the nodes.
+
+    Examples
+    --------
+    >>> table = smooth_table(lambda x: np.exp(x[0] + 2.0 * x[1]), np.zeros(2), np.ones(2), 1e-9)
+    >>> round(float(table(np.array([0.3]), np.array([0.7]))[0] - np.exp(1.7)), 8)
+    0.0
+    """
+    box = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    known = _Known(function, *box)
+    draw = np.random.default_rng(1).uniform(-1.0, 1.0, (box[0].size, _CHECKED))
+    # Few different values of the first variable, which may be expensive to change.
+    draw[0] = np.repeat(draw[0, :3], _CHECKED // 3)
+    draw[box[1] <= box[0]] = 0.0
+    expected, large = known.at(draw), _LARGE * tolerance
+    while len(known.table.numbers) <= _MOST:
+        if known.grow(large):
+            continue
+        error = float(np.max(np.abs(known.table(*draw) - expected)))
+        if error <= tolerance:
+            return SmoothTable(*box, known.table.numbers, known.table.coefficients, error)
+        large *= 0.25
+    return None
+
+
+def _moved(number: tuple[int, ...], variable: int, step: int) -> tuple[int, ...]:
+    """Product whose number for a variable is changed by a step."""
+    return (*number[:variable], number[variable] + step, *number[variable + 1 :])
+
+
+class _Known:
+    """Products of a table that grows, with the values of its function at their nodes."""
+
+    def __init__(self, function: Function, low: Array, high: Array) -> None:
+        self.function, self.low, self.high = function, low, high
+        self.numbers: list[tuple[int, ...]] = []
+        self.values = np.empty(0)
+        self._add(product(*(range(3 if end > start else 1) for start, end in zip(low, high, strict=True))))
+
+    def at(self, scaled: Array) -> Array:
+        """Values of the function at points from -1 to 1, shape (variables, m)."""
+        half = 0.5 * (self.high - self.low)
+        return self.function((self.low + half + half * scaled.T).T)
+
+    def _add(self, new: Iterable[tuple[int, ...]]) -> None:
+        """Add products, each after those of lower numbers."""
+        added = sorted(new, key=sum)
+        self.numbers += added
+        self.values = np.concatenate([self.values, self.at(leja_points()[np.array(added)].T)])
+        rows, matrix = np.array(self.numbers), np.ones((len(self.numbers),) * 2)
+        for number in rows.T:
+            nodes = leja_points()[: int(number.max()) + 1]
+            matrix *= _newton(nodes, nodes.size)[number][:, number]
+        found = solve_triangular(matrix.T, self.values, lower=True, unit_diagonal=True)
+        ends = np.where(self.high > self.low, 1.0, 0.0)
+        self.table = SmoothTable(-ends, ends, rows, found, np.nan)
+
+    def grow(self, large: float) -> bool:
+        """Add products next to those with larger coefficients than ``large``; False where all have them."""
+        sizes = dict(zip(self.numbers, np.abs(self.table.coefficients).tolist(), strict=True))
+        known, variables = len(sizes), np.flatnonzero(self.high > self.low).tolist()
+        queue = [number for number in self.numbers if sizes[number] > large]
+        while queue:
+            number = queue.pop()
+            for beyond in (_moved(number, variable, 1) for variable in variables):
+                if beyond in sizes or max(beyond) >= _MOST_ALONG:
+                    continue
+                lower = [sizes.get(_moved(beyond, k, -1)) for k in variables if beyond[k]]
+                least = min((-1.0 if size is None else size for size in lower), default=-1.0)
+                if least < 0.0:
+                    continue
+                sizes[beyond] = _NEXT * least
+                if sizes[beyond] > large:
+                    queue.append(beyond)
+        new = list(sizes)[known:]
+        if new:
+            self._add(new)
+        return bool(new)

@@ -1,0 +1,58 @@
+"""Polynomials of several variables against their functions."""
+
+import numpy as np
+import pytest
+
+from ehlectric.formulas.smooth_tables import leja_points, smooth_table
+
+
+def coupled(at):
+    return 1.0 / (1.2 + at[0] * at[1] + 0.3 * at[2] ** 2)
+
+
+BOX = np.array([0.0, -0.5, 0.1]), np.array([0.4, 0.8, 1.1])
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-10])
+def test_error_is_below_the_tolerance(tolerance):
+    """At points that are not among the two dozen with which a table checks itself, with a margin."""
+    table = smooth_table(coupled, *BOX, tolerance)
+    points = np.random.default_rng(8).uniform(*BOX, (2000, 3)).T
+    assert table.error <= tolerance
+    assert np.max(np.abs(table(*points) - coupled(points))) < 5.0 * tolerance
+
+
+def test_points_of_a_group_share_the_first_variable():
+    table = smooth_table(coupled, *BOX, 1e-8)
+    draw = np.random.default_rng(9)
+    first, group = draw.uniform(0.0, 0.4, 7), draw.integers(0, 7, 1500)
+    others = draw.uniform(BOX[0][1:], BOX[1][1:], (1500, 2)).T
+    together = table(first, *others, group=group)
+    assert together == pytest.approx(table(first[group], *others), rel=1e-13)
+
+
+def test_a_variable_may_have_one_value():
+    low, high = BOX
+    high = np.array([low[0], *high[1:]])
+    table = smooth_table(coupled, low, high, 1e-9)
+    points = np.random.default_rng(10).uniform(low, high, (300, 3)).T
+    assert table.numbers[:, 0].max() == 0
+    assert table(np.zeros(1), *points[1:]) == pytest.approx(coupled(points), abs=5e-9)
+
+
+def test_a_polynomial_is_exact():
+    table = smooth_table(lambda at: at[0] ** 2 * at[1] + at[1] ** 3, np.zeros(2), np.full(2, 2.0), 1e-9)
+    points = np.random.default_rng(11).uniform(0.0, 2.0, (50, 2)).T
+    assert table(*points) == pytest.approx(points[0] ** 2 * points[1] + points[1] ** 3, abs=1e-12)
+
+
+def test_no_table_of_a_function_with_a_kink():
+    kink = smooth_table(lambda at: np.abs(at[0] - 0.3) + np.abs(at[1] - 0.6), np.zeros(2), np.ones(2), 1e-9)
+    assert kink is None
+
+
+def test_leja_points_are_apart():
+    points = np.sort(leja_points())
+    assert points[0] == -1.0
+    assert points[-1] == 1.0
+    assert np.min(np.diff(points)) > 1e-3
