@@ -3,9 +3,11 @@
 import copy
 import dataclasses
 
+import numpy as np
+
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.bearing.quick_contacts import QUICK_METHODS, quick_solutions
+from ehlectric.bearing.quick_contacts import QUICK_METHODS, quick_curve
 from ehlectric.bearing.ring_contacts import ContactSolution, ContactValues, RingContacts, solve
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
@@ -160,7 +162,7 @@ def with_values(one, **values):
 
 def quick_contact(ring, load, way):
     """Contact with a ring at a load [N] without solving it: "atlas" or "formula"."""
-    (found,) = quick_solutions([QUICK_METHODS[way](contact_of(ring, load))])
+    (found,) = quick_curve(QUICK_METHODS[way](contact_of(ring, np.array([load])))).solutions
     return found
 
 

@@ -146,21 +146,13 @@ def rims(unit: UnitContact, domain: tuple[Numbers, Numbers, Numbers]) -> tuple[A
     )
 
 
-# Ratios that are computed one by one, and kept.
-_FEW = 16
-
-
 def _axis_ratios(radius_x: Numbers, radius_y: Numbers) -> Numbers:
-    """Ratios of semi-axes, of which those of equal radii are computed once."""
+    """Ratios of semi-axes, of which those of equal radii are computed once; 1 without radii."""
     if np.ndim(radius_x) == np.ndim(radius_y) == 0:
         return axis_ratio(float(radius_x), float(radius_y))
-    radius_ratio = radius_y / radius_x
+    radius_ratio = np.where(np.isfinite(radius_x * radius_y), radius_y / radius_x, 1.0)
     several, number = np.unique(radius_ratio, return_inverse=True)
-    if several.size <= _FEW:
-        ratios = np.array([axis_ratio(1.0, one) for one in several.tolist()])
-    else:
-        ratios = axis_ratio(np.ones_like(several), several)
-    return ratios[number].reshape(radius_ratio.shape)
+    return axis_ratio(np.ones_like(several), several)[number].reshape(radius_ratio.shape)
 
 
 # Contacts that are matched together: few enough for the processor's cache.

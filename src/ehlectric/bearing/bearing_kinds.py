@@ -32,7 +32,7 @@ class Kind(Generic[G, C]):
     geometry: Callable[[Bearing], G]  # table ``[bearing]`` -> internal geometry
     # Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all elements.
     equilibrium: Callable[[G, Operation, float, float], Equilibrium]
-    contact: Callable[[RingContacts[G], float], C]  # contacts with a ring and load [N] -> contact
+    contact: Callable[[RingContacts[G], Numbers], C]  # contacts with a ring and load [N] -> contact
     # Contacts with a ring and gaps [m] -> capacitances in vacuum [F] of rigid elements and the raceway.
     rigid_capacitance: Callable[[RingContacts[G], Numbers], Numbers]
     loads: int  # number of loads that are solved for each ring, without those of light elements

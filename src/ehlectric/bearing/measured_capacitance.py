@@ -253,7 +253,7 @@ class Correction:
         own = FilmState.of(solution)
         log = math.log(formula.capacitance)
         ratio = own.capacitance / formula.capacitance, own.lambda_ratio / formula.lambda_ratio
-        solves = self.solves + sum(len(curve.solutions) for curve in solution.curves)
+        solves = self.solves + sum(int(np.count_nonzero(curve.used)) for curve in solution.curves)
         others = np.abs(self.logs - log) > _SAME
         logs = np.append(self.logs[others], log)
         ratios = np.vstack([self.ratios[others], np.log(ratio)])

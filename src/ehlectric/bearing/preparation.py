@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 from scipy.constants import g as gravity
-from scipy.optimize import bisect
 
-from ehlectric.arrays import Numbers
+from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
 from ehlectric.bearing.film_factor import factors_of, solved_heat
@@ -100,13 +99,18 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
             )
 
 
+def too_thick(contact: Contact) -> Mask:
+    """Whether films are too thick for the space between element and raceway, or unknown."""
+    return np.asarray(np.logical_not(contact.film <= contact.thickest_film))
+
+
 def check_film(contact: Contact) -> None:
     """Refuse films that are too thick for the space between element and raceway. Raises InputError where the
     film of a ball is thicker than a tenth of (f - 1/2) D, or the film of a roller builds up over more than a
     tenth of its radius.
     """
     film, most, ring = contact.film, contact.thickest_film, contact.ring
-    if film > most:
+    if too_thick(contact):
         oil = ring.oil.viscosity
         raise InputError(
             "bearing",
@@ -293,9 +297,18 @@ def _with_rings(prepared: PreparedBearing, *rings: RingConditions) -> PreparedBe
 
 
 def _check_films(prepared: PreparedBearing) -> None:
-    """Refuse films for which there is no room between the bodies."""
+    """Refuse films of a single bearing for which there is no room between the bodies."""
     for ring in prepared.rings:
-        check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
+        if not ring.shape:
+            check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
+
+
+def films_too_thick(prepared: PreparedBearing) -> Mask:
+    """Whether the films of bearings leave no room between the bodies, shape (...)."""
+    inner, outer = (
+        too_thick(kind_of(ring).contact(ring, largest_load(prepared, ring))) for ring in prepared.rings
+    )
+    return inner | outer
 
 
 def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:
@@ -304,52 +317,86 @@ def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner
     return RingContacts(conditions, inner, float(ring.angle[most]), float(ring.entrainment_speed[most]))
 
 
-def largest_load(prepared: PreparedBearing, ring: RingContacts[Any]) -> float:
-    """Load of the most loaded contact with a ring [N], at the first position of the cage."""
-    return float(np.max(prepared.equilibria[0].ring(inner=ring.inner).load))
+def largest_load(prepared: PreparedBearing, ring: RingContacts[Any]) -> Numbers:
+    """Load of the most loaded contact with a ring [N], at the first position of the cage, shape (...)."""
+    return as_float(np.max(prepared.equilibria[0].ring(inner=ring.inner).load, axis=-1))
 
 
-def least_load(ring: RingContacts[Any]) -> float:
-    """Least load at which the domain holds the length over which the film builds up [N].
+def least_load(ring: RingContacts[Any]) -> Numbers:
+    """Least load at which the domain holds the length over which the film builds up [N], shape (...).
 
     Lighter contacts have thicker films, so that the breakdown voltage at this load is a lower bound of
-    theirs. It is found to 1e-6, so that it changes with the speed without steps.
+    theirs. It is found to 1e-6, so that it changes with the speed without steps. It is infinite where the
+    domain never holds this length.
     """
     kind = kind_of(ring)
 
-    def holds(exponent: float) -> bool:
+    def holds(exponent: Numbers) -> Mask:
         # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-        return bool(kind.contact(ring, 10.0**exponent).fits)
+        return np.asarray(kind.contact(ring, 10.0**exponent).fits)
 
     smallest, largest = _EXPONENTS
-    if not holds(largest):
-        return math.inf
-    if holds(smallest):
-        return float(10.0**smallest)
-    return float(10.0 ** bisect(lambda exponent: holds(exponent) - 0.5, smallest, largest, xtol=_CLOSE))
+    always, never = holds(smallest), ~holds(largest)
+    low, step = np.full(always.shape, smallest), largest - smallest
+    # The middle of each interval is the lower end of the next one where it does not hold the length.
+    while step >= _CLOSE:
+        step *= 0.5
+        middle = low + step
+        low = np.where(holds(middle), low, middle)
+    found = np.where(always, smallest, middle)
+    return as_float(np.where(never, np.inf, 10.0**found))
 
 
-def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
-    """Loads of a ring's contacts to solve [N], by increasing load.
+def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> tuple[Array, Mask]:
+    """Loads of a ring's contacts to solve [N], by increasing load, and which of them are in use.
 
     The loads of the kind, or more for quick contacts, are evenly spaced in their logarithm. Lighter loads
     come before them where elements carry hardly more than their centrifugal force.
+
+    Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with
+    fewer loads than others have the least one of them in the places before, which are not in use.
     """
-    all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
-    largest = float(np.max(all_loads))
-    least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
+    all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria], axis=-1)
+    largest = np.max(all_loads, axis=-1)
+    is_light = all_loads < _LEAST * largest[..., np.newaxis]
+    least = np.min(np.where(is_light, np.inf, all_loads), axis=-1)
     number = _QUICK_LOADS if quick else kind_of(ring).loads
-    loads = np.geomspace(least, largest, number) if largest / least > _ALIKE else np.array([largest])
+    alike = ~(largest / least > _ALIKE)
+    least = np.where(alike, largest, least)
+    loads = np.geomspace(least, largest, number, axis=-1)
+    heavy = ~alike[..., np.newaxis] | (np.arange(number) == number - 1)
+    lighter, light = _lighter(_light_load(ring, all_loads, is_light, largest), least)
+    loads, used = np.concatenate([lighter, loads], axis=-1), np.concatenate([light, heavy], axis=-1)
+    # Places in use last, as few as the point with the most loads has.
+    most = int(np.max(np.count_nonzero(used, axis=-1)))
+    order = np.argsort(used, axis=-1, kind="stable")[..., -most:]
+    loads, used = np.take_along_axis(loads, order, -1), np.take_along_axis(used, order, -1)
+    first = np.take_along_axis(loads, np.argmax(used, axis=-1)[..., np.newaxis], -1)
+    return np.where(used, loads, first), used
+
+
+def _light_load(ring: RingContacts[Any], loads: Array, is_light: Mask, largest: Array) -> Array:
+    """Least load that is solved of elements that are hardly loaded [N], infinite without any, shape (...)."""
     # Elements that are pressed outward only by their centrifugal force carry far less than the others.
-    light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
-    own = max(float(np.min(light)), _LIGHTEST * largest, least_load(ring)) if light.size else math.inf
-    return [*_lighter(own, float(loads[0])), *(float(load) for load in loads)]
+    light = np.min(np.where(is_light & (loads > 0.0), loads, np.inf), axis=-1)
+    some = np.isfinite(light)
+    if not np.any(some):
+        return np.asarray(light)
+    least = np.maximum(np.maximum(light, _LIGHTEST * largest), least_load(ring))
+    return np.where(some, least, np.inf)
 
 
-def _lighter(own: float, least: float) -> list[float]:
-    """Loads [N] from that of light elements, ``own``, up to below ``least``; none where both are close."""
-    if own >= 0.5 * least:
-        return []
-    ratio = math.log(least / own)
-    number = 1 + min(_MOST_BETWEEN, int(ratio / math.log(_BETWEEN)))
-    return [own * math.exp(ratio * (k / number) ** _CROWDED) for k in range(number)]
+def _lighter(own: Array, least: Array) -> tuple[Array, Mask]:
+    """Loads [N] from that of light elements, ``own``, up to below ``least``, and which of them are in use.
+
+    None are in use where both are close. Shape (..., k), with those in use last.
+    """
+    most = 1 + _MOST_BETWEEN
+    some = own < 0.5 * least
+    own = np.where(some, own, least)
+    ratio = np.log(least / own)
+    number = np.where(some, 1 + np.minimum(_MOST_BETWEEN, np.floor(ratio / math.log(_BETWEEN))), 1.0)
+    place = np.arange(most) - (most - number[..., np.newaxis])
+    part = np.maximum(place, 0.0) / number[..., np.newaxis]
+    loads = own[..., np.newaxis] * np.exp(ratio[..., np.newaxis] * part**_CROWDED)
+    return loads, (place >= 0.0) & some[..., np.newaxis]

@@ -2,50 +2,45 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
+from typing import Any
 
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array
-from ehlectric.bearing.ball_gaps import UnitContact, around_directly, between_directly, parts_around_ellipse
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.bearing.ball_gaps import around_directly
+from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import gap_breakdown
-from ehlectric.bearing.gap_tables import around_of_rollers
+from ehlectric.bearing.gap_tables import around_ellipses, around_of_balls, around_of_rollers, between_domains
 from ehlectric.bearing.ring_contacts import (
     BALL_DOMAINS,
     BallContact,
     Contact,
-    ContactSolution,
+    ContactCurve,
+    ContactValues,
     RollerContact,
+    beyond_model,
     check_contact,
     raceway_of,
     roller_raceway_of,
-    solution_of,
     without_regime,
 )
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid
+from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.field.zones import areas
-from ehlectric.film.atlas.atlas_films import ContactFilm, contact_film
-from ehlectric.formulas.film_line import BothThicknesses, pan_hamrock
-from ehlectric.formulas.film_point import chittenden
-from ehlectric.formulas.hertz import (
-    DryContact,
-    axis_ratio,
-    line_gap,
-    line_pressure,
-    point_deflection,
-    point_pressure,
-)
+from ehlectric.film.atlas.atlas_films import contact_film, groups_of, in_atlas
+from ehlectric.film.atlas.atlas_groups import Ellipse, Groups
+from ehlectric.formulas.film_line import pan_hamrock
+from ehlectric.formulas.film_point import PointContact, chittenden
+from ehlectric.formulas.hertz import line_gap
 from ehlectric.lubricant.oil import Oil
 
 # Factors by which films from formulas, and margins with them, may be off either way. Balls have the formula
@@ -128,9 +123,8 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
 # of solved contacts, and that of the atlas.
 LINE, POINT = DEFAULT_ENDS[False], DEFAULT_ENDS[True]
 
-# Nodes along and across entrainment of a ball's contact, and along entrainment of a roller's.
+# Nodes on the edge of the domain of a ball's contact, along and across entrainment.
 _NODES = 97, 65
-_LINE_NODES = 1601
 
 # Nodes and weights on 0 to 1 with which the gap further away is integrated.
 _AT, _PART = (0.5 * values for values in np.polynomial.legendre.leggauss(12))
@@ -143,212 +137,240 @@ _ELLIPSE = 0.5 * (_RATIO + 1.0), 0.5 * (_RATIO + 1.0) * _WEIGHT
 _STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 
 
-def _ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, ...], Array, Array]:
-    """Nodes along and across entrainment [m] of a ball, the gap of its dry contact, widened by its central
-    film [m], and the Hertz pressure over its maximum.
-    """
-    conditions, dry = contact.conditions, contact.dry
-    b, a = contact.axes
-    side = a * conditions.side
-    x, y = b * np.linspace(*POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
-    rigid = x[:, np.newaxis] ** 2 / (2.0 * conditions.radius_x) + y**2 / (2.0 * conditions.radius_y)
-    ratio = axis_ratio(conditions.radius_x, conditions.radius_y)
-    opened = dry.max_pressure * b / conditions.reduced_modulus * _unit_opening(ratio, conditions.side)
-    gap = central + np.maximum(0.0, rigid + opened - dry.approach)
-    return (x, y), gap, point_pressure(x[:, np.newaxis] / b, y / b, a / b)
-
-
-def _roller_gap(contact: RollerContact, central: float) -> tuple[tuple[Array, ...], Array, Array]:
-    """Nodes along entrainment [m] of a roller, the gap of its dry contact, widened by its central film [m],
-    and the Hertz pressure over its maximum.
-    """
-    conditions = contact.conditions
-    unit, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
-    x, gap = b * unit, central + b**2 / conditions.reduced_radius * line_gap(unit)
-    return (x,), gap, line_pressure(x / b)
-
-
-@lru_cache(maxsize=32)
-def _unit_opening(ratio: float, side: float) -> Array:
-    """Deflection over p_h b/E' at the nodes of a ball's contact, shape ``_NODES``, dimensionless.
-
-    In semi-axes it depends on their ratio alone, so all loads of a ring have the same one.
-    """
-    x, y = np.linspace(*POINT, _NODES[0]), ratio * np.linspace(-side, side, _NODES[1])
-    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
-    opened = point_deflection(x[:, np.newaxis], y, unit, 1.0)
-    opened.flags.writeable = False
-    return opened
-
-
 def permittivity(oil: Oil, pressure: Array) -> Array:
     """Relative permittivity of the oil under pressure [Pa], dimensionless."""
     return oil.permittivity(pressure, oil.density_ratio(pressure)[0])
 
 
-def hertz_mean(contact: Contact, law: Callable[[Array], Array]) -> float:
-    """Mean over the Hertz area of a number that depends on the Hertz pressure [Pa]."""
+# Numbers that are computed together: few enough for the processor's cache.
+_TOGETHER = 32768
+
+
+def hertz_mean(contact: Contact, law: Callable[[Array], Array], share: Numbers = 1.0) -> Array:
+    """Mean over the Hertz area of a number that depends on the Hertz pressure [Pa], times ``share``."""
     ratio, weights = _ELLIPSE if isinstance(contact, BallContact) else _STRIP
-    return float(np.vdot(weights, law(contact.conditions.max_pressure * ratio)))
+    pressure = np.asarray(share * contact.conditions.max_pressure)
+    step = max(1, _TOGETHER // max(1, pressure.size))
+    total = np.zeros_like(pressure)
+    for start in range(0, ratio.size, step):
+        part = slice(start, start + step)
+        # A product of matrices would start threads.
+        total += np.einsum("k,k...->...", weights[part], law(np.multiply.outer(ratio[part], pressure)))
+    return total
 
 
 @dataclass(frozen=True)
 class QuickContact:
-    """Contact without a solved film, before the capacitance around its domain is computed."""
+    """Contacts of a ring without solved films, before the capacitance around their domains is computed.
+
+    Numbers have the shape (m, ...) of the loads, with the points of operation last.
+    """
 
     contact: Contact
-    films: tuple[float, float]  # minimum and central film thickness [m]
+    films: tuple[Numbers, Numbers]  # minimum and central film thickness [m]
     # inside and hertz: integral of eps_r dA/h over the domain, and over the Hertz area [m].
-    inside: float
-    hertz: float
-    grid: Grid
-    domain: tuple[float, float, float]  # ends along entrainment and side of the domain in semi-axes
-    error: float | None = None  # relative error of the films; None where it is unknown
-    warnings: tuple[ResultWarning, ...] = ()
+    inside: Array
+    hertz: Array
+    domain: tuple[Numbers, Numbers, Numbers]  # ends along entrainment and side of the domain in semi-axes
+    error: Array  # relative error of the films; NaN where it is unknown
+    left: Mask  # contacts outside the atlas
+    refused: Mask  # contacts beyond the model, whose numbers have no meaning
 
     @property
-    def load(self) -> float:
-        """Load of the contact [N]."""
-        return self.contact.load
+    def load(self) -> Array:
+        """Loads of the contacts [N]."""
+        return np.broadcast_to(self.contact.load, self.inside.shape)
 
 
 def quick_contact(
     contact: Contact,
-    films: tuple[float, float],
+    films: tuple[Array, Array],
     *,
-    inside: float,
-    hertz: float,
-    error: float | None = None,
+    inside: Array,
+    hertz: Array,
+    refused: Mask,
     wide: bool = False,
 ) -> QuickContact:
-    """Contact without a solved film. ``films``, minimum and central film thickness [m]; ``inside`` and
+    """Contacts without solved films. ``films``, minimum and central film thickness [m]; ``inside`` and
     ``hertz``, integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m];
-    ``error``, relative error of the films; None where it is unknown.
+    ``refused``, contacts beyond the model; ``wide``, whether light contacts have the domain of their film.
     """
-    grid = contact.grid
-    domain = _domain(contact, grid if wide else None)
+    domain = _domain(contact, wide=wide)
     if wide:
-        inside += contact.ring.oil.relative_permittivity * _further(contact, domain, films[1])
-    return QuickContact(contact, films, inside, hertz, grid, domain, error)
+        inside = inside + contact.ring.oil.relative_permittivity * _beyond(contact, domain, films[1])
+    unknown, none = np.full(inside.shape, np.nan), np.zeros(inside.shape, dtype=bool)
+    return QuickContact(contact, films, inside, hertz, domain, unknown, none, refused)
 
 
-def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
-    """Solutions of quick contacts with one ring; the largest field is the voltage over the minimum film."""
-    return [_solution(contact, around) for contact, around in zip(contacts, _around(contacts), strict=True)]
+# Quantities of the dry contact, which are powers of the load, and those that go with another quantity.
+_DRY = ("max_pressure", "semi_axis_x", "semi_axis_y")
+_FOLLOWS = {
+    "strength_per_volt": ("minimum_thickness", -1.0),
+    "breakdown_voltage": ("minimum_thickness", 1.0),
+    "outside_oil": ("outside_air", 1.0),
+}
 
 
-def _solution(quick: QuickContact, around: tuple[float, float]) -> ContactSolution:
-    """Solution of a quick contact with the capacitance around its domain in vacuum [F]."""
+def quick_curve(
+    quick: QuickContact, used: Mask | None = None, around: tuple[Array, Array] | None = None
+) -> ContactCurve:
+    """Curve of quick contacts over their loads; the largest field is the voltage over the minimum film.
+
+    ``used``, loads in use of each point, shape (..., m), all by default; ``around``, capacitances in vacuum
+    around the domains [F], and how far their gaps are off at the edge, relative, shape (m, ...), where they
+    are known already.
+    """
     contact, (least, central) = quick.contact, quick.films
-    oil = contact.ring.oil
-    setup = Setup(oil=oil, grid=quick.grid)
-    warnings = case_warnings(setup, contact.conditions)
-    return solution_of(
-        contact,
-        quick.films,
-        around,
+    oil, strength, shape = contact.ring.oil, contact.ring.discharge, quick.inside.shape
+    outside, mismatch = _around_all(quick) if around is None else around
+    groups, (along, across) = contact.conditions.contact, contact.axes
+    values = ContactValues(
+        max_pressure=contact.conditions.max_pressure,
+        semi_axis_x=along,
+        semi_axis_y=across,
+        minimum_thickness=least,
+        central_thickness=central,
         inside=epsilon_0 * quick.inside,
+        outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
+        outside_air=outside,
         plate=epsilon_0 * oil.relative_permittivity * contact.area / central,
         strength_per_volt=1.0 / least,
-        breakdown_voltage=gap_breakdown(contact.ring.discharge, least),
+        breakdown_voltage=gap_breakdown(strength, least),
         hertz=epsilon_0 * quick.hertz,
-        error=quick.error,
-        converged=True,
-        warnings=(*quick.warnings, *without_regime(warnings)),
+    )
+
+    def column(numbers: Numbers) -> Any:
+        """Numbers with the axis of the loads last."""
+        return np.ascontiguousarray(np.moveaxis(np.broadcast_to(numbers, shape), 0, -1))
+
+    refused = np.any(quick.refused, axis=0)
+    exponents = (("load", exponent) for exponent in kind_of(contact.ring).dry_exponents)
+    return ContactCurve(
+        loads=column(contact.load),
+        values=ContactValues(*map(column, values.columns())),
+        error=column(quick.error),
+        moes_m=column(groups.moes_m),
+        moes_l=column(groups.moes_l),
+        mismatch=column(mismatch),
+        converged=np.ones((*shape[1:], shape[0]), dtype=bool),
+        used=np.ones((*shape[1:], shape[0]), dtype=bool) if used is None else used,
+        warnings_of=partial(quick_warnings, quick),
+        left=column(quick.left),
+        follows=_FOLLOWS | dict(zip(_DRY, exponents, strict=True)),
+        refused=refused if shape[1:] else bool(refused),
     )
 
 
-def _domain(contact: Contact, grid: Grid | None) -> tuple[float, float, float]:
-    """Ends along entrainment and side of the domain in semi-axes: of a grid, or the default ones."""
-    if grid is not None:
-        return *grid.ends, grid.side or 1.0
+def quick_warnings(quick: QuickContact) -> list[tuple[ResultWarning, ...]]:
+    """Warnings about the contacts of a single bearing, by increasing load."""
+    ring, found = quick.contact.ring, []
+    percent = 100.0 * (formula_factor(ring.conditions.bearing.kind) - 1.0)
+    for load, left in zip(quick.load.tolist(), quick.left.tolist(), strict=True):
+        contact = replace(quick.contact, load=load)
+        warnings = case_warnings(Setup(oil=ring.oil, grid=contact.grid), contact.conditions)
+        of_atlas = (ResultWarning.of("atlas-left", percent=percent),) if left else ()
+        found.append((*of_atlas, *without_regime(warnings)))
+    return found
+
+
+def _around_all(quick: QuickContact) -> tuple[Array, Array]:
+    """Capacitances in vacuum [F] around domains, and how far their gaps are off at the edge, relative, shape
+    (m, ...). Of balls of many points this difference is not computed, and NaN.
+    """
+    contact, central, shape = quick.contact, quick.films[1], quick.inside.shape
+    (inlet, outlet, side), b = quick.domain, contact.axes[0]
+    if isinstance(contact, RollerContact):
+        tails = around_of_rollers(roller_raceway_of(contact.ring), b, (-inlet, outlet), central)
+        # The gap outside continues the film at both ends.
+        return np.broadcast_to(contact.length * tails, shape), np.zeros(shape)
+    race = raceway_of(contact.ring)
+    if not contact.ring.shape:
+        return around_directly(race, b, quick.domain, central)
+    return around_of_balls(race, b, (-inlet, outlet, side), central, BALL_DOMAINS), np.full(shape, np.nan)
+
+
+def _domain(contact: Contact, *, wide: bool) -> tuple[Numbers, Numbers, Numbers]:
+    """Ends along entrainment and side of the domain in semi-axes: that of the contact, or the default one."""
+    if wide:
+        inlet, outlet, side = contact.domain
+        return -inlet, outlet, side
     return (*POINT, contact.conditions.side) if isinstance(contact, BallContact) else (*LINE, 1.0)
 
 
-def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
-    """Capacitances in vacuum [F] around domains, and how far their gaps are off at the edge, relative."""
-    balls = [(quick, quick.contact) for quick in contacts if isinstance(quick.contact, BallContact)]
-    if balls:
-        yield from _around_balls(balls)
-        return
-    rollers = [quick.contact for quick in contacts if isinstance(quick.contact, RollerContact)]
-    b = np.array([contact.conditions.half_width for contact in rollers])
-    inlet, outlet, _ = np.array([quick.domain for quick in contacts]).T
-    films = np.array([quick.films[1] for quick in contacts])
-    race = roller_raceway_of(rollers[0].ring)
-    around = rollers[0].length * around_of_rollers(race, b, (-inlet, outlet), films)
-    # The gap outside continues the film at both ends.
-    yield from ((outside, 0.0) for outside in around.tolist())
+def _beyond(contact: Contact, domain: tuple[Numbers, Numbers, Numbers], central: Array) -> Array:
+    """Integral of dA/h [m] between the default domain and a wider one, shape (m, ...)."""
+    radius, b = contact.ring.radii.radius_x, contact.axes[0]
+    inlet, outlet, side = domain
+    if isinstance(contact, BallContact):
+        middle, ends = central * radius / b**2, (-inlet, outlet, side)
+        return np.asarray(radius * between_domains(raceway_of(contact.ring), ends, middle, BALL_DOMAINS))
+    total, scale = np.zeros(central.shape), b**2 / radius
+    for near, far in zip(LINE, (inlet, outlet), strict=True):
+        x, weights = _geometric(abs(near), np.abs(far))
+        gap = central[..., np.newaxis] + np.asarray(scale)[..., np.newaxis] * line_gap(x)
+        total += contact.length * b * np.sum(weights / gap, axis=-1)
+    return total
 
 
-def _around_balls(balls: Sequence[tuple[QuickContact, BallContact]]) -> Iterator[tuple[float, float]]:
-    """Capacitances in vacuum [F] around the domains of balls, and how far their gaps are off, relative."""
-    b = np.array([contact.dry.semi_axis_x for _, contact in balls])
-    inlet, outlet, side = np.array([quick.domain for quick, _ in balls]).T
-    films = np.array([quick.films[1] for quick, _ in balls])
-    found = around_directly(raceway_of(balls[0][1].ring), b, (inlet, outlet, side), films)
-    yield from zip(*(values.tolist() for values in found), strict=True)
-
-
-def _further(contact: Contact, domain: tuple[float, float, float], central: float) -> float:
-    """Integral of dA/h [m] between the default domain and a wider one."""
-    total = 0.0
-    if isinstance(contact, RollerContact):
-        b = contact.conditions.half_width
-        scale = b**2 / contact.conditions.reduced_radius
-        for near, far in zip(LINE, domain[:2], strict=True):
-            x, weights = _geometric(abs(near), abs(far))
-            total += contact.length * b * float(np.sum(weights / (central + scale * line_gap(x))))
-        return total
-    conditions, b = contact.conditions, contact.dry.semi_axis_x
-    unit = UnitContact.of(conditions.radius_x, conditions.radius_y)
-    default, wide = (-POINT[0], POINT[1], conditions.side), (-domain[0], *domain[1:])
-    middle = np.array([central * conditions.radius_x / b**2])
-    return float(conditions.radius_x * between_directly(unit, default, wide, middle)[0])
-
-
-def _geometric(near: float, far: float) -> tuple[Array, Array]:
-    """Nodes and weights from ``near`` to ``far``, denser at the near end."""
-    ratio = np.log(far / near)
+def _geometric(near: float, far: Array) -> tuple[Array, Array]:
+    """Nodes and weights from ``near`` to each of ``far``, denser at the near end, shape (..., k)."""
+    ratio = np.log(far / near)[..., np.newaxis]
     nodes = near * np.exp(ratio * _AT)
     return nodes, ratio * nodes * _PART
 
 
 def by_formula(
-    contact: Contact, films: tuple[float, float] | None = None, *, wide: bool = False
+    contact: Contact, films: tuple[Array, Array] | None = None, *, wide: bool = False
 ) -> QuickContact:
-    """Film, capacitances and voltages of a contact by film formulas. ``films``, minimum and central film
-    thickness [m] in place of those of the formula. Returns numbers without an error estimate: the formulas
-    may be 30 % off for balls and 40 % for rollers, and more for light loads. Raises InputError as
-    ``check_contact`` does.
+    """Films, capacitances and voltages of contacts of a ring by film formulas. ``films``, minimum and central
+    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
+    formulas may be 30 % off for balls and 40 % for rollers, and more for light loads. Raises InputError as
+    ``check_contact`` does for the contacts of a single bearing.
 
     Film thickness of balls by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014, and of
     rollers by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact plus the
     central film thickness. The capacitance is computed with the permittivity under the Hertz pressure; the
     maximum field strength is the voltage divided by the minimum film thickness.
     """
-    check_contact(contact)
-    if isinstance(contact, BallContact):
-        films = films or _films(chittenden(contact.conditions.contact))
-        nodes, gap, ratio = _ball_gap(contact, films[1])
-    else:
-        films = films or _films(pan_hamrock(contact.conditions.contact))
-        nodes, gap, ratio = _roller_gap(contact, films[1])
-    law = partial(permittivity, contact.ring.oil)
-    pressure = contact.conditions.max_pressure * ratio
-    inside = contact.length * float(np.vdot(areas(nodes), law(pressure) / gap))
+    refused = _refused(contact)
+    if films is None:
+        groups = contact.conditions.contact
+        film = chittenden(groups) if isinstance(groups, PointContact) else pan_hamrock(groups)
+        films = film.minimum_thickness, film.central_thickness
+    oil = contact.ring.oil
     # The Hertz area is a plate with the permittivity under the Hertz pressure.
-    hertz = hertz_mean(contact, law) * contact.area / films[1]
-    return quick_contact(contact, films, inside=inside, hertz=hertz, wide=wide)
+    hertz = hertz_mean(contact, partial(permittivity, oil)) * contact.area / films[1]
+    inside = hertz + oil.relative_permittivity * sum(_around_hertz(contact, films[1]))
+    return quick_contact(contact, films, inside=inside, hertz=hertz, refused=refused, wide=wide)
 
 
-def _films(film: BothThicknesses) -> tuple[float, float]:
-    """Minimum and central film thickness of a formula [m]."""
-    return film.minimum_thickness, film.central_thickness
+def _refused(contact: Contact) -> Mask:
+    """Contacts beyond the model, shape (m, ...); those of a single bearing are refused with an InputError."""
+    refused, loads = beyond_model(contact), contact.load
+    if contact.ring.shape:
+        pressure = np.where(refused, 0.0, contact.conditions.max_pressure)
+        return np.asarray(refused | np.isnan(permittivity(contact.ring.oil, pressure)))
+    # The heaviest contact has the largest pressure, at which a law may have no value.
+    for load in loads[refused | (loads == loads.max())][::-1]:
+        check_contact(replace(contact, load=float(load)))
+    return np.asarray(refused)
 
 
-# Keys of the errors with which the atlas says that it has no film of a contact.
-_LEFT = ("moes_m", "moes_n", "moes_y", "ratio", "atlas")
+def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
+    """Integral of dA/h [m] before and behind the middle of a contact, inside the default domain and outside
+    the Hertz area, shape (m, ...).
+    """
+    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h of a ball has the unit Rx.
+    radius, b = contact.ring.radii.radius_x, contact.axes[0]
+    middle = central * radius / b**2
+    if isinstance(contact, BallContact):
+        inlet, outlet = around_ellipses(raceway_of(contact.ring), middle, BALL_DOMAINS)
+        return radius * inlet, radius * outlet
+    unit = contact.length * radius / b
+    gaps = middle[..., np.newaxis]
+    inlet, outlet = (np.sum(weights / (gaps + gap), axis=-1) for weights, gap in _around_roller())
+    return unit * inlet, unit * outlet
+
 
 # Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either
 # way, and how often the last ratio is halved.
@@ -364,8 +386,9 @@ _Part = tuple[Array, Array]
 
 
 def by_atlas(contact: Contact) -> QuickContact:
-    """Film, capacitances and voltages of a contact from the atlas of films. Returns numbers with the error
-    that the atlas states for the films. Raises InputError as ``check_contact`` does.
+    """Films, capacitances and voltages of contacts of a ring from the atlas of films. Returns numbers with
+    the error that the atlas states for the films. Raises InputError as ``check_contact`` does for the
+    contacts of a single bearing.
 
     Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
     pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
@@ -373,97 +396,153 @@ def by_atlas(contact: Contact) -> QuickContact:
     for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the voltage
     over the minimum film thickness.
     """
-    check_contact(contact)
-    film = _film(contact)
-    if film is None:
-        return _left(contact)
-    oil, numbers, radii, b = contact.ring.oil, film.film, contact.ring.radii, contact.axes[0]
-    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h of a ball has the unit Rx.
-    if isinstance(contact, BallContact):
-        unit, parts = radii.radius_x, _around_ball(float(radii.radius_y / radii.radius_x))
-    else:
-        unit, parts = contact.length * radii.radius_x / b, _around_roller()
-    middle = film.central_thickness * radii.radius_x / b**2
-    inlet, outlet = (unit * _integral(part, middle) for part in parts)
+    refused = _refused(contact)
+    inside, known = _of_atlas(contact, refused)
+    left = ~known & ~refused
+    return _with_left(inside, left) if np.any(left) else inside
+
+
+def _of_atlas(contact: Contact, refused: Mask) -> tuple[QuickContact, Mask]:
+    """Contacts from the atlas, and which of them it has; those that it does not have are NaN."""
+    oil = contact.ring.oil
+    ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
+    film = contact_film(contact.conditions.contact, oil, ellipse)
+    numbers = film.film
+    inlet, outlet = _around_hertz(contact, film.central_thickness)
     outside = oil.relative_permittivity * (numbers.inlet * inlet + numbers.outlet * outlet)
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
     mass = film.central_thickness * numbers.mass / numbers.central
     # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
     # the middle, its pressure is not that of the zone.
-    share = min(1.0, numbers.central_pressure)
-    mean = hertz_mean(contact, lambda pressure: _permittivity_of_mass(oil, share * pressure))
-    hertz = numbers.zone * mean * contact.area / mass
-    return quick_contact(
-        contact,
-        (film.minimum_thickness, film.central_thickness),
-        inside=hertz + outside,
-        hertz=hertz,
-        error=max(film.errors["central"], film.errors["minimum"]),
-        wide=True,
+    share = np.where(numbers.known, np.minimum(1.0, numbers.central_pressure), 0.0)
+    hertz = (
+        numbers.zone * hertz_mean(contact, partial(_permittivity_of_mass, oil), share) * contact.area / mass
     )
+    films = film.minimum_thickness, film.central_thickness
+    quick = quick_contact(contact, films, inside=hertz + outside, hertz=hertz, refused=refused, wide=True)
+    error = np.maximum(film.errors["central"], film.errors["minimum"])
+    return replace(quick, error=error), np.asarray(numbers.known)
 
 
-# Functions that compute a contact without solving it, by ``contacts`` of a bearing file.
+# Functions that compute contacts without solving them, by ``contacts`` of a bearing file.
 QUICK_METHODS: Mapping[str, Callable[[Contact], QuickContact]] = {"atlas": by_atlas, "formula": by_formula}
 
 
-def _film(contact: Contact) -> ContactFilm | None:
-    """Film of a contact; None outside the atlas."""
-    try:
-        return contact_film(contact.conditions.contact, contact.ring.oil)
-    except InputError as error:
-        if error.key not in _LEFT:
-            raise
-        return None
+def _with_left(quick: QuickContact, left: Mask) -> QuickContact:
+    """Contacts of which those outside the atlas are by formula, joined to the atlas at the nearest load."""
+    # As many contacts of each point as the most that any point has outside, those outside first.
+    order = np.argsort(~left, axis=0, kind="stable")[: int(left.sum(axis=0).max())]
+
+    def picked(values: Numbers) -> Any:
+        return np.take_along_axis(np.broadcast_to(values, left.shape), order, 0)
+
+    outside = picked(left)
+    contact = replace(quick.contact, load=picked(quick.contact.load))
+    found = _left(contact, outside, picked(quick.refused))
+
+    def joined(values: Numbers, new: Numbers) -> Any:
+        values = np.array(np.broadcast_to(values, left.shape))
+        np.put_along_axis(values, order, np.where(outside, new, picked(values)), 0)
+        return values
+
+    return replace(
+        quick,
+        films=(joined(quick.films[0], found.films[0]), joined(quick.films[1], found.films[1])),
+        inside=joined(quick.inside, found.inside),
+        hertz=joined(quick.hertz, found.hertz),
+        error=np.where(left, formula_factor(quick.contact.ring.conditions.bearing.kind) - 1.0, quick.error),
+        refused=joined(quick.refused, found.refused),
+        left=left,
+    )
 
 
-def _left(contact: Contact) -> QuickContact:
-    """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has."""
-    error = formula_factor(contact.ring.conditions.bearing.kind) - 1.0
-    edge = _edge(contact)
-    if edge is None:
-        solution = by_formula(contact, wide=True)
-    else:
-        # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
-        # there the films change as those of a formula that holds for light contacts, too.
-        last, trend = by_atlas(edge), contact.film / edge.film
-        least, central = last.films
-        joined = by_formula(edge, last.films, wide=True)
-        solution = by_formula(contact, (trend * least, trend * central), wide=True)
-        inside, hertz = last.inside / joined.inside, last.hertz / joined.hertz
-        solution = replace(solution, inside=inside * solution.inside, hertz=hertz * solution.hertz)
-    warning = ResultWarning.of("atlas-left", percent=100.0 * error)
-    return replace(solution, error=error, warnings=(warning,))
+def _left(contact: Contact, outside: Mask, refused: Mask) -> QuickContact:
+    """Contacts by formula, and where they are ``outside`` the atlas joined to it at the nearest load."""
+    load = _edges(contact, outside)
+    near = np.isfinite(load)
+    edge = replace(contact, load=np.where(near, load, contact.load))
+    # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
+    # there the films change as those of a formula that holds for light contacts, too.
+    last, known = _of_atlas(edge, refused)
+    near &= known
+    trend = contact.film / edge.film
+    by_itself = by_formula(contact, wide=True) if not np.all(near | ~outside) else None
+    films = tuple(np.where(near, one, 1.0) for one in last.films)
+    joined = by_formula(edge, (films[0], films[1]), wide=True)
+    solution = by_formula(contact, (trend * films[0], trend * films[1]), wide=True)
+    inside, hertz = last.inside / joined.inside, last.hertz / joined.hertz
+    solution = replace(
+        solution,
+        inside=inside * solution.inside,
+        hertz=hertz * solution.hertz,
+        refused=solution.refused | joined.refused,
+    )
+    if by_itself is None:
+        return solution
+    return replace(
+        solution,
+        films=(
+            np.where(near, solution.films[0], by_itself.films[0]),
+            np.where(near, solution.films[1], by_itself.films[1]),
+        ),
+        inside=np.where(near, solution.inside, by_itself.inside),
+        hertz=np.where(near, solution.hertz, by_itself.hertz),
+        refused=np.where(near, solution.refused, by_itself.refused),
+    )
 
 
-def _edge(contact: Contact) -> Contact | None:
-    """Same contact under the load nearest to its own that the atlas has; None where it has none near."""
+def _edges(contact: Contact, outside: Mask) -> Array:
+    """Loads nearest to those of contacts ``outside`` the atlas that it has [N]; NaN without any near."""
+    edges = np.array(np.broadcast_to(contact.load, outside.shape))
+    ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
+    groups = groups_of(contact.conditions.contact, contact.ring.oil, ellipse)
+    unit, moes_l = (
+        np.broadcast_to(values, outside.shape)[outside]
+        for values in (groups.moes_m / contact.load, groups.moes_l)
+    )
+    lanes = None if ellipse is None else ellipse.among(outside.shape, outside)
+    edges[outside] = nearest_known(edges[outside], unit, moes_l, lanes)
+    return edges
+
+
+def nearest_known(load: Array, unit: Array, moes_l: Array, ellipse: Ellipse | None = None) -> Array:
+    """Loads nearest to given ones that the atlas has, NaN where it has none near, shape (n,).
+
+    ``load`` [N]; ``unit``, Moes' M under a load of 1 N [1/N]; ``moes_l``, L; ``ellipse``, shape of the dry
+    contact of points.
+    """
+
+    def known(loads: Array, lanes: IntArray) -> Mask:
+        shape = None if ellipse is None else ellipse.among(load.shape, lanes)
+        ratio = None if shape is None else shape.ratio
+        return in_atlas(Groups(unit[lanes] * loads, moes_l[lanes], ratio, shape))
+
+    inside, outer = np.full(load.shape, np.nan), np.full(load.shape, np.nan)
+    factor = np.ones(load.shape)
+    wanted = np.arange(load.size)
     for number in range(1, _STEPS + 1):
         for step in (_STEP, 1.0 / _STEP):
-            inside = replace(contact, load=contact.load * step**number)
-            if _film(inside) is None:
-                continue
-            outside, ratio = contact.load * step ** (number - 1), step
-            for _ in range(_HALVINGS):
-                ratio = math.sqrt(ratio)
-                between = replace(contact, load=outside * ratio)
-                if _film(between) is None:
-                    outside = between.load
-                else:
-                    inside = between
-            return inside
-    return None
+            found = known(load[wanted] * step**number, wanted)
+            lanes = wanted[found]
+            inside[lanes] = load[lanes] * step**number
+            outer[lanes], factor[lanes] = load[lanes] * step ** (number - 1), step
+            wanted = wanted[~found]
+        if not wanted.size:
+            break
+    lanes = np.flatnonzero(np.isfinite(inside))
+    for _ in range(_HALVINGS):
+        factor = np.sqrt(factor)
+        between = outer[lanes] * factor[lanes]
+        found = known(between, lanes)
+        inside[lanes[found]] = between[found]
+        outer[lanes[~found]] = between[~found]
+    return inside
 
 
 def _permittivity_of_mass(oil: Oil, pressure: Array) -> Array:
     """Relative permittivity times density ratio of an oil under pressure [Pa]."""
-    return permittivity(oil, pressure) * oil.density_ratio(pressure)[0]
-
-
-def _integral(part: _Part, middle: float) -> float:
-    """Integral of dA/h over a part of the gap, widened by the film in the middle; dimensionless."""
-    weights, gap = part
-    return float(np.sum(weights / (middle + gap)))
+    density = oil.density_ratio(pressure)[0]
+    return np.asarray(oil.permittivity(pressure, density) * density)
 
 
 @lru_cache(maxsize=1)
@@ -478,11 +557,3 @@ def _around_roller() -> tuple[_Part, _Part]:
         x = 1.0 + length * _ATLAS_NODES**3
         parts.append((length * 3.0 * _ATLAS_NODES**2 * _WEIGHTS, line_gap(x)))
     return parts[0], parts[1]
-
-
-def _around_ball(radius_ratio: float) -> tuple[_Part, _Part]:
-    """Gap before and behind the middle of a ball's contact, outside the Hertz ellipse.
-
-    Lengths are in b and gaps in b^2/Rx.
-    """
-    return parts_around_ellipse(radius_ratio, BALL_DOMAINS)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import ClassVar, Generic, TypeAlias
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
-from ehlectric.arrays import Array, N, Numbers, as_float
+from ehlectric.arrays import Array, IntArray, Mask, N, Numbers, as_float
 from ehlectric.bearing.ball_gaps import DomainLaw
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gap_tables import rigid_balls, rigid_rollers
@@ -32,13 +31,16 @@ from ehlectric.contact.conditions import (
     check_pressure,
     check_width,
     default_side,
+    least_pressure,
 )
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.atlas.atlas_groups import Ellipse
 from ehlectric.formulas.film_line import moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz import DryContact, dry_contact, line_half_width, line_max_pressure
+from ehlectric.formulas.monotone_cubic import MonotoneCubic, end_slope, inner_slope
 from ehlectric.lubricant.oil import Oil
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
@@ -89,12 +91,15 @@ _LEAST_SPEED = 1e-9
 
 @dataclass(frozen=True)
 class RingContacts(Generic[G_co]):
-    """Contacts of all elements with one ring, without their loads."""
+    """Contacts of all elements with one ring, without their loads.
+
+    Quantities of one bearing are numbers, those of many points of operation have the shape (...).
+    """
 
     conditions: BearingConditions[G_co]
     inner: bool  # True for the inner ring, False for the outer ring
-    angle: float  # contact angle at which the radii are taken [rad]
-    speed: float  # entrainment speed (u1 + u2)/2 [m/s]
+    angle: Numbers  # contact angle at which the radii are taken [rad]
+    speed: Numbers  # entrainment speed (u1 + u2)/2 [m/s]
 
     @property
     def name(self) -> str:
@@ -120,26 +125,69 @@ class RingContacts(Generic[G_co]):
         """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
         return self._own.film_factor
 
-    @property
+    @cached_property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""
         return self.conditions.geometry.radii(self.angle, inner=self.inner)
 
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """Shape (...) of the points of operation; () for one bearing."""
+        radii, oil = self.radii, self.oil
+        quantities = (self.angle, self.speed, self.conditions.modulus, self.film_factor, radii.radius_x)
+        return np.broadcast_shapes(*map(np.shape, (*quantities, radii.radius_y, oil.viscosity)))
+
+    @cached_property
+    def entrainment_speed(self) -> Numbers:
+        """Entrainment speed [m/s]; of many points, NaN where it is too slow for a film."""
+        if np.ndim(self.speed) == 0:
+            return self.speed
+        return np.where(self.speed >= _LEAST_SPEED, self.speed, np.nan)
+
+    @cached_property
+    def unit_contact(self) -> DryContact:
+        """Dry contact of a ball under a load of 1 N."""
+        rx: Numbers = self.radii.radius_x
+        ry: Numbers = self.radii.radius_y
+        if np.ndim(rx) or np.ndim(ry):
+            # Points without radii have no equilibrium; their numbers are not used.
+            rx, ry = (np.where(np.isfinite(radius), radius, 1.0) for radius in (rx, ry))
+        return dry_contact(1.0, rx, ry, self.conditions.modulus)
+
+    @cached_property
+    def ratio(self) -> Numbers:
+        """Ratio of the semi-axes of a ball's contact, across over along entrainment."""
+        return self.unit_contact.semi_axis_y / self.unit_contact.semi_axis_x
+
+    @cached_property
+    def ellipse(self) -> Ellipse:
+        """Shape of the dry contact of a ball."""
+        return Ellipse.of(self.ratio, self.radii.radius_y / self.radii.radius_x)
+
 
 @dataclass(frozen=True)
 class BallContact:
-    """Contact of a ball with a ring under a load."""
+    """Contact of a ball with a ring under a load, or of many balls.
+
+    Many loads have the shape (m, ...), with the points of operation of the ring last, and so have all numbers
+    of the contacts. A contact that is solved, or has a grid, has one load.
+    """
 
     length: ClassVar[float] = 1.0  # results of a point contact are not per length
 
     ring: RingContacts[BallBearing]
-    load: float  # [N]
+    load: Numbers  # [N]
 
     @cached_property
     def dry(self) -> DryContact:
         """Dry contact under the load."""
-        radii = self.ring.radii
-        return dry_contact(self.load, radii.radius_x, radii.radius_y, self.ring.conditions.modulus)
+        unit, root = self.ring.unit_contact, as_float(np.cbrt(self.load))
+        return DryContact(
+            semi_axis_x=unit.semi_axis_x * root,
+            semi_axis_y=unit.semi_axis_y * root,
+            max_pressure=unit.max_pressure * root,
+            approach=unit.approach * root**2,
+        )
 
     @cached_property
     def conditions(self) -> PointConditions:
@@ -150,38 +198,38 @@ class BallContact:
             radius_y=radii.radius_y,
             reduced_modulus=bearing.modulus,
             load=self.load,
-            entrainment_speed=self.ring.speed,
+            entrainment_speed=self.ring.entrainment_speed,
             slide_to_roll_ratio=0.0,
             viscosity=oil.viscosity,
             pressure_viscosity_coefficient=oil.alpha_star,
             semi_axis_x=dry.semi_axis_x,
             semi_axis_y=dry.semi_axis_y,
             max_pressure=dry.max_pressure,
-            side=default_side(dry.semi_axis_y / dry.semi_axis_x),
+            side=default_side(self.ring.ratio),
             compliance_share=bearing.ring_share,
             film_factor=self.ring.film_factor,
         )
 
     @property
-    def axes(self) -> tuple[float, float]:
+    def axes(self) -> tuple[Numbers, Numbers]:
         """Semi-axes of the dry contact along and across entrainment [m]."""
         return self.dry.semi_axis_x, self.dry.semi_axis_y
 
     @property
-    def area(self) -> float:
+    def area(self) -> Numbers:
         """Area of the dry contact [m^2]."""
-        return float(np.pi * self.axes[0] * self.axes[1])
+        return as_float(np.pi * self.axes[0] * self.axes[1])
 
     @property
-    def widths(self) -> tuple[tuple[float, float], ...]:
+    def widths(self) -> tuple[tuple[Numbers, Numbers], ...]:
         """Semi-axes of the dry contact along and across, each with the smallest radius in its plane [m]."""
         radii = self.ring.radii
-        along = min(radii.radius_x, abs(radii.ring_x), abs(radii.element_x))
-        across = min(radii.radius_y, abs(radii.ring_y), abs(radii.element_y))
+        along = _smallest(radii.radius_x, radii.ring_x, radii.element_x)
+        across = _smallest(radii.radius_y, radii.ring_y, radii.element_y)
         return (self.axes[0], along), (self.axes[1], across)
 
     @cached_property
-    def film(self) -> float:
+    def film(self) -> Numbers:
         """Central film thickness [m] by the formula of Nijenbanning, Venner and Moes.
 
         The formula holds for light contacts too.
@@ -193,34 +241,40 @@ class BallContact:
         """Largest film thickness [m] for which there is room between ball and groove."""
         return _ROOM * self.ring.conditions.geometry.offsets[0 if self.ring.inner else 1]
 
-    @property
-    def _lengths(self) -> tuple[float, float]:
+    @cached_property
+    def _lengths(self) -> tuple[Numbers, Numbers]:
         """Lengths sqrt(2 R h) over which the pressure builds up, along and across, in semi-axes."""
         radii, axes = self.ring.radii, self.axes
         along, across = (
-            math.sqrt(2.0 * radius * self.film) / axis
+            np.sqrt(2.0 * radius * self.film) / axis
             for radius, axis in zip((radii.radius_x, radii.radius_y), axes, strict=True)
         )
         return along, across
 
-    @property
-    def grid(self) -> Grid:
-        """Grid of film and field in semi-axes, on a domain wide enough for the thick film of a light load.
+    @cached_property
+    def domain(self) -> tuple[Numbers, Numbers, Numbers]:
+        """Inlet, outlet and side in semi-axes of a domain wide enough for the thick film of a light load.
 
         Heavy loads have the default domain of point contacts.
         """
         along, across = self._lengths
-        inlet = max(4.5, min(_ALONG * along, _MOST[0]))
-        outlet = max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
-        side = max(self.conditions.side, min(1.0 + _ACROSS * across, _MOST[1]))
+        inlet = np.maximum(4.5, np.minimum(_ALONG * along, _MOST[0]))
+        outlet = np.maximum(1.5, np.minimum(_BEHIND * along, 0.1 * _MOST[0]))
+        side = np.maximum(self.conditions.side, np.minimum(1.0 + _ACROSS * across, _MOST[1]))
+        return as_float(inlet), as_float(outlet), as_float(side)
+
+    @property
+    def grid(self) -> Grid:
+        """Grid of film and field in semi-axes, on the domain of the contact."""
+        inlet, outlet, side = self.domain
         nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
         return _point_grid(inlet, outlet, side, nodes)
 
     @property
-    def fits(self) -> bool:
+    def fits(self) -> Mask:
         """Whether the domain holds the lengths over which the film builds up, along and across."""
         along, across = self._lengths
-        return _ALONG * along <= _MOST[0] and 1.0 + _ACROSS * across <= _MOST[1]
+        return np.asarray((_ALONG * along <= _MOST[0]) & (1.0 + _ACROSS * across <= _MOST[1]))
 
     def conditions_on(self, grid: Grid) -> PointConditions:
         """Operating conditions of a film on the domain of a grid."""
@@ -245,10 +299,13 @@ class BallContact:
 
 @dataclass(frozen=True)
 class RollerContact:
-    """Contact of a roller with a ring under a load."""
+    """Contact of a roller with a ring under a load, or of many rollers.
+
+    Many loads have the shape (m, ...), as those of balls.
+    """
 
     ring: RingContacts[RollerBearing]
-    load: float  # [N]
+    load: Numbers  # [N]
 
     @property
     def length(self) -> Numbers:
@@ -264,7 +321,7 @@ class RollerContact:
             reduced_radius=radius,
             reduced_modulus=modulus,
             load_per_length=load_per_length,
-            entrainment_speed=self.ring.speed,
+            entrainment_speed=self.ring.entrainment_speed,
             slide_to_roll_ratio=0.0,
             viscosity=oil.viscosity,
             pressure_viscosity_coefficient=oil.alpha_star,
@@ -276,23 +333,23 @@ class RollerContact:
         )
 
     @property
-    def axes(self) -> tuple[float, float]:
+    def axes(self) -> tuple[Numbers, Numbers]:
         """Half-width of the dry contact along entrainment, and half of its length across [m]."""
         return self.conditions.half_width, 0.5 * self.length
 
     @property
-    def area(self) -> float:
+    def area(self) -> Numbers:
         """Area of the dry contact [m^2]."""
         return 4.0 * self.axes[0] * self.axes[1]
 
     @property
-    def widths(self) -> tuple[tuple[float, float], ...]:
+    def widths(self) -> tuple[tuple[Numbers, Numbers], ...]:
         """Half-width of the dry contact, with the smallest radius in its plane [m]."""
         radii = self.ring.radii
-        return ((self.conditions.half_width, min(radii.radius_x, abs(radii.ring_x), abs(radii.element_x))),)
+        return ((self.conditions.half_width, _smallest(radii.radius_x, radii.ring_x, radii.element_x)),)
 
     @cached_property
-    def film(self) -> float:
+    def film(self) -> Numbers:
         """Central film thickness [m] by the formula of Moes, which holds for light contacts too."""
         return moes(self.conditions.contact).central_thickness
 
@@ -302,27 +359,37 @@ class RollerContact:
         radius = 0.5 * self.ring.conditions.geometry.roller_diameter
         return (_ROOM * radius) ** 2 / (2.0 * self.conditions.reduced_radius)
 
-    @property
-    def _build_up(self) -> float:
+    @cached_property
+    def _build_up(self) -> Numbers:
         """Length sqrt(2 R h) over which the pressure builds up, in half-widths."""
         conditions = self.conditions
-        return math.sqrt(2.0 * conditions.reduced_radius * self.film) / conditions.half_width
+        return np.sqrt(2.0 * conditions.reduced_radius * self.film) / conditions.half_width
 
-    @property
-    def _inlets(self) -> tuple[float, float]:
+    @cached_property
+    def _inlets(self) -> tuple[Numbers, Numbers]:
         """Inlet that the film needs, and the longest one, in half-widths.
 
         The longest one is as far as a parabola describes the roller, or what a grid holds.
         """
         length = self._build_up
-        longest = min(0.5 * self.ring.radii.element_x / self.conditions.half_width, _LINE_MOST)
-        return min(_LINE_INLET * length, max(_LINE_FAR, _LINE_SHORTER * length)), longest
+        longest = np.minimum(0.5 * self.ring.radii.element_x / self.conditions.half_width, _LINE_MOST)
+        return np.minimum(_LINE_INLET * length, np.maximum(_LINE_FAR, _LINE_SHORTER * length)), longest
+
+    @cached_property
+    def domain(self) -> tuple[Numbers, Numbers, float]:
+        """Inlet and outlet in half-widths, long enough for the thick film of a light load; and 1."""
+        needed, most = self._inlets
+        inlet = np.maximum(4.0, np.minimum(needed, most))
+        return (
+            as_float(inlet),
+            as_float(np.maximum(2.0, np.minimum(_LINE_OUTLET * self._build_up, most))),
+            1.0,
+        )
 
     @property
     def grid(self) -> Grid:
-        """Grid of film and field in half-widths, long enough for the thick film of a light load."""
-        length, (needed, most) = self._build_up, self._inlets
-        inlet, outlet = max(4.0, min(needed, most)), max(2.0, min(_LINE_OUTLET * length, most))
+        """Grid of film and field in half-widths, on the domain of the contact."""
+        length, (inlet, outlet, _) = float(self._build_up), self.domain
         return Grid.from_dict(
             {
                 "inlet": -inlet,
@@ -339,10 +406,10 @@ class RollerContact:
         )
 
     @property
-    def fits(self) -> bool:
+    def fits(self) -> Mask:
         """Whether the domain holds the length over which the film builds up."""
         needed, longest = self._inlets
-        return needed <= longest
+        return np.asarray(needed <= longest)
 
     def conditions_on(self, _: Grid) -> Conditions:
         """Operating conditions of a film on the domain of a grid."""
@@ -363,6 +430,32 @@ class RollerContact:
 Contact: TypeAlias = BallContact | RollerContact
 
 
+def _smallest(*radii: Numbers) -> Numbers:
+    """Smallest of several radii [m], of which negative ones are those of concave bodies."""
+    first, *others = radii
+    for radius in others:
+        first = np.minimum(first, np.abs(radius))
+    return as_float(first)
+
+
+def _film_speed(contact: Contact) -> Numbers:
+    """Entrainment speed of isothermal oil with the film of a contact [m/s]."""
+    return contact.conditions.contact.entrainment_speed
+
+
+def beyond_model(contact: Contact) -> Mask:
+    """Whether contacts are too slow for a film, too wide for their bodies, or hardly pressed, shape (m, ...).
+
+    ``check_contact`` refuses such a contact, and says why.
+    """
+    conditions = contact.conditions
+    held = _film_speed(contact) >= _LEAST_SPEED
+    held = held & (conditions.max_pressure >= least_pressure(contact.ring.oil))
+    for half_width, radius in contact.widths:
+        held = held & (half_width <= 0.5 * radius)
+    return np.asarray(~held)
+
+
 def check_contact(contact: Contact, grid: Grid | None = None) -> None:
     """Refuse a contact that is beyond the model, or whose grid does not fit into the memory.
 
@@ -373,8 +466,7 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
     """
     conditions = contact.conditions
     try:
-        # Entrainment speed of isothermal oil with this film.
-        speed = conditions.contact.entrainment_speed
+        speed = _film_speed(contact)
         if speed < _LEAST_SPEED:
             raise InputError(
                 "contact",
@@ -566,68 +658,243 @@ _LIGHT = 0.02
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactCurve(Values):
-    """Quantities of a contact over its load, interpolated between solved loads."""
+    """Quantities of contacts over their load, interpolated between m loads, of one bearing or many points.
 
-    solutions: tuple[ContactSolution, ...]  # solved contacts by increasing load
+    Arrays of many points of operation have the shape (..., m), those of one bearing (m,). Points with fewer
+    loads than others have ``used`` False at the first ones.
+    """
 
-    @property
-    def loads(self) -> Array:
-        """Solved loads [N]."""
-        return np.array([solution.load for solution in self.solutions])
+    loads: Array  # [N], increasing where they are used
+    values: ContactValues[Array]
+    error: Array  # relative error of the films; NaN where it is unknown
+    # moes_m and moes_l: load parameter M and lubricant parameter L of Moes, dimensionless.
+    moes_m: Array
+    moes_l: Array
+    mismatch: Array  # largest relative difference at the edge of the domain; see ``ContactSolution``
+    converged: Mask
+    used: Mask  # contacts between which quantities are interpolated; there is at least the last one
+    # Warnings about the film and the field of each contact in use of a single bearing.
+    warnings_of: Callable[[], Sequence[tuple[ResultWarning, ...]]] = field(compare=False)
+    left: Mask | None = field(default=None, compare=False)  # contacts of the atlas that it does not have
+    # Quantities that follow from another one, or from the "load": its name, and the exponent of their power.
+    follows: Mapping[str, tuple[str, float]] = field(default_factory=dict, compare=False)
+    # Points of operation with a contact beyond the model, shape (...); their numbers have no meaning.
+    refused: Mask | bool = field(default=False, compare=False)
 
-    def stack(self) -> ContactValues[Array]:
-        """Quantities at the solved loads, as arrays."""
-        rows = [solution.values.columns() for solution in self.solutions]
-        return ContactValues(*np.array(rows).T)
+    @classmethod
+    def of(cls, solutions: Sequence[ContactSolution]) -> ContactCurve:
+        """Curve through solved contacts of one bearing by increasing load."""
 
-    def at(self, load: Array) -> ContactValues[Array]:
-        """Quantities at loads [N], interpolated in the logarithms of load and quantity."""
-        return ContactValues(*self._law(load))
+        def column(name: str) -> Array:
+            return np.array([getattr(contact, name) for contact in solutions], dtype=float)
+
+        rows = [contact.values.columns() for contact in solutions]
+        return cls(
+            loads=column("load"),
+            values=ContactValues(*np.array(rows, dtype=float).T),
+            error=column("error"),
+            moes_m=column("moes_m"),
+            moes_l=column("moes_l"),
+            mismatch=column("mismatch"),
+            converged=np.array([contact.converged for contact in solutions]),
+            used=np.ones(len(solutions), dtype=bool),
+            warnings_of=_Given(tuple(contact.warnings for contact in solutions)),
+        )
+
+    def __eq__(self, other: object) -> bool:
+        """Whether two curves are equal, those of single bearings with their warnings."""
+        if not isinstance(other, ContactCurve):
+            return NotImplemented
+        if not super().__eq__(other):
+            return False
+        return self.loads.ndim > 1 or self.warnings == other.warnings
+
+    __hash__ = None
 
     @cached_property
-    def _law(self) -> Callable[[Array], Array]:
-        """Quantities, shape (n, k), over k loads [N]."""
-        return _interpolated(self.loads, np.stack(self.stack().columns(), axis=-1))
+    def warnings(self) -> tuple[tuple[ResultWarning, ...], ...]:
+        """Warnings about each contact in use, of a single bearing."""
+        return tuple(self.warnings_of())
+
+    @cached_property
+    def solutions(self) -> tuple[ContactSolution, ...]:
+        """Contacts of a single bearing by increasing load."""
+        used = self.used
+        rows = zip(*(column[used].tolist() for column in self.values.columns()), strict=True)
+        return tuple(
+            ContactSolution(
+                load=load,
+                values=ContactValues(*row),
+                error=None if math.isnan(error) else error,
+                moes_m=moes_m,
+                moes_l=moes_l,
+                mismatch=mismatch,
+                converged=converged,
+                warnings=warnings,
+            )
+            for row, load, error, moes_m, moes_l, mismatch, converged, warnings in zip(
+                rows, *(column[used].tolist() for column in self._numbers), self.warnings, strict=True
+            )
+        )
+
+    @property
+    def _numbers(self) -> tuple[Array | Mask, ...]:
+        """Numbers of each contact other than its values, in the order of ``ContactSolution``."""
+        return self.loads, self.error, self.moes_m, self.moes_l, self.mismatch, self.converged
+
+    @property
+    def first(self) -> IntArray:
+        """Place of the first load in use, shape (...)."""
+        return np.asarray(self.used.shape[-1] - np.count_nonzero(self.used, axis=-1))
+
+    @property
+    def least_load(self) -> Numbers:
+        """Least load in use [N], shape (...)."""
+        return self._at_first(self.loads)
+
+    @property
+    def thickest_film(self) -> Numbers:
+        """Central film thickness at the least load [m], shape (...)."""
+        return self._at_first(self.values.central_thickness)
+
+    def _at_first(self, column: Array) -> Numbers:
+        """Number at the first load in use, shape (...)."""
+        return as_float(np.take_along_axis(column, self.first[..., np.newaxis], -1)[..., 0])
+
+    @property
+    def largest_error(self) -> Numbers:
+        """Largest relative error of the films that is known, shape (...)."""
+        known = self.used & ~np.isnan(self.error)
+        return as_float(np.max(np.where(known, self.error, 0.0), axis=-1))
+
+    def stack(self) -> ContactValues[Array]:
+        """Quantities at the loads of a single bearing, as arrays."""
+        return ContactValues(*(column[self.used] for column in self.values.columns()))
+
+    def at(self, load: Array) -> ContactValues[Array]:
+        """Quantities at loads [N], shape (..., k), interpolated in the logarithms of load and quantity.
+
+        The interpolation is monotone. Beyond the ends the values are those at the ends. A quantity with any
+        infinite value is infinite.
+        """
+        names, finite, between = self._law
+        load = np.clip(load, np.asarray(self.least_load)[..., np.newaxis], self.loads[..., -1:])
+        found = np.ascontiguousarray(np.exp(between(np.log(load))))
+        if not finite.all():
+            found = np.where(finite[..., np.newaxis], found, np.inf)
+        values = dict(zip(names, found, strict=True))
+        for name, (base, exponent) in self.follows.items():
+            at, last = (load, self.loads) if base == "load" else (values[base], getattr(self.values, base))
+            factor = getattr(self.values, name)[..., -1:]
+            values[name] = factor * _power(at / last[..., -1:], exponent)
+        return ContactValues(**values)
+
+    @cached_property
+    def _law(self) -> tuple[list[str], Mask, MonotoneCubic]:
+        """Quantities that are interpolated, whether they are finite, shape (n, ...), and their logarithms."""
+        names = [name for name in vars(self.values) if name not in self.follows]
+        columns = np.stack([getattr(self.values, name) for name in names])
+        finite = np.all(np.isfinite(columns) | ~self.used, axis=-1)
+        logs = np.log(np.where(finite[..., np.newaxis] & self.used, columns, 1.0))
+        return names, finite, MonotoneCubic(np.log(self.loads), logs, self.first)
 
     @cached_property
     def counted(self) -> ContactCurve:
         """Contacts whose films decide about the circuit: those that are not light."""
-        least = _LIGHT * self.solutions[-1].load
-        heavy = tuple(contact for contact in self.solutions if contact.load >= least)
-        return self if len(heavy) == len(self.solutions) else ContactCurve(heavy)
+        heavy = self.used & self._heavy
+        if np.array_equal(heavy, self.used):
+            return self
+        warnings = _Heavy(self.warnings_of, heavy[self.used]) if self.loads.ndim == 1 else self.warnings_of
+        return replace(self, used=heavy, warnings_of=warnings)
+
+    @property
+    def _heavy(self) -> Mask:
+        """Loads that are not light."""
+        return self.loads >= _LIGHT * self.loads[..., -1:]
 
     @cached_property
-    def interpolation_error(self) -> float:
-        """Largest relative error of capacitance and breakdown voltage when one solved load is left out.
+    def interpolation_error(self) -> Numbers:
+        """Largest relative error of capacitance and breakdown voltage when one load is left out, shape (...).
 
         Without that load the distance of the loads is twice as large. The interpolation error with all loads
         is therefore expected to be smaller. The breakdown voltage of contacts with less than 2 % of the
         largest load does not count.
         """
-        worst, loads, stack = 0.0, self.loads, self.stack()
-        values = np.stack([stack.inside, stack.breakdown_voltage], axis=-1)
-        for k in range(1, loads.size - 1):
-            known = np.isfinite(values[k]) & [True, loads[k] >= _LIGHT * loads[-1]]
-            others = np.delete(values[:, known], k, axis=0)
-            left = _interpolated(np.delete(loads, k), others)(loads[k : k + 1])
-            worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])
-        return float(worst)
+        if self.loads.shape[-1] < 3:
+            return as_float(np.zeros(self.loads.shape[:-1]))
+        values = np.stack([self.values.inside, self.values.breakdown_voltage])
+        finite = np.isfinite(values) | ~self.used
+        # A quantity that is infinite at another load is, too, where this one is left out.
+        others = np.all(finite, axis=-1, keepdims=True)
+        logs = np.log(np.where(others & self.used, values, 1.0))
+        missed = np.abs(np.exp(left_out(np.log(self.loads), logs, self.first) - logs[..., 1:-1]) - 1.0)
+        missed = np.where(others, missed, np.inf)
+        counts = finite[..., 1:-1] & np.stack([np.ones_like(self.used), self._heavy])[..., 1:-1]
+        inner = np.arange(1, self.loads.shape[-1] - 1) > self.first[..., np.newaxis]
+        return as_float(np.max(np.where(counts & inner, missed, 0.0), axis=(0, -1)))
 
 
-def _interpolated(loads: Array, values: Array) -> Callable[[Array], Array]:
-    """Function of k loads [N] that interpolates values at m loads [N], shape (m, n), with a result (n, k).
+def left_out(x: Array, y: Array, first: IntArray) -> Array:
+    """Values at the inner nodes of monotone curves that each leave this node out, shape (c, ..., m - 2).
 
-    The interpolation is monotone in the logarithms of both. Beyond the ends the values are those at the ends.
-    A column with any infinite value is infinite.
+    ``x``, increasing abscissae, shape (..., m); ``y``, values, shape (c, ..., m); ``first``, place of the
+    first node in use, shape (...), at least one before the inner nodes whose result is used.
     """
-    finite = np.all(np.isfinite(values), axis=0)
-    ends = np.where(finite, values[0], np.inf)[:, np.newaxis]
-    between = PchipInterpolator(np.log(loads), np.log(values[:, finite])) if loads.size > 1 else None
+    size = x.shape[-1]
+    place = np.arange(1, size - 1)
+    # The interval without the node, and its neighbours before and after it, where there are any.
+    before, after = place - 1, place + 1
+    further, beyond = np.maximum(place - 2, 0), np.minimum(place + 2, size - 1)
+    steps, chords = [], []
+    for low, high in ((further, before), (before, after), (after, beyond)):
+        step = x[..., high] - x[..., low]
+        step = np.where(step > 0.0, step, 1.0)
+        steps.append(step)
+        chords.append((y[..., high] - y[..., low]) / step)
+    at_start, at_end = before == first[..., np.newaxis], after == size - 1
+    left = np.where(
+        at_start,
+        np.where(at_end, chords[1], end_slope(steps[1], steps[2], chords[1], chords[2])),
+        inner_slope(steps[0], steps[1], chords[0], chords[1]),
+    )
+    right = np.where(
+        at_end,
+        np.where(at_start, chords[1], end_slope(steps[1], steps[0], chords[1], chords[0])),
+        inner_slope(steps[1], steps[2], chords[1], chords[2]),
+    )
+    t = (x[..., 1:-1] - x[..., :-2]) / steps[1]
+    rest = 1.0 - t
+    ends = (1.0 + 2.0 * t) * rest**2 * y[..., :-2] + t**2 * (3.0 - 2.0 * t) * y[..., 2:]
+    return ends + steps[1] * (t * rest**2 * left - t**2 * rest * right)
 
-    def at(load: Array) -> Array:
-        found = np.repeat(ends, np.size(load), axis=1)
-        if between is not None:
-            found[finite] = np.exp(between(np.log(np.clip(load, loads[0], loads[-1])))).T
-        return found
 
-    return at
+def _power(ratio: Array, exponent: float) -> Numbers:
+    """Power of a ratio; those of dry contacts, and of quantities that are proportional, take little time."""
+    if exponent == 1.0:
+        return ratio
+    if exponent == -1.0:
+        return 1.0 / ratio
+    if exponent == 1.0 / 3.0:
+        return np.cbrt(ratio)
+    return np.sqrt(ratio) if exponent == 0.5 else ratio**exponent
+
+
+@dataclass(frozen=True)
+class _Given:
+    """Warnings of contacts that are known."""
+
+    warnings: tuple[tuple[ResultWarning, ...], ...]
+
+    def __call__(self) -> tuple[tuple[ResultWarning, ...], ...]:
+        return self.warnings
+
+
+@dataclass(frozen=True, eq=False)
+class _Heavy:
+    """Warnings of those contacts that are not light."""
+
+    warnings_of: Callable[[], Sequence[tuple[ResultWarning, ...]]]
+    heavy: Mask
+
+    def __call__(self) -> tuple[tuple[ResultWarning, ...], ...]:
+        return tuple(one for one, heavy in zip(self.warnings_of(), self.heavy, strict=True) if heavy)

@@ -105,7 +105,7 @@ def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> Contac
     Contacts with less than the lightest solved load have the film at that load, but their own dry contact.
     """
     pressure, along, across, *others = curve.at(load).columns()
-    lighter = np.minimum(1.0, load / curve.solutions[0].load)
+    lighter = np.minimum(1.0, load / curve.least_load)
     exponents = kind_of(ring).dry_exponents
     dry = (
         values * lighter**exponent
@@ -117,7 +117,7 @@ def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> Contac
 def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> ContactValues[Array]:
     """Values of rigid bodies at a gap [m]; it is at least the central film of the lightest solved load."""
     conditions, rigid = ring.conditions, kind_of(ring).rigid_capacitance
-    apart = np.maximum(gap, curve.solutions[0].values.central_thickness)
+    apart = np.maximum(gap, curve.thickest_film)
     vacuum = rigid(ring, apart)
     none = np.zeros_like(apart)
     return ContactValues(
@@ -184,7 +184,7 @@ class BearingSolution(Values):
     @property
     def converged(self) -> bool:
         """Whether the films of all contacts are converged."""
-        return all(contact.converged for curve in self.curves for contact in curve.solutions)
+        return all(bool(np.all(curve.converged)) for curve in self.curves)
 
     @cached_property
     def least_film(self) -> Numbers:
@@ -305,8 +305,8 @@ def film_error(solution: BearingSolution) -> float:
     curves = solution.curves
     if solution.case.contacts == "atlas":
         curves = curves[0].counted, curves[1].counted
-    errors = [contact.error or 0.0 for curve in curves for contact in curve.solutions]
-    return min(1.0, max(errors) + max(curve.interpolation_error for curve in curves))
+    errors = [curve.largest_error for curve in curves]
+    return float(min(1.0, max(errors) + max(curve.interpolation_error for curve in curves)))
 
 
 def error_text(solution: BearingSolution) -> str:

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any
 
+import numpy as np
+
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
-from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_solutions
+from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_curve
 from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts, solve
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearing_case import BearingCase
@@ -55,13 +57,10 @@ def solution_of_prepared(
     ``solution_of``.
     """
     started = time.perf_counter()
-    tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
-    processes = 1 if is_quick(case) else workers or cores()
-    found = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
-    rings = found[: len(tasks[0])], found[len(tasks[0]) :]
     if is_quick(case):
-        rings = quick_solutions(rings[0]), quick_solutions(rings[1])
-    curves = ContactCurve(tuple(rings[0])), ContactCurve(tuple(rings[1]))
+        curves = _quick_curves(case, prepared, progress or silent)
+    else:
+        curves = _solved_curves(case, prepared, progress or silent, workers or cores())
     return BearingSolution(
         case=case,
         conditions=prepared.conditions,
@@ -74,12 +73,36 @@ def solution_of_prepared(
     )
 
 
+def _quick_curves(
+    case: BearingCase, prepared: PreparedBearing, progress: Progress
+) -> tuple[ContactCurve, ContactCurve]:
+    """Curves of the contacts with both rings, from the atlas or by formula."""
+    progress(0, len(prepared.rings), "contacts")
+
+    def curve(number: int, ring: RingContacts[Any]) -> ContactCurve:
+        loads, used = loads_to_solve(prepared, ring, quick=True)
+        found = QUICK_METHODS[case.contacts](kind_of(ring).contact(ring, np.moveaxis(loads, -1, 0)))
+        progress(number, len(prepared.rings), f"contacts with the {ring.name} ring")
+        return quick_curve(found, used)
+
+    # The outer ring comes first, so that its contacts are refused before those of the inner ring.
+    outer = curve(1, prepared.rings[1])
+    return curve(2, prepared.rings[0]), outer
+
+
+def _solved_curves(
+    case: BearingCase, prepared: PreparedBearing, progress: Progress, workers: int
+) -> tuple[ContactCurve, ContactCurve]:
+    """Curves of the contacts with both rings, from solved films and fields."""
+    tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
+    found = _solved([*tasks[0], *tasks[1]], progress, workers)
+    return ContactCurve.of(found[: len(tasks[0])]), ContactCurve.of(found[len(tasks[0]) :])
+
+
 def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]) -> list[Callable[[], Any]]:
-    """Functions that solve the contacts with one ring, or compute them quickly, by increasing load."""
-    quick = is_quick(case)
-    method = QUICK_METHODS[case.contacts] if quick else partial(solve, solver=case.solver)
-    loads = loads_to_solve(prepared, ring, quick=quick)
-    return [partial(method, kind_of(ring).contact(ring, load)) for load in loads]
+    """Functions that solve the contacts with one ring, by increasing load."""
+    loads, _ = loads_to_solve(prepared, ring, quick=False)
+    return [partial(solve, kind_of(ring).contact(ring, load), solver=case.solver) for load in loads.tolist()]
 
 
 def _position(

@@ -157,7 +157,7 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
 
 def _curve_of(values: Mapping[str, Array], ring: int, warnings: list[Any]) -> ContactCurve:
     numbers, quantities = _CURVES[ring], _CURVE_VALUES[ring]
-    return ContactCurve(
+    return ContactCurve.of(
         tuple(
             ContactSolution(
                 **numbers.read(values, k), values=ContactValues(**quantities.read(values, k)), warnings=own

@@ -112,9 +112,8 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     own, plate = capacitance(solution), plate_capacitance(solution)
     strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
     leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
-    errors = [contact.error for curve in solution.curves for contact in curve.solutions]
-    estimated = solution.case.contacts != "atlas"
-    stated = [error for error in errors if error is not None]
+    errors = [curve.error for curve in solution.curves]
+    stated = solution.case.contacts != "atlas" and not any(np.any(np.isnan(error)) for error in errors)
     return {
         "contacts": solution.case.contacts,
         "capacitance": own,
@@ -147,7 +146,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "film_voltage_after_period": known(mul, across, getattr(leaks, "film_after_period", None)),
         "shaft_voltage_after_rise": known(mul, shaft, getattr(leaks, "after_rise", None)),
         **dataclasses.asdict(bearing_costs(solution)),
-        "discretisation_error": max(stated) if estimated and len(stated) == len(errors) else None,
+        "discretisation_error": max(float(np.max(error)) for error in errors) if stated else None,
         "film_error": film_error(solution),
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }

@@ -72,7 +72,7 @@ def check_pressure(pressure: float, oil: Oil) -> None:
 
     An InputError is also raised if the permittivity law has no value at this pressure.
     """
-    least = max(1e4, 10.0 * oil.ambient_pressure)
+    least = least_pressure(oil)
     if pressure < least:
         raise InputError(
             "contact",
@@ -86,6 +86,11 @@ def check_pressure(pressure: float, oil: Oil) -> None:
     oil.permittivity(at, oil.density_ratio(at)[0])
 
 
+def least_pressure(oil: Oil) -> float:
+    """Least Hertz pressure of a contact [Pa], well above the ambient pressure."""
+    return max(1e4, 10.0 * oil.ambient_pressure)
+
+
 # Half of the domain's width across entrainment, in semi-axes across: 1.6 for a long ellipse, whose sides
 # hardly matter; 3.0 for a circle; at most 4.5, as long as the inlet, for an ellipse that is short across.
 _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
@@ -93,32 +98,35 @@ _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
 @dataclass(frozen=True, kw_only=True)
 class SharedConditions(ABC):
-    """Operating conditions that line and point contacts have in common, SI units."""
+    """Operating conditions that line and point contacts have in common, SI units.
+
+    Those of many contacts are arrays that broadcast to a shape (...).
+    """
 
     geometry: ClassVar[str]
     # Exponent of the entrainment speed in the film thickness of hard contacts. It converts a film factor to a
     # factor of the entrainment speed.
     film_exponent: ClassVar[float]
 
-    reduced_modulus: float  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
-    entrainment_speed: float  # (u1 + u2)/2 [m/s]
-    slide_to_roll_ratio: float = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
+    reduced_modulus: Numbers  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+    entrainment_speed: Numbers  # (u1 + u2)/2 [m/s]
+    slide_to_roll_ratio: Numbers = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
     # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
     # asymptotic coefficient alpha* [1/Pa].
-    viscosity: float
-    pressure_viscosity_coefficient: float
-    max_pressure: float  # Hertz pressure p_h of the dry contact [Pa]
+    viscosity: Numbers
+    pressure_viscosity_coefficient: Numbers
+    max_pressure: Numbers  # Hertz pressure p_h of the dry contact [Pa]
     # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
-    compliance_share: float = 0.5
+    compliance_share: Numbers = 0.5
     # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     boundary_film: float = 0.0
     # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     hardness: float | None = None
     # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
-    film_factor: float = 1.0
+    film_factor: Numbers = 1.0
 
     @property
-    def _speed_and_oil(self) -> tuple[float, float, float]:
+    def _speed_and_oil(self) -> tuple[Numbers, Numbers, Numbers]:
         """Speed at which a flooded film is thinner by the film factor [m/s], viscosity [Pa s], alpha* [1/Pa].
 
         An isothermal, fully flooded film is thinner by ``film_factor`` at the entrainment speed
@@ -129,21 +137,21 @@ class SharedConditions(ABC):
 
     @property
     @abstractmethod
-    def semi_axes(self) -> tuple[float, ...]:
+    def semi_axes(self) -> tuple[Numbers, ...]:
         """Half-width of a line contact, or semi-axes along and across entrainment [m]."""
 
     @property
     @abstractmethod
-    def radius_along(self) -> float:
+    def radius_along(self) -> Numbers:
         """Reduced radius along entrainment [m]."""
 
     @property
     @abstractmethod
-    def carried_load(self) -> float:
+    def carried_load(self) -> Numbers:
         """Load [N]; of a line contact, load per length [N/m]."""
 
     @property
-    def velocity_parameter(self) -> float:
+    def velocity_parameter(self) -> Numbers:
         """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
@@ -154,7 +162,7 @@ class SharedConditions(ABC):
         )
 
     @property
-    def thickness_scale(self) -> float:
+    def thickness_scale(self) -> Numbers:
         """Film thickness that corresponds to H = 1, b^2/R [m], with the radius R along entrainment."""
         return self.semi_axes[0] ** 2 / self.radius_along
 
@@ -166,11 +174,11 @@ class Conditions(SharedConditions):
     geometry: ClassVar[str] = "line"
     film_exponent: ClassVar[float] = 0.69  # Pan and Hamrock
 
-    reduced_radius: float  # R [m]
-    load_per_length: float  # w [N/m]
-    half_width: float  # half-width b of the dry contact [m]
+    reduced_radius: Numbers  # R [m]
+    load_per_length: Numbers  # w [N/m]
+    half_width: Numbers  # half-width b of the dry contact [m]
     # Surface 1's share of 1/R, dimensionless; 0.5 if only the reduced radius is known.
-    curvature_share: float = 0.5
+    curvature_share: Numbers = 0.5
 
     @property
     def contact(self) -> LineContact:
@@ -183,17 +191,17 @@ class Conditions(SharedConditions):
         )
 
     @property
-    def semi_axes(self) -> tuple[float, ...]:
+    def semi_axes(self) -> tuple[Numbers, ...]:
         """Half-width of the dry contact [m], as a tuple of one number."""
         return (self.half_width,)
 
     @property
-    def radius_along(self) -> float:
+    def radius_along(self) -> Numbers:
         """Reduced radius [m]."""
         return self.reduced_radius
 
     @property
-    def carried_load(self) -> float:
+    def carried_load(self) -> Numbers:
         """Load per length [N/m]."""
         return self.load_per_length
 
@@ -206,13 +214,13 @@ class PointConditions(SharedConditions):
     film_exponent: ClassVar[float] = 0.67  # Hamrock and Dowson
 
     # radius_x and radius_y: reduced radii along and across entrainment [m].
-    radius_x: float
-    radius_y: float
-    load: float  # F [N]
+    radius_x: Numbers
+    radius_y: Numbers
+    load: Numbers  # F [N]
     # semi_axis_x and semi_axis_y: semi-axes b along and a across entrainment of the dry contact [m].
-    semi_axis_x: float
-    semi_axis_y: float
-    side: float  # half of the domain's width across entrainment, in semi-axes across
+    semi_axis_x: Numbers
+    semi_axis_y: Numbers
+    side: Numbers  # half of the domain's width across entrainment, in semi-axes across
 
     @property
     def contact(self) -> PointContact:
@@ -225,27 +233,27 @@ class PointConditions(SharedConditions):
         )
 
     @property
-    def half_width(self) -> float:
+    def half_width(self) -> Numbers:
         """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
         return self.semi_axis_x
 
     @property
-    def semi_axes(self) -> tuple[float, ...]:
+    def semi_axes(self) -> tuple[Numbers, ...]:
         """Semi-axes of the dry contact along and across entrainment [m]."""
         return self.semi_axis_x, self.semi_axis_y
 
     @property
-    def radius_along(self) -> float:
+    def radius_along(self) -> Numbers:
         """Reduced radius along entrainment [m]."""
         return self.radius_x
 
     @property
-    def carried_load(self) -> float:
+    def carried_load(self) -> Numbers:
         """Load [N]."""
         return self.load
 
     @property
-    def ratio(self) -> float:
+    def ratio(self) -> Numbers:
         """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
         return self.semi_axis_y / self.semi_axis_x
 

@@ -128,7 +128,7 @@ def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Meas
         except InputError as error:
             raise error.retold(f"{measured.source}, line {measured.lines[number]}", str(error)) from None
         assert thickness is not None
-        return thickness
+        return float(thickness)
 
     return np.array(_once_each(rows, film))
 

@@ -95,8 +95,8 @@ def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) ->
 
     def layer(y: Array) -> Array:
         if table is None:
-            return np.full(y.shape, given) / scale
-        return np.interp(length * y, table.y, table.thickness) / scale
+            return np.asarray(np.full(y.shape, given) / scale)
+        return np.asarray(np.interp(length * y, table.y, table.thickness) / scale)
 
     return OilSupply(layer=layer)
 

@@ -230,7 +230,7 @@ def touched_share(film: Film | PointFilm, zone: Array) -> float:
 
 def load_share_of(conditions: Conditions | PointConditions, spots: Spots) -> float:
     """Part of the load that the spots of a contact carry."""
-    return float(np.sum(spots.loads)) / conditions.carried_load
+    return float(np.sum(spots.loads) / conditions.carried_load)
 
 
 def touching(

@@ -47,7 +47,7 @@ def shown_range(x: Array) -> tuple[float, float]:
 
 def is_turned(conditions: PointConditions) -> bool:
     """Whether a contact is drawn turned, with entrainment pointing down and y to the right."""
-    return conditions.ratio > _TURNED
+    return bool(conditions.ratio > _TURNED)
 
 
 def touches(result: Result | PointResult) -> bool:
@@ -177,10 +177,10 @@ class Line:
         b, *across = conditions.semi_axes
         x = self._axis(self.result.film) / b
         if cut is None:
-            return conditions.max_pressure * line_pressure(x)
+            return np.asarray(conditions.max_pressure * line_pressure(x))
         y = np.full_like(x, cut.position / b)
         pair = (x, y) if cut.along == "x" else (y, x)
-        return conditions.max_pressure * point_pressure(*pair, across[0] / b)
+        return np.asarray(conditions.max_pressure * point_pressure(*pair, across[0] / b))
 
     def curve(
         self, name: str, values: Array, colour: str, dash: str = "solid", width: float = WIDTH

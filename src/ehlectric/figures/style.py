@@ -468,7 +468,7 @@ def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Col
 
 def in_half_widths(result: OfContact, x: Array) -> Array:
     """Positions [m] divided by the half-width of the contact."""
-    return x / result.conditions.half_width
+    return np.asarray(x / result.conditions.half_width)
 
 
 def label_position(result: OfContact, ax: Axes, axis: str = "x", *, line: str = "") -> None:

@@ -5,12 +5,13 @@ of the domain.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
 from scipy.ndimage import maximum_filter
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
@@ -221,7 +222,7 @@ def _reduced_pressure(fluid: Fluid, pressure: Array) -> float:
     return float(np.max(np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure))))
 
 
-def lost_by_load(thickness: float) -> float:
+def lost_by_load(thickness: Numbers) -> Numbers:
     """Relative loss of the film of a point contact over ``point_load_deficit``, by the central film H.
 
     The load that is missing falls with the size of the domain, and not with its cube as the pressure does.
@@ -229,8 +230,8 @@ def lost_by_load(thickness: float) -> float:
     and 6 semi-axes (extrapolated from 24 and 48), and one with H = 0.9 no more than the missing pressure
     explains.
     """
-    at = np.log(max(thickness, 1e-12))
-    return float(np.interp(at, _LOAD_AT, _LOST_BY_LOAD))
+    at = np.log(np.maximum(thickness, 1e-12))
+    return as_float(np.interp(at, _LOAD_AT, _LOST_BY_LOAD))
 
 
 def point_load_deficit(problem: FilmProblem) -> float:
@@ -242,14 +243,44 @@ def point_load_deficit(problem: FilmProblem) -> float:
     with k = Rx/Ry.
     """
     assert problem.width is not None
-    k = problem.geometry.radius_ratio
-    points, weights = gauss_legendre(_POINTS)
-    angle = 0.5 * np.pi * points
-    side = np.sqrt(k) * problem.width.side
-    reach = np.minimum(-problem.inlet / np.cos(angle), side / np.abs(np.sin(angle)))
-    integral = float(np.sum(0.5 * np.pi * weights * np.cos(angle) / reach))
-    missing = 4.0 * problem.fluid.velocity_parameter / ((3.0 + 2.0 * k) * np.sqrt(k)) * integral
+    missing = missing_load(
+        problem.geometry.radius_ratio,
+        (-problem.inlet, problem.width.side),
+        problem.fluid.velocity_parameter,
+    )
     return float(missing / problem.geometry.load)
+
+
+def missing_load(ratio: Numbers, domain: tuple[Numbers, Numbers], velocity_parameter: Numbers) -> Numbers:
+    """Load of ``point_load_deficit`` without its division by the load of the contact, dimensionless.
+
+    ``ratio``, k = Rx/Ry; ``domain``, length of the inlet and half of the width of the domain in b; all of
+    shape (...).
+    """
+    inlet, side = domain[0], np.sqrt(ratio) * domain[1]
+    cotangents, ahead, beside = _reach_sums()
+    # Nodes whose ray leaves the domain at the inlet.
+    number = np.searchsorted(cotangents, inlet / side)
+    integral = beside[number] / side + ahead[number] / inlet
+    return 4.0 * velocity_parameter / ((3.0 + 2.0 * ratio) * np.sqrt(ratio)) * integral
+
+
+@lru_cache(maxsize=1)
+def _reach_sums() -> tuple[Array, Array, Array]:
+    """Cotangents of the angles of the nodes, increasing, and the parts of the integral of cos(t)/R(t).
+
+    A ray with a cotangent above the inlet over the side ends at the inlet, R = inlet/cos(t), and another one
+    at the side, R = side/sin(t). Returns for each number of the smallest cotangents that end at the side the
+    sum of the others times the inlet, and the sum of these times the side.
+    """
+    points, weights = gauss_legendre(_POINTS)
+    angle = np.abs(0.5 * np.pi * points)
+    weights = 0.5 * np.pi * weights * np.cos(angle)
+    cotangents = np.cos(angle) / np.sin(angle)
+    order = np.argsort(cotangents)
+    ahead, beside = ((weights * part)[order] for part in (np.cos(angle), np.sin(angle)))
+    at_inlet = np.append(np.cumsum(ahead[::-1])[::-1], 0.0)
+    return cotangents[order], at_inlet, np.append(0.0, np.cumsum(beside))
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:

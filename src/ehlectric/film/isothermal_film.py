@@ -173,7 +173,7 @@ class PointFilm(FilmSolution):
         central = self.central_thickness if flooded is None else flooded
         thickness = central / self.scales.thickness
         lost = lost_film(thickness, self.inlet_deficit, self.side_deficit)
-        return max(lost, lost_by_load(thickness) * (self.load_deficit or 0.0))
+        return max(lost, float(lost_by_load(thickness)) * (self.load_deficit or 0.0))
 
     @property
     def minimum_position(self) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.hot_oil import Physics
@@ -136,8 +136,13 @@ class FilmProblem:
 
 
 def velocity_parameter(
-    *, viscosity: float, entrainment_speed: float, radius: float, half_width: float, max_pressure: float
-) -> float:
+    *,
+    viscosity: Numbers,
+    entrainment_speed: Numbers,
+    radius: Numbers,
+    half_width: Numbers,
+    max_pressure: Numbers,
+) -> Numbers:
     """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
 
     ``viscosity``, viscosity eta0 of the lubricant at zero pressure [Pa s]; ``entrainment_speed``, mean

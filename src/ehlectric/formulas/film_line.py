@@ -12,34 +12,36 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
+from ehlectric.arrays import Numbers, as_float
+
 
 @dataclass(frozen=True, kw_only=True)
 class Thickness:
     """Film thicknesses from a formula [m]; None for a thickness that the formula does not give."""
 
-    minimum_thickness: float | None = None
-    central_thickness: float | None = None
+    minimum_thickness: Numbers | None = None
+    central_thickness: Numbers | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class CentralThickness(Thickness):
     """Film thicknesses from a formula that gives the central thickness [m]."""
 
-    central_thickness: float
+    central_thickness: Numbers
 
 
 @dataclass(frozen=True, kw_only=True)
 class BothThicknesses(CentralThickness):
     """Film thicknesses from a formula that gives the minimum and the central thickness [m]."""
 
-    minimum_thickness: float
+    minimum_thickness: Numbers
 
 
 class Piezoviscous(Protocol):
     """Contact with a pressure-viscosity coefficient [1/Pa]."""
 
     @property
-    def pressure_viscosity_coefficient(self) -> float:
+    def pressure_viscosity_coefficient(self) -> Numbers:
         """Slope of ln(eta) at zero pressure [1/Pa]; zero for an isoviscous lubricant."""
         ...
 
@@ -69,7 +71,7 @@ class Formula(Generic[_Contact]):
 
     def __call__(self, contact: _Contact) -> Thickness:
         """Film thicknesses of a contact [m]; all None where the formula does not hold."""
-        if self.piezoviscous and contact.pressure_viscosity_coefficient == 0.0:
+        if self.piezoviscous and not np.any(contact.pressure_viscosity_coefficient):
             return Thickness()
         return self.function(contact)
 
@@ -85,43 +87,43 @@ class LineContact:
     for an isoviscous lubricant.
     """
 
-    reduced_radius: float
-    reduced_modulus: float
-    load_per_length: float
-    entrainment_speed: float
-    viscosity: float
-    pressure_viscosity_coefficient: float
+    reduced_radius: Numbers
+    reduced_modulus: Numbers
+    load_per_length: Numbers
+    entrainment_speed: Numbers
+    viscosity: Numbers
+    pressure_viscosity_coefficient: Numbers
 
     @property
-    def _u(self) -> float:
+    def _u(self) -> Numbers:
         """Speed parameter U = eta0 u/(E' R), with the mean speed u = (u1 + u2)/2."""
         return self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.reduced_radius)
 
     @property
-    def _g(self) -> float:
+    def _g(self) -> Numbers:
         """Materials parameter G = alpha E'."""
         return self.pressure_viscosity_coefficient * self.reduced_modulus
 
     @property
-    def _w(self) -> float:
+    def _w(self) -> Numbers:
         """Load parameter W = w/(E' R)."""
         return self.load_per_length / (self.reduced_modulus * self.reduced_radius)
 
     @property
-    def moes_m(self) -> float:
+    def moes_m(self) -> Numbers:
         """Moes load group, M = w/(E' R) (eta0 u_s/(E' R))^(-1/2) with u_s = u1 + u2.
 
         Eq. (9) of Morris et al. (2022), doi:10.3390/lubricants10050087.
         """
-        return self._w / float(np.sqrt(2.0 * self._u))
+        return as_float(self._w / np.sqrt(2.0 * self._u))
 
     @property
-    def moes_l(self) -> float:
+    def moes_l(self) -> Numbers:
         """Moes lubricant group, L = alpha E' (eta0 u_s/(E' R))^(1/4) with u_s = u1 + u2.
 
         Eq. (8) of Morris et al. (2022), doi:10.3390/lubricants10050087.
         """
-        return self._g * float((2.0 * self._u) ** 0.25)
+        return self._g * as_float((2.0 * self._u) ** 0.25)
 
 
 def dowson_higginson(contact: LineContact) -> Thickness:
@@ -190,7 +192,7 @@ def pan_hamrock(contact: LineContact) -> BothThicknesses:
     return BothThicknesses(minimum_thickness=minimum * radius, central_thickness=central * radius)
 
 
-def _moes_asymptotes(contact: LineContact) -> dict[str, float]:
+def _moes_asymptotes(contact: LineContact) -> dict[str, Numbers]:
     """Central film thickness H = (h/R) (eta0 u_s/(E' R))^(-1/2) in the four limiting regimes, by name."""
     moes_m, moes_l = contact.moes_m, contact.moes_l
     return {
@@ -227,11 +229,25 @@ def moes(contact: LineContact) -> CentralThickness:
     """
     ri, ei, rp, ep = _moes_asymptotes(contact).values()
     s = (7.0 + 8.0 * np.exp(-2.0 * ei / ri)) / 5.0
-    h = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 * s / 7)
-    if rp > 0.0:
-        h += (rp ** (-7 / 2) + ep ** (-7 / 2)) ** (-2 * s / 7)
+    h = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 * s / 7) + below_both(rp, ep, 7 / 2) ** s
     scale = contact.reduced_radius * np.sqrt(2.0 * contact._u)
-    return CentralThickness(central_thickness=float(h ** (1.0 / s) * scale))
+    return CentralThickness(central_thickness=as_float(h ** (1.0 / s) * scale))
+
+
+def below_both(first: Numbers, second: Numbers, power: float) -> Numbers:
+    """Film (H1^-n + H2^-n)^(-1/n) from the films H1 and H2 of two regimes, of which the thinner one counts.
+
+    ``power``, n > 0. The result is zero where both films are zero, as without a rise of the viscosity with
+    pressure; powers of thin films do not overflow.
+
+    Examples
+    --------
+    >>> round(float(below_both(1.0, 2.0, 8)), 4), float(below_both(0.0, 0.0, 8))
+    (0.9995, 0.0)
+    """
+    thinner, thicker = np.minimum(first, second), np.maximum(first, second)
+    ratio = thinner / np.where(thicker > 0.0, thicker, 1.0)
+    return thinner * (1.0 + ratio**power) ** (-1.0 / power)
 
 
 FORMULAS = {

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.formulas.film_line import BothThicknesses, CentralThickness, Formula, dominant
+from ehlectric.arrays import Numbers, as_float
+from ehlectric.formulas.film_line import BothThicknesses, CentralThickness, Formula, below_both, dominant
 from ehlectric.formulas.hertz import axis_ratio
 
 
@@ -26,38 +27,38 @@ class PointContact:
     is the slope of ln(eta) for Barus' law; zero for an isoviscous lubricant.
     """
 
-    radius_x: float
-    radius_y: float
-    reduced_modulus: float
-    load: float
-    entrainment_speed: float
-    viscosity: float
-    pressure_viscosity_coefficient: float
+    radius_x: Numbers
+    radius_y: Numbers
+    reduced_modulus: Numbers
+    load: Numbers
+    entrainment_speed: Numbers
+    viscosity: Numbers
+    pressure_viscosity_coefficient: Numbers
 
     @property
-    def _u(self) -> float:
+    def _u(self) -> Numbers:
         """Speed parameter U = eta0 u/(E' Rx), with the mean speed u = (u1 + u2)/2."""
         return self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius_x)
 
     @property
-    def _g(self) -> float:
+    def _g(self) -> Numbers:
         """Materials parameter G = alpha E'."""
         return self.pressure_viscosity_coefficient * self.reduced_modulus
 
     @property
-    def _w(self) -> float:
+    def _w(self) -> Numbers:
         """Load parameter W = F/(E' Rx^2)."""
         return self.load / (self.reduced_modulus * self.radius_x**2)
 
     @property
-    def moes_m(self) -> float:
+    def moes_m(self) -> Numbers:
         """Moes load group, M = F/(E' Rx^2) (eta0 u_s/(E' Rx))^(-3/4) with u_s = u1 + u2."""
-        return self._w * float((2.0 * self._u) ** -0.75)
+        return self._w * as_float((2.0 * self._u) ** -0.75)
 
     @property
-    def moes_l(self) -> float:
+    def moes_l(self) -> Numbers:
         """Moes lubricant group, L = alpha E' (eta0 u_s/(E' Rx))^(1/4) with u_s = u1 + u2."""
-        return self._g * float((2.0 * self._u) ** 0.25)
+        return self._g * as_float((2.0 * self._u) ** 0.25)
 
 
 def hamrock_dowson(contact: PointContact) -> BothThicknesses:
@@ -89,8 +90,8 @@ def hamrock_dowson(contact: PointContact) -> BothThicknesses:
     minimum = 3.63 * u**0.68 * g**0.49 * w**-0.073 * (1.0 - np.exp(-0.68 * k))
     central = 2.69 * u**0.67 * g**0.53 * w**-0.067 * (1.0 - 0.61 * np.exp(-0.73 * k))
     return BothThicknesses(
-        minimum_thickness=float(minimum * contact.radius_x),
-        central_thickness=float(central * contact.radius_x),
+        minimum_thickness=as_float(minimum * contact.radius_x),
+        central_thickness=as_float(central * contact.radius_x),
     )
 
 
@@ -121,14 +122,14 @@ def chittenden(contact: PointContact) -> BothThicknesses:
     sides = (contact.radius_y / contact.radius_x) ** (2.0 / 3.0)
     minimum = 3.68 / 4.31 * h * (1.0 - np.exp(-0.67 * sides))
     central = h * (1.0 - np.exp(-1.23 * sides))
-    return BothThicknesses(minimum_thickness=float(minimum), central_thickness=float(central))
+    return BothThicknesses(minimum_thickness=as_float(minimum), central_thickness=as_float(central))
 
 
-def _asymptotes(contact: PointContact) -> dict[str, float]:
+def _asymptotes(contact: PointContact) -> dict[str, Numbers]:
     """Central film thickness H = (h/Rx) (eta0 u_s/(E' Rx))^(-1/2) in the four limiting regimes, by name."""
     moes_m, moes_l = contact.moes_m, contact.moes_l
     d = contact.radius_x / contact.radius_y
-    ellipse = 1.0 + 0.006 * float(np.log(d)) + 0.63 * d ** (4 / 7)
+    ellipse = 1.0 + 0.006 * as_float(np.log(d)) + 0.63 * d ** (4 / 7)
     return {
         "isoviscous-rigid": 145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / (d * moes_m**2),
         "isoviscous-elastic": 3.18 * ellipse ** (-14 / 25) * d ** (-1 / 15) * moes_m ** (-2 / 15),
@@ -169,14 +170,11 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     """
     ri, ei, rp, ep = _asymptotes(contact).values()
     most = 1.8 * contact.radius_y / contact.radius_x
-    isoviscous = ri ** (3 / 2) + (ei**-4 + most**-4) ** (-3 / 8)
-    if ep > 0.0:
-        s = 1.5 * (1.0 + np.exp(-1.2 * ei / ep))
-        h = (isoviscous ** (2 * s / 3) + (rp**-8 + ep**-8) ** (-s / 8)) ** (1.0 / s)
-    else:
-        h = isoviscous ** (2 / 3)
-    film = float(h * contact.radius_x * np.sqrt(2.0 * contact._u))
-    return CentralThickness(central_thickness=film)
+    isoviscous = ri ** (3 / 2) + below_both(ei, most, 4) ** (3 / 2)
+    # Where the viscosity does not rise with pressure, the film does not depend on s.
+    s = 1.5 * (1.0 + np.exp(-1.2 * ei / np.where(ep > 0.0, ep, 1.0)))
+    h = (isoviscous ** (2 * s / 3) + below_both(rp, ep, 8) ** s) ** (1.0 / s)
+    return CentralThickness(central_thickness=as_float(h * contact.radius_x * np.sqrt(2.0 * contact._u)))
 
 
 FORMULAS = {

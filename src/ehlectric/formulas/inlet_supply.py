@@ -100,13 +100,13 @@ def replenishment_factor(
 
 def decay_rate(
     *,
-    max_pressure: float,
-    semi_axes: tuple[float, float],
-    viscosity: float,
-    pressure_viscosity_coefficient: float,
-    density_ratio: float,
-    track_length: float,
-) -> float:
+    max_pressure: Numbers,
+    semi_axes: tuple[Numbers, Numbers],
+    viscosity: Numbers,
+    pressure_viscosity_coefficient: Numbers,
+    density_ratio: Numbers,
+    track_length: Numbers,
+) -> Numbers:
     """Rate at which a contact presses oil out of its track, rho^2 F/6 in 1/h^2 = 1/h0^2 + rho^2 F t/6.
 
     F = (2/l) (p_h/b^2) (a/eta0) pi ((pi alpha p_h/2)^(3/2) + 1)^(-2/3)
@@ -115,7 +115,7 @@ def decay_rate(
     ``viscosity``, viscosity eta0 of the oil at ambient pressure [Pa s]; ``pressure_viscosity_coefficient``
     [1/Pa]; ``density_ratio``, density rho of the oil at the Hertz pressure over that at ambient pressure,
     dimensionless; ``track_length``, length l of the tracks on both surfaces together from which one contact
-    presses oil [m]. Returns rate [1/(m^2 s)].
+    presses oil [m]; all of shape (...). Returns rate [1/(m^2 s)], shape (...).
 
     M. T. van Zoelen, C. H. Venner and P. M. Lugt, Proc. IMechE J 223 (2009) 541; C. H. Venner, M. T. van
     Zoelen and P. M. Lugt, Tribol. Int. 47 (2012) 175; both second-hand, as later work on grease prints the
@@ -134,7 +134,7 @@ def decay_rate(
     along, across = semi_axes
     stiffening = (0.5 * math.pi * pressure_viscosity_coefficient * max_pressure) ** 1.5 + 1.0
     flow = (2.0 / track_length) * (max_pressure / across**2) * (along / viscosity) * math.pi
-    return float(density_ratio**2 * flow * stiffening ** (-2.0 / 3.0) / 6.0)
+    return as_float(density_ratio**2 * flow * stiffening ** (-2.0 / 3.0) / 6.0)
 
 
 def film_half_time(thickness: ArrayLike, rate: ArrayLike) -> Array:
@@ -165,7 +165,8 @@ def line_rolling_force(contact: LineContact, load_per_length: ArrayLike) -> Arra
 
     F/(E' R) = 1.016 U^(3/4) 1.4 M^(1/2)/(1 + (0.966 M^(1/2))^10)^(1/10), U = 2 eta0 u/(E' R), M = W/U^(1/2)
 
-    ``load_per_length`` [N/m], shape (...). Returns force [N/m], shape (...).
+    ``load_per_length`` [N/m], shape (...), broadcasts with the numbers of ``contact``. Returns force [N/m],
+    shape (...).
 
     Equations (40) to (42) of N. Biboulet and L. Houpert, Hydrodynamic force and moment in pure rolling
     lubricated contacts, part 1: line contacts, Proc. IMechE J 224 (2010), doi:10.1243/13506501JET790. The
@@ -179,7 +180,7 @@ def line_rolling_force(contact: LineContact, load_per_length: ArrayLike) -> Arra
     """
     scale = contact.reduced_modulus * contact.reduced_radius
     speed = 2.0 * contact.viscosity * contact.entrainment_speed / scale
-    root = np.sqrt(np.asarray(load_per_length, dtype=float) / scale / math.sqrt(speed))
+    root = np.sqrt(np.asarray(load_per_length, dtype=float) / scale / np.sqrt(speed))
     part = _RIGID * root / (1.0 + (_RIGID / _ELASTIC * root) ** _SHARP) ** (1.0 / _SHARP)
     return np.asarray(_SCALE * scale * speed**0.75 * part)
 
@@ -194,8 +195,8 @@ def point_rolling_force(contact: PointContact, load: ArrayLike) -> Array:
     the semi-axes b along and a across entrainment.
 
     ``contact``, contact with a load > 0; the load and the pressure-viscosity coefficient have no effect;
-    ``load`` [N], shape (...). Returns force [N], shape (...); it goes with the cube root of the load, as the
-    width 2 a, for light and for heavy loads.
+    ``load`` [N], shape (...), broadcasts with the numbers of ``contact``. Returns force [N], shape (...); it
+    goes with the cube root of the load, as the width 2 a, for light and for heavy loads.
 
     Equation (32) of N. Biboulet and L. Houpert, Hydrodynamic force and moment in pure rolling lubricated
     contacts, part 2: point contacts, Proc. IMechE J 224 (2010), doi:10.1243/13506501JET791. The fit holds

@@ -347,7 +347,7 @@ class TransientContact:
     @property
     def half_width(self) -> float:
         """Half-width b [m]; for a point contact, the semi-axis along entrainment."""
-        return self.conditions.half_width
+        return float(self.conditions.half_width)
 
     @cached_property
     def problem(self) -> FilmProblem:

@@ -5,16 +5,16 @@ import pytest
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
+from ehlectric.bearing.ball_gaps import parts_around_ellipse
 from ehlectric.bearing.bearing_discharges import breakdown_of
 from ehlectric.bearing.quick_contacts import (
     QUICK_METHODS,
-    _around_ball,
     _around_roller,
-    _edge,
-    _integral,
+    _edges,
     quick_case,
-    quick_solutions,
+    quick_curve,
 )
+from ehlectric.bearing.ring_contacts import BALL_DOMAINS
 from ehlectric.bearing.solution import capacitance, film_error
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.warnings import bearing_warnings
@@ -33,6 +33,14 @@ from tests.helpers.bearings import (
 )
 
 SPEED = 4.5
+
+
+def integral(part, middle):
+    """Integral of dA/h over a part of the gap, widened by the film in the middle; dimensionless."""
+    weights, gap = part
+    return float(np.sum(weights / (middle + gap)))
+
+
 NUMBERS = ("minimum_thickness", "central_thickness", "inside", "outside_oil", "plate", "breakdown_voltage")
 
 
@@ -99,7 +107,7 @@ def test_the_gap_around_a_roller_is_that_of_quadrature(middle):
     ends = ((-4.0, -1.0), (1.0, 2.0))
     for part, end in zip(_around_roller(), ends, strict=True):
         expected = quad(lambda x: 1.0 / (middle + float(line_gap(x))), *end, points=[], limit=400)[0]
-        assert _integral(part, middle) == pytest.approx(expected, rel=1e-4)
+        assert integral(part, middle) == pytest.approx(expected, rel=1e-4)
 
 
 @pytest.mark.parametrize("ratio", [1.1, 30.0])
@@ -108,14 +116,14 @@ def test_the_gap_around_a_ball_is_that_of_a_fine_grid(ratio):
     dry, middle = dry_contact(1.0, 1.0, ratio, 1.0), 0.05
     b, a = dry.semi_axis_x, dry.semi_axis_y
     side = min(4.5, 1.6 + 1.4 * b / a)
-    for part, end in zip(_around_ball(ratio), (-4.5, 1.5), strict=True):
+    for part, end in zip(parts_around_ellipse(ratio, BALL_DOMAINS), (-4.5, 1.5), strict=True):
         x = b * end * (np.arange(400) + 0.5)[:, None] / 400
         y = a * side * (np.arange(400) + 0.5) / 400
         bodies = 0.5 * (x**2 + y**2 / ratio) + point_deflection(x, y, dry, 1.0) - dry.approach
         free = (x / b) ** 2 + (y / a) ** 2 > 1.0
         density = np.where(free, 1.0 / (middle + np.maximum(0.0, bodies) / b**2), 0.0)
         expected = 2.0 * abs(end) * side * a / b * float(density.mean())
-        assert _integral(part, middle) == pytest.approx(expected, rel=0.01)
+        assert integral(part, middle) == pytest.approx(expected, rel=0.01)
 
 
 @pytest.mark.parametrize(("tables", "load", "off"), [(BALLS, 2.0, "30 %"), (ROLLERS, 0.2, "40 %")])
@@ -133,8 +141,8 @@ def test_outside_the_atlas_the_film_is_by_formula_and_says_so(tables, load, off)
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS])
 def test_numbers_have_no_step_at_the_edge_of_the_atlas(tables):
     ring = ring_of(bearing_case(tables), speed=SPEED)
-    edge = _edge(contact_of(ring, 0.5))
-    inside, outside = (quick_contact(ring, edge.load * part, "atlas") for part in (1.001, 0.98))
+    (edge,) = _edges(contact_of(ring, np.array([0.5])), np.array([True]))
+    inside, outside = (quick_contact(ring, edge * part, "atlas") for part in (1.001, 0.98))
     codes = [[one.code for one in found.warnings] for found in (inside, outside)]
     assert ["atlas-left" in found for found in codes] == [False, True]
     for name in (*NUMBERS, "hertz"):
@@ -195,7 +203,7 @@ def test_a_strength_that_needs_the_field_is_refused_by_the_name_of_the_way(way):
 def test_contacts_of_several_loads_are_those_of_each_alone(tables, inner):
     """From loads with a domain and a film of their own to those that share the default domain."""
     ring, loads = ring_of(bearing_case(tables), inner=inner, speed=SPEED), (2.0, 20.0, 200.0, 900.0)
-    together = quick_solutions([ball_or_roller_by_atlas(ring, load) for load in loads])
+    together = quick_curve(QUICK_METHODS["atlas"](contact_of(ring, np.array(loads)))).solutions
     for load, found in zip(loads, together, strict=True):
         alone = quick_contact(ring, load, "atlas")
         assert found.load == load
@@ -203,7 +211,3 @@ def test_contacts_of_several_loads_are_those_of_each_alone(tables, inner):
         assert found.mismatch == pytest.approx(alone.mismatch, rel=1e-9, abs=1e-15)
         for one, other in zip(found.values.columns(), alone.values.columns(), strict=True):
             assert one == pytest.approx(other, rel=1e-12, abs=0.0)
-
-
-def ball_or_roller_by_atlas(ring, load):
-    return QUICK_METHODS["atlas"](contact_of(ring, load))

@@ -9,8 +9,7 @@ from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
 from ehlectric.bearing.gaps import LoadedContact, Raceway, RollerRaceway, outside_capacitance, roller_tails
-from ehlectric.bearing.quick_contacts import _unit_opening
-from ehlectric.formulas.hertz import DryContact, axis_ratio, dry_contact, point_deflection
+from ehlectric.formulas.hertz import DryContact, point_deflection
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,
@@ -95,7 +94,7 @@ def gauss(ends, count):
 def test_a_ball(inner, angle):
     """Hertz's numbers by Johnson, films as printed, the sums of dA/h by Gauss over the halves of the domain.
 
-    The trapezoids of the 97 by 65 nodes are some thousandths off.
+    The nodes beside the edge of the ellipse, where the gap begins, make these sums a ten-thousandth off.
     """
     load = 600.0
     found = by_formula(UNLIKE, load, inner=inner, angle=angle)
@@ -112,13 +111,13 @@ def test_a_ball(inner, angle):
     assert found.values.plate == pytest.approx(epsilon_0 * 2.4 * np.pi * a * b / central, rel=1e-4, abs=0.0)
 
     side = 1.6 * a + 1.4 * b
-    (x, wx), (y, wy) = gauss([-4.5 * b, -b, b, 1.5 * b], 40), gauss([0.0, a, side], 40)
+    (x, wx), (y, wy) = gauss([-4.5 * b, -b, b, 1.5 * b], 80), gauss([0.0, a, side], 80)
     dry = DryContact(b, a, pressure, approach)
     bodies = x[:, None] ** 2 / (2.0 * rx) + y**2 / (2.0 * ry) - approach
     gap = central + np.maximum(0.0, bodies + point_deflection(x[:, None], y, dry, MODULUS))
     hertz = pressure * np.sqrt(np.maximum(0.0, 1.0 - (x[:, None] / b) ** 2 - (y / a) ** 2))
     inside = 2.0 * epsilon_0 * wx @ (permittivity(hertz) / gap) @ wy
-    assert found.values.inside == pytest.approx(inside, rel=5e-3, abs=0.0)
+    assert found.values.inside == pytest.approx(inside, rel=2e-4, abs=0.0)
 
     # The rigid bodies approach, less the film, and are bent open: but for the parabolas' error at the edge.
     raceway = Raceway.of(D, PITCH, 0.52 if inner else 0.53, 0.2, outer=not inner, contact_angle=angle)
@@ -161,7 +160,7 @@ def test_a_roller(inner):
         return permittivity(highest * math.sqrt(max(0.0, 1.0 - x**2))) / (central + opened)
 
     inside = LENGTH * epsilon_0 * b * quad(density, -4.0, 2.0, points=[-1.0, 1.0], limit=200)[0]
-    assert found.values.inside == pytest.approx(inside, rel=1e-3, abs=0.0)
+    assert found.values.inside == pytest.approx(inside, rel=1e-4, abs=0.0)
     gaps = tuple(2.4 / density(x) for x in (-4.0, 2.0))
     tails = roller_tails(RollerRaceway(0.5 * ROLLER, race, not inner), b, (-4.0 * b, 2.0 * b), gaps)
     assert found.values.outside_air == pytest.approx(LENGTH * sum(tails), rel=1e-4, abs=0.0)
@@ -189,14 +188,3 @@ def test_a_ball_that_hardly_presses_is_nearly_a_rigid_one(inner):
 def test_without_a_strength_nothing_breaks_by_formula():
     for tables in (BALLS, ROLLERS):
         assert by_formula(tables, 500.0, inner=True, discharge=None).values.breakdown_voltage == np.inf
-
-
-def test_the_gap_of_all_loads_is_the_same_in_semi_axes():
-    """The scaled deflection is the one at the nodes of the contact itself, in metres."""
-    for load in (20.0, 900.0):
-        dry = dry_contact(load, 5e-3, 0.14, 226e9)
-        b, a = dry.semi_axis_x, dry.semi_axis_y
-        x, y = b * np.linspace(-4.5, 1.5, 97), 1.7 * a * np.linspace(-1.0, 1.0, 65)
-        own = point_deflection(x[:, np.newaxis], y, dry, 226e9)
-        scaled = dry.max_pressure * b / 226e9 * _unit_opening(axis_ratio(5e-3, 0.14), 1.7)
-        np.testing.assert_allclose(scaled, own, rtol=1e-12)

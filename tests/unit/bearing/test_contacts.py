@@ -58,7 +58,7 @@ def light_ball():
 @pytest.fixture(scope="module")
 def rollers():
     """A roller's contact with the inner ring at six loads."""
-    return ContactCurve(tuple(solved(ROLLERS, load) for load in np.geomspace(60.0, 3000.0, 6)))
+    return ContactCurve.of(tuple(solved(ROLLERS, load) for load in np.geomspace(60.0, 3000.0, 6)))
 
 
 def by_hand(contact, grid, discharge):
@@ -346,7 +346,7 @@ def powers(loads):
         dataclasses.replace(with_values(one, inside=2e-11 * q**0.6, breakdown_voltage=6.0 * q**-0.07), load=q)
         for q in loads
     ]
-    return ContactCurve(tuple(rows))
+    return ContactCurve.of(tuple(rows))
 
 
 def test_warnings_of_the_regime_are_left_out_by_their_code():
@@ -371,7 +371,7 @@ def test_the_interpolation_error_is_that_of_a_contact_left_out():
     """One of a power law 10 % off: from its neighbours it would be itself over 1.1."""
     curve = powers([1.0, 10.0, 100.0])
     off = with_values(curve.solutions[1], inside=1.1 * curve.solutions[1].values.inside)
-    bent = ContactCurve((curve.solutions[0], off, curve.solutions[2]))
+    bent = ContactCurve.of((curve.solutions[0], off, curve.solutions[2]))
     assert bent.interpolation_error == pytest.approx(1.0 - 1.0 / 1.1, rel=1e-9, abs=0.0)
 
 
@@ -386,7 +386,7 @@ def test_beyond_its_loads_a_curve_has_its_ends():
 def test_without_a_strength_nothing_breaks():
     found = solved(ROLLERS, 500.0, discharge=None)
     assert found.values.breakdown_voltage == np.inf
-    assert np.all(ContactCurve((found,)).at(np.array([1.0, 500.0])).breakdown_voltage == np.inf)
+    assert np.all(ContactCurve.of((found,)).at(np.array([1.0, 500.0])).breakdown_voltage == np.inf)
 
 
 @pytest.mark.parametrize("inner", [True, False])

@@ -169,9 +169,9 @@ def test_errors_are_the_larger_of_both_rings(result):
         dataclasses.replace(with_values(one, inside=1e-11 * q**0.5), load=q, error=0.02)
         for q in (1.0, 10.0, 100.0)
     ]
-    exact = ContactCurve(tuple(rows))
+    exact = ContactCurve.of(tuple(rows))
     off = dataclasses.replace(with_values(rows[1], inside=1.1 * rows[1].values.inside), error=0.01)
-    bent = ContactCurve((rows[0], off, rows[2]))
+    bent = ContactCurve.of((rows[0], off, rows[2]))
     for inner, outer in ((exact, bent), (bent, exact)):
         curves = dataclasses.replace(solution, inner_curve=inner, outer_curve=outer)
         found = numbers_of(BearingResult(curves))["bearing"]

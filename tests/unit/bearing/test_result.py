@@ -324,7 +324,7 @@ def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
 def test_a_contact_that_is_not_converged(rollers):
     solution = rollers.solution
     first, *others = solution.outer_curve.solutions
-    curve = ContactCurve((dataclasses.replace(first, converged=False), *others))
+    curve = ContactCurve.of((dataclasses.replace(first, converged=False), *others))
     failed = BearingResult(dataclasses.replace(solution, outer_curve=curve))
     assert not failed.converged
     assert not strict(failed.summary())["converged"]
@@ -342,7 +342,7 @@ def warned(result, name, texts):
         dataclasses.replace(contact, warnings=tuple(ResultWarning(CODE, text) for text in found))
         for contact, found in contacts
     )
-    curve = dataclasses.replace(curve, solutions=changed)
+    curve = ContactCurve.of(changed)
     return BearingResult(dataclasses.replace(result.solution, **{f"{name}_curve": curve}))
 
 

@@ -25,7 +25,7 @@ def curve_of(axes_and_pressure, loads):
                 error=0.01, moes_m=10.0, moes_l=10.0, mismatch=0.0, converged=True, warnings=(),
             )
         )  # fmt: skip
-    return ContactCurve(tuple(rows))
+    return ContactCurve.of(tuple(rows))
 
 
 def state_of(tables, axes_and_pressure, load, gap, **changes):

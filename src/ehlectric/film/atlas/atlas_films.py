@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.atlas_groups import Groups, film_problem, lubricant_coordinate
-from ehlectric.film.atlas.atlas_table import NAMES, table
-from ehlectric.film.film_error import lost_by_load, point_load_deficit
+from ehlectric.film.atlas.atlas_groups import Ellipse, Groups, lubricant_coordinate
+from ehlectric.film.atlas.atlas_table import NAMES, Table, table
+from ehlectric.film.film_error import lost_by_load, missing_load
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz import axis_ratio
@@ -32,28 +32,40 @@ _ENDS = np.linspace(0.0, _END, 17)
 
 @dataclass(frozen=True)
 class OilGroups:
-    """Coefficient and weak groups of an oil, from its laws of viscosity and density over pressure."""
+    """Coefficient and weak groups of an oil, from its laws of viscosity and density over pressure.
 
-    alpha: float  # pressure-viscosity coefficient of the atlas [1/Pa]
-    shape: float  # ln(alpha/alpha*), which grows with the curvature of the viscosity law, dimensionless
-    compressibility: float  # slope of the density ratio at zero pressure over alpha, dimensionless
+    Those of many oils, whose laws have parameters of shape (n,), have the shape (n,).
+    """
+
+    alpha: Numbers  # pressure-viscosity coefficient of the atlas [1/Pa]
+    shape: Numbers  # ln(alpha/alpha*), which grows with the curvature of the viscosity law, dimensionless
+    compressibility: Numbers  # slope of the density ratio at zero pressure over alpha, dimensionless
 
     @classmethod
-    def of(cls, viscosity: PressureLaw, density: PressureLaw) -> OilGroups:
-        """Groups of an oil from ln(eta/eta0) and rho/rho0 over pressure [Pa]."""
-        alpha = film_coefficient(viscosity, density)
-        slope = float(np.ravel(density(np.zeros(1))[1])[0])
-        return cls(alpha, math.log(alpha / reciprocal_asymptotic_alpha(viscosity)), slope / alpha)
+    def of(cls, viscosity: PressureLaw, density: PressureLaw, alpha_star: Numbers | None = None) -> OilGroups:
+        """Groups of an oil from ln(eta/eta0) and rho/rho0 over pressure [Pa].
+
+        ``alpha_star``, reciprocal asymptotic coefficient of the oil [1/Pa], where it is known.
+        """
+        if alpha_star is None:
+            alpha_star = reciprocal_asymptotic_alpha(viscosity)
+        alpha = film_coefficient(viscosity, density, alpha_star)
+        slope = as_float(np.asarray(density(np.zeros(()))[1]))
+        return cls(alpha, as_float(np.log(alpha / alpha_star)), slope / alpha)
 
 
-def film_coefficient(viscosity: PressureLaw, density: PressureLaw) -> float:
+def film_coefficient(
+    viscosity: PressureLaw, density: PressureLaw, alpha_star: Numbers | None = None
+) -> Numbers:
     """Pressure-viscosity coefficient of the atlas: Bair's film coefficient of eta rho^2, in 1/Pa.
 
     alpha_m = (1 - e^-3)/Int_0^(3/alpha*) (eta(0)/eta(p)) (rho(0)/rho(p))^2 dp
 
     ``viscosity``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa];
-    ``density``, rho/rho0 and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
-    coefficient [1/Pa]; alpha for an incompressible oil of Barus' law.
+    ``density``, rho/rho0 and its derivative by pressure [1/Pa], as a function of the pressure [Pa];
+    ``alpha_star``, reciprocal asymptotic coefficient [1/Pa], where it is known. The parameters of the laws of
+    many oils have the shape (n,), and the laws then take pressures of shape (k, n). Returns coefficient
+    [1/Pa], shape () or (n,); alpha for an incompressible oil of Barus' law.
 
     With the mass per area m = rho h, the Reynolds equation of the inlet is
     dp/dx = 12 u eta rho^2 (m - m0)/m^3. The density therefore acts as a factor rho^2 of the viscosity.
@@ -66,12 +78,14 @@ def film_coefficient(viscosity: PressureLaw, density: PressureLaw) -> float:
     >>> round(film_coefficient(law, incompressible) * 1e9, 6)
     20.0
     """
-    ends = _ENDS / reciprocal_asymptotic_alpha(viscosity)
-    middle, half = 0.5 * (ends[1:] + ends[:-1]), 0.5 * np.diff(ends)
-    pressure = (middle[:, np.newaxis] + half[:, np.newaxis] * _NODES).ravel()
+    if alpha_star is None:
+        alpha_star = reciprocal_asymptotic_alpha(viscosity)
+    middle, half = 0.5 * (_ENDS[1:] + _ENDS[:-1]), 0.5 * np.diff(_ENDS)
+    ratio = (middle + half * _NODES[:, np.newaxis]).ravel()
+    weights = (half * _WEIGHTS[:, np.newaxis]).ravel()
+    pressure = np.multiply.outer(ratio, 1.0 / np.asarray(alpha_star))
     integrand = np.exp(-np.asarray(viscosity(pressure)[0])) / np.asarray(density(pressure)[0]) ** 2
-    integral = float(half @ (np.reshape(integrand, (half.size, -1)) @ _WEIGHTS))
-    return -math.expm1(-_END) / integral
+    return as_float(-math.expm1(-_END) * alpha_star / (weights @ integrand))
 
 
 # Oil of the atlas: Roelands' law and the density of Dowson and Higginson, with typical parameters. The films
@@ -133,24 +147,27 @@ _DENSITY = 0.15
 class AtlasFilm:
     """Film of a smooth, fully flooded, isothermal contact, interpolated in the atlas.
 
-    Films are in Moes' unit, R (eta0 u_s/(E' R))^(1/2), with the radius R along entrainment.
+    Films are in Moes' unit, R (eta0 u_s/(E' R))^(1/2), with the radius R along entrainment. Numbers of many
+    contacts have the shape (...), and are NaN for contacts that the atlas does not have.
     """
 
     # central, minimum and mean: film thickness at x = y = 0, smallest film thickness, and mean over the Hertz
     # zone.
-    central: float
-    minimum: float
-    mean: float
-    mass: float  # density ratio times film thickness at x = y = 0, which depends least on the oil
-    central_pressure: float  # pressure at x = y = 0 over the Hertz pressure
+    central: Numbers
+    minimum: Numbers
+    mean: Numbers
+    mass: Numbers  # density ratio times film thickness at x = y = 0, which depends least on the oil
+    central_pressure: Numbers  # pressure at x = y = 0 over the Hertz pressure
     # zone, inlet and outlet: mean of rho(0) h(0)/(rho h) over the Hertz zone; integral of dA/h before and
     # behind the middle of the contact, outside the Hertz zone, over that of the dry gap plus the central
     # film.
-    zone: float
-    inlet: float
-    outlet: float
-    minimum_at: tuple[float, float]  # place of the smallest film, x/b along and abs(y)/a across entrainment
-    errors: dict[str, float]  # relative error of each number, which about 95 % of solved contacts keep
+    zone: Numbers
+    inlet: Numbers
+    outlet: Numbers
+    # Place of the smallest film, x/b along and abs(y)/a across entrainment.
+    minimum_at: tuple[Numbers, Numbers]
+    errors: dict[str, Numbers]  # relative error of each number, which about 95 % of solved contacts keep
+    known: Mask | bool = True  # whether the atlas has the contact
 
 
 @lru_cache(maxsize=1)
@@ -159,125 +176,182 @@ def reference_groups() -> OilGroups:
     return OilGroups.of(*reference_laws())
 
 
-def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None = None) -> AtlasFilm:
-    """Film of a smooth contact from its groups.
+def in_atlas(groups: Groups) -> Mask:
+    """Whether contacts with groups of shape (...) lie in the atlas, between nodes that have a film."""
+    return _films(groups).has(*_coordinates(groups)) & _is_solvable(groups)
 
-    ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the reference oil, with the
-    spread between oils as an error; ``oil``, groups of the oil, where they are known already. Returns numbers
-    of the film with their errors. Raises InputError: outside the range of the atlas.
-    """
-    known = laws is not None
-    laws = reference_laws() if laws is None else laws
-    oil = OilGroups.of(*laws) if oil is None else oil
-    line = groups.ratio is None
-    films = table("lines" if line else "points")
-    at = (groups.load_group, lubricant_coordinate(groups), *(() if groups.ratio is None else (groups.ratio,)))
+
+def _films(groups: Groups) -> Table:
+    """Table of the atlas with the kind of the contacts."""
+    return table("lines" if groups.ratio is None else "points")
+
+
+def _coordinates(groups: Groups) -> tuple[Numbers, ...]:
+    """Coordinates of contacts in the atlas: N or M, Y, and k of points."""
+    further = () if groups.ratio is None else (groups.ratio,)
+    return groups.load_group, lubricant_coordinate(groups), *further
+
+
+def _is_solvable(groups: Groups) -> Mask | bool:
+    """Whether Hertz pressures are among those with which films of points were solved."""
+    return groups.ratio is None or groups.hertz_number <= MOST_HERTZ
+
+
+def check_in_atlas(groups: Groups) -> None:
+    """Raise an InputError for a single contact that the atlas does not have."""
+    films, at = _films(groups), _coordinates(groups)
     films.check_range(*at)
-    if not line and groups.hertz_number > MOST_HERTZ:
+    if not _is_solvable(groups):
         raise InputError(
             "atlas",
             got=f"alpha p_h = {groups.hertz_number:.4g}",
             takes=f"at most {MOST_HERTZ:g}, the range of the atlas of points",
         )
+    films.check(*at)
+
+
+def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None = None) -> AtlasFilm:
+    """Film of smooth contacts from their groups.
+
+    ``groups``, numbers of one contact, or arrays of many that broadcast to a shape (...), the points of an
+    oil of many points last; ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the
+    reference oil, with the spread between oils as an error; ``oil``, groups of the oil, where they are known
+    already. Returns numbers of the film with their errors. Raises InputError if a single contact is outside
+    the range of the atlas; of many contacts, those that are outside have no numbers.
+    """
+    given = laws is not None
+    laws = reference_laws() if laws is None else laws
+    oil = OilGroups.of(*laws) if oil is None else oil
+    at, films = _coordinates(groups), _films(groups)
+    if all(np.ndim(value) == 0 for value in at):
+        check_in_atlas(groups)
+        known: Mask | bool = True
+    else:
+        known = in_atlas(groups)
+        at = tuple(np.where(known, value, middle) for value, middle in zip(at, films.middle, strict=True))
     stored, errors = films(*at)
-    logs = dict(zip(NAMES, stored.tolist(), strict=True))
-    pressure, number = math.exp(logs["pressure"]), groups.hertz_number
-    reference = reference_groups()
-    of_reference = groups.formula * math.exp(logs["central"])
+    logs = dict(zip(NAMES, stored, strict=True))
+    pressure, number, formula = np.exp(logs["pressure"]), groups.hertz_number, groups.formula
+    reference, change = reference_groups(), _Change(groups, oil)
+    of_reference = formula * np.exp(logs["central"])
     mass_of_reference = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
-    mass = mass_of_reference * _factor("central", groups, oil)
+    mass = mass_of_reference * change.factor("central")
     central = mass / _ratio(laws[1], pressure * number / oil.alpha)
     # The mean changes from oil to oil as the central film does.
-    mean = groups.formula * math.exp(logs["mean"]) * central / of_reference
-    return AtlasFilm(
-        central=central,
-        minimum=groups.formula * math.exp(logs["minimum"]) * _factor("minimum", groups, oil),
-        mean=mean * _factor("mean", groups, oil),
-        mass=mass,
-        central_pressure=pressure,
-        zone=math.exp(logs["zone"]) * mass_of_reference / groups.formula,
-        inlet=math.exp(logs["inlet"]) * _factor("inlet", groups, oil),
-        outlet=math.exp(logs["outlet"]) * _factor("outlet", groups, oil),
-        minimum_at=(logs["minimum_x"], logs["minimum_y"]),
-        errors=_errors(groups, errors, _SPREAD if known else _WHOLE, oil),
-    )
-
-
-def _line_load(groups: Groups) -> float:
-    """M of the line contact with the same velocity parameter."""
-    load = groups.load_group
-    return load if groups.ratio is None else math.sqrt(3.0 * math.pi / 32.0) * load ** (2.0 / 3.0)
-
-
-def _errors(groups: Groups, errors: Array, spread: dict[str, float], oil: OilGroups) -> dict[str, float]:
-    """Relative errors by name: of the table, and the spread between oils."""
-    more = 2.0 if _line_load(groups) < _LIGHT else 1.0
-    total = {
-        name: more * (float(error) + spread.get(name, _OTHER))
-        for name, error in zip(NAMES, errors, strict=True)
+    mean = formula * np.exp(logs["mean"]) * central / of_reference
+    numbers: dict[str, Any] = {
+        "central": central,
+        "minimum": formula * np.exp(logs["minimum"]) * change.factor("minimum"),
+        "mean": mean * change.factor("mean"),
+        "mass": mass,
+        "central_pressure": pressure,
+        "zone": np.exp(logs["zone"]) * mass_of_reference / formula,
+        "inlet": np.exp(logs["inlet"]) * change.factor("inlet"),
+        "outlet": np.exp(logs["outlet"]) * change.factor("outlet"),
     }
-    central, pressure = (float(errors[NAMES.index(name)]) for name in ("central", "pressure"))
-    if more > 1.0:
-        # The kink of the central film where the spike passes the centre, and the density there.
-        total["central"] += more * central
-        total["zone"] += _DENSITY * min(pressure, 1.0)
-    stiff = max(0.0, 1.0 - oil.compressibility / reference_groups().compressibility)
-    total["minimum"] += _STIFF_MINIMUM * stiff
-    total["mean"] += _STIFF_MEAN * stiff
-    if groups.moes_l < 1.0:
-        total["central"] += _ISOVISCOUS
-    if groups.ratio is not None and more > 1.0:
-        lost = _domain_error(groups)
+    of_films = _errors(groups, errors, _SPREAD if given else _WHOLE, oil, known=known)
+    if known is not True:
+        numbers = {name: np.where(known, value, math.nan) for name, value in numbers.items()}
+    # A single contact has floats.
+    numbers = {name: as_float(value) for name, value in numbers.items()}
+    place = as_float(logs["minimum_x"]), as_float(logs["minimum_y"])
+    of_films = {name: as_float(error) for name, error in of_films.items()}
+    return AtlasFilm(**numbers, minimum_at=place, errors=of_films, known=known)
+
+
+def _errors(
+    groups: Groups, errors: Array, spread: dict[str, float], oil: OilGroups, *, known: Mask | bool
+) -> dict[str, Numbers]:
+    """Relative errors by name: of the table, and the spread between oils."""
+    light = groups.line_load < _LIGHT
+    more = np.where(light, 2.0, 1.0)
+    total: dict[str, Numbers] = {
+        name: more * (error + spread.get(name, _OTHER)) for name, error in zip(NAMES, errors, strict=True)
+    }
+    central, pressure = (errors[NAMES.index(name)] for name in ("central", "pressure"))
+    # The kink of the central film where the spike passes the centre, and the density there.
+    total["central"] = total["central"] + np.where(light, more * central, 0.0)
+    total["zone"] = total["zone"] + np.where(light, _DENSITY * np.minimum(pressure, 1.0), 0.0)
+    stiff = np.maximum(0.0, 1.0 - oil.compressibility / reference_groups().compressibility)
+    total["minimum"] = total["minimum"] + _STIFF_MINIMUM * stiff
+    total["mean"] = total["mean"] + _STIFF_MEAN * stiff
+    total["central"] = total["central"] + np.where(groups.moes_l < 1.0, _ISOVISCOUS, 0.0)
+    if groups.ratio is not None:
+        lost = _domain_error(groups, light & known)
         for name in ("central", "minimum", "mean"):
-            total[name] += lost
+            total[name] = total[name] + lost
     # The mean of 1/(rho h) is stored without the central film.
-    total["zone"] += 2.0 * more * central if more > 1.0 else central
+    total["zone"] = total["zone"] + np.where(light, 2.0 * more, 1.0) * central
     return total
 
 
-def _domain_error(groups: Groups) -> float:
-    """Share of the film of a light point contact that is missing, as the atlas ends its domain."""
-    problem = film_problem(groups, reference_laws(), reference_groups().alpha, _ANY)
-    return lost_by_load(problem.thickness_guess) * point_load_deficit(problem)
+def _domain_error(groups: Groups, where: Mask) -> Numbers:
+    """Share of the films of light point contacts that is missing, as the atlas ends its domain; else 0."""
+    where = np.asarray(where)
+    lost = np.zeros(where.shape)
+    if np.any(where):
+        ellipse = groups.ellipse.among(where.shape, where)
+        load_group, lubricant_group = (
+            np.broadcast_to(values, where.shape)[where] for values in (groups.moes_m, groups.moes_l)
+        )
+        light = Groups(load_group, lubricant_group, ellipse.ratio, ellipse)
+        load = 2.0 * np.pi * ellipse.ratio / 3.0
+        missing = missing_load(1.0 / light.radius_ratio, light.domain, light.velocity_parameter) / load
+        lost[where] = lost_by_load(light.formula / light.thickness_unit) * missing
+    return lost
 
 
-def _factor(name: str, groups: Groups, oil: OilGroups) -> float:
-    """Factor of a number for an oil over that for the reference oil, at the same groups."""
-    reference = reference_groups()
-    lubricant, load = math.log(groups.moes_l / 10.0), math.log(_line_load(groups) / 50.0)
-    basis = np.array([1.0, lubricant, load, load**2, lubricant * load])
-    shape, compressibility = np.array(_OIL[name]) @ basis
-    change = shape * (oil.shape - reference.shape)
-    return math.exp(change + compressibility * (oil.compressibility - reference.compressibility))
+class _Change:
+    """Change of numbers of the film from the reference oil to another one, at the same groups."""
+
+    def __init__(self, groups: Groups, oil: OilGroups) -> None:
+        reference = reference_groups()
+        self._lubricant, self._load = np.log(groups.moes_l / 10.0), np.log(groups.line_load / 50.0)
+        self._shape = oil.shape - reference.shape
+        self._compressibility = oil.compressibility - reference.compressibility
+
+    def factor(self, name: str) -> Numbers:
+        """Factor of a number for the oil over that for the reference oil."""
+        one, lubricant, load, square, both = (
+            shape * self._shape + compressibility * self._compressibility
+            for shape, compressibility in zip(*_OIL[name], strict=True)
+        )
+        constant, slope = one + lubricant * self._lubricant, load + both * self._lubricant
+        return np.exp(constant + self._load * (slope + square * self._load))
 
 
-def _ratio(density: Callable[..., Any], pressure: float) -> float:
+def _ratio(density: Callable[..., Any], pressure: Numbers) -> Numbers:
     """Density ratio at a pressure [Pa]."""
-    ratio: Array = np.ravel(density(np.array([pressure]))[0])
-    return float(ratio[0])
+    return np.asarray(density(pressure)[0])
 
 
 @dataclass(frozen=True)
 class ContactFilm:
-    """Film of a contact from the atlas, in SI units."""
+    """Film of a contact from the atlas, or of many contacts, in SI units."""
 
     # central_thickness, minimum_thickness and mean_thickness: film thickness at x = y = 0, smallest film
     # thickness, and mean over the Hertz zone [m].
-    central_thickness: float
-    minimum_thickness: float
-    mean_thickness: float
+    central_thickness: Numbers
+    minimum_thickness: Numbers
+    mean_thickness: Numbers
     groups: Groups  # M, L and k, with L made with the coefficient of the atlas
     film: AtlasFilm
 
     @property
-    def errors(self) -> dict[str, float]:
+    def errors(self) -> dict[str, Numbers]:
         """Relative errors of the films by "central", "minimum" and "mean", and of the other numbers."""
         return self.film.errors
 
 
-def contact_film(contact: LineContact | PointContact, oil: Oil) -> ContactFilm:
-    """Film of a smooth, fully flooded, isothermal contact, interpolated in the atlas. Returns films [m], with
-    the relative error of each. Raises InputError if the contact is outside the atlas.
+def contact_film(
+    contact: LineContact | PointContact, oil: Oil, ellipse: Ellipse | None = None
+) -> ContactFilm:
+    """Film of smooth, fully flooded, isothermal contacts, interpolated in the atlas.
+
+    ``contact``, numbers of one contact, or arrays that broadcast to a shape (...), the points of an oil of
+    many points last; ``ellipse``, shape of the dry contact of points, where it is known. Returns films [m],
+    with the relative error of each; contacts outside the atlas have NaN. Raises InputError if a single
+    contact is outside the atlas.
 
     Examples
     --------
@@ -289,19 +363,24 @@ def contact_film(contact: LineContact | PointContact, oil: Oil) -> ContactFilm:
     0.42
     """
     laws = (oil.log_viscosity, oil.density_ratio)
-    groups_of_oil = _groups_of(oil)
-    moved = replace(contact, pressure_viscosity_coefficient=groups_of_oil.alpha)
-    if isinstance(moved, LineContact):
-        radius, ratio = moved.reduced_radius, None
-    else:
-        radius, ratio = moved.radius_x, axis_ratio(moved.radius_x, moved.radius_y)
-    groups = Groups(moved.moes_m, moved.moes_l, ratio)
-    film = atlas_film(groups, laws, groups_of_oil)
-    unit = radius * float(np.sqrt(2.0 * moved._u))
+    groups = groups_of(contact, oil, ellipse)
+    film = atlas_film(groups, laws, _groups_of(oil))
+    radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.radius_x
+    unit = radius * as_float(np.sqrt(2.0 * contact._u))
     return ContactFilm(unit * film.central, unit * film.minimum, unit * film.mean, groups, film)
+
+
+def groups_of(contact: LineContact | PointContact, oil: Oil, ellipse: Ellipse | None = None) -> Groups:
+    """Groups of contacts with an oil, L with the coefficient of the atlas; arguments of ``contact_film``."""
+    moved = replace(contact, pressure_viscosity_coefficient=_groups_of(oil).alpha)
+    if isinstance(moved, LineContact):
+        return Groups(moved.moes_m, moved.moes_l, None)
+    if ellipse is None:
+        return Groups(moved.moes_m, moved.moes_l, axis_ratio(moved.radius_x, moved.radius_y))
+    return Groups(moved.moes_m, moved.moes_l, ellipse.ratio, ellipse)
 
 
 @lru_cache(maxsize=64)
 def _groups_of(oil: Oil) -> OilGroups:
     """Groups of an oil, kept because a bearing asks for the same oil many times."""
-    return OilGroups.of(oil.log_viscosity, oil.density_ratio)
+    return OilGroups.of(oil.log_viscosity, oil.density_ratio, oil.alpha_star)

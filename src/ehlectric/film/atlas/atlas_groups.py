@@ -18,12 +18,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
+import numpy as np
 from scipy.special import elliprd
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.film.deflection import point_geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
@@ -50,70 +52,117 @@ SKEW = 1.0 / 6.0
 
 
 @dataclass(frozen=True)
+class Ellipse:
+    """Shape of the dry contact of points: numbers, or arrays of shape (...)."""
+
+    ratio: Numbers  # ratio k of the semi-axes, across over along entrainment
+    radius_ratio: Numbers  # Ry/Rx
+    q: Numbers  # factor q = (2/pi) R_D(0, k^2, 1) of b^3 = q F Rx/E'
+
+    @classmethod
+    def of(cls, ratio: Numbers, radius_ratio: Numbers | None = None) -> Ellipse:
+        """Shape of contacts with a ratio of the semi-axes; ``radius_ratio``, Ry/Rx, where it is known."""
+        size = elliprd(0.0, ratio**2, 1.0)
+        if radius_ratio is None:
+            radius_ratio = size / elliprd(0.0, 1.0, ratio**2)
+        return cls(ratio, as_float(radius_ratio), as_float(2.0 / math.pi * size))
+
+    def among(self, shape: tuple[int, ...], places: Any) -> Ellipse:
+        """Shapes of those contacts of an array of a ``shape`` that an index ``places`` picks."""
+        return Ellipse(*(np.broadcast_to(values, shape)[places] for values in vars(self).values()))
+
+
+@dataclass(frozen=True)
 class Groups:
-    """Moes' groups of a contact."""
+    """Moes' groups of a contact, or of many contacts: arrays that broadcast to a shape (...)."""
 
     # moes_m and moes_l: M and L, dimensionless. L is made with ``film_coefficient`` of the oil
-    moes_m: float
-    moes_l: float
+    moes_m: Numbers
+    moes_l: Numbers
     # Ratio k of the semi-axes, across over along entrainment; None for a line contact.
-    ratio: float | None = None
+    ratio: Numbers | None = None
+    # Shape of the dry contact with this ratio, where it is known already.
+    known_ellipse: Ellipse | None = field(default=None, compare=False, repr=False)
 
-    @property
-    def _q(self) -> float:
-        """Factor q = (2/pi) R_D(0, k^2, 1) of b^3 = q F Rx/E'."""
+    @cached_property
+    def ellipse(self) -> Ellipse:
+        """Shape of the dry contact of points."""
         assert self.ratio is not None
-        return 2.0 / math.pi * float(elliprd(0.0, self.ratio**2, 1.0))
+        return Ellipse.of(self.ratio) if self.known_ellipse is None else self.known_ellipse
 
     @property
-    def radius_ratio(self) -> float:
+    def _q(self) -> Numbers:
+        return self.ellipse.q
+
+    @property
+    def radius_ratio(self) -> Numbers:
         """Ry/Rx, from the ratio of the semi-axes."""
-        assert self.ratio is not None
-        k2 = self.ratio**2
-        return float(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2))
+        return self.ellipse.radius_ratio
 
-    @property
-    def load_group(self) -> float:
+    @cached_property
+    def load_group(self) -> Numbers:
         """N of a point contact, M of a line contact: the group of the velocity parameter lambda."""
         if self.ratio is None:
             return self.moes_m
-        return float(self.moes_m * self._q**0.25 / self.ratio**0.75)
+        return as_float(self.moes_m * (self._q**0.25 / self.ratio**0.75))
 
     @property
-    def velocity_parameter(self) -> float:
+    def line_load(self) -> Numbers:
+        """M of the line contact with the same velocity parameter."""
+        if self.ratio is None:
+            return self.load_group
+        return as_float(math.sqrt(3.0 * math.pi / 32.0) * self.load_group ** (2.0 / 3.0))
+
+    @property
+    def velocity_parameter(self) -> Numbers:
         """Velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h)."""
         if self.ratio is None:
             return 3.0 * math.pi**2 / (8.0 * self.moes_m**2)
-        return float(4.0 * math.pi / self.load_group ** (4.0 / 3.0))
+        return as_float(4.0 * math.pi / self.load_group ** (4.0 / 3.0))
 
-    @property
-    def hertz_number(self) -> float:
+    @cached_property
+    def hertz_number(self) -> Numbers:
         """Product alpha p_h, the Hertz pressure in units of 1/alpha."""
         if self.ratio is None:
-            return self.moes_l * math.sqrt(self.moes_m / (2.0 * math.pi))
-        moved = self.moes_m ** (1.0 / 3.0) / self._q ** (2.0 / 3.0)
-        return float(1.5 / math.pi * self.moes_l * moved / self.ratio)
+            return as_float(self.moes_l * np.sqrt(self.moes_m / (2.0 * math.pi)))
+        return as_float(
+            np.cbrt(self.moes_m) * (1.5 / math.pi * self.moes_l / self._q ** (2.0 / 3.0) / self.ratio)
+        )
 
     @property
-    def thickness_unit(self) -> float:
+    def thickness_unit(self) -> Numbers:
         """Film thickness in Moes' unit that corresponds to H = h R/b^2 = 1."""
         if self.ratio is None:
             return 8.0 * self.moes_m / math.pi
-        return float((self._q * self.moes_m) ** (2.0 / 3.0))
+        return as_float((self._q * self.moes_m) ** (2.0 / 3.0))
 
-    @property
-    def formula(self) -> float:
+    @cached_property
+    def formula(self) -> Numbers:
         """Central film in Moes' unit by the formula of Moes, or of Nijenbanning, Venner and Moes."""
         speed, coefficient = 0.5 * _U, self.moes_l / _U**0.25
         if self.ratio is None:
             line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, speed, 1.0, coefficient)
-            return float(moes(line).central_thickness / _U**0.5)
+            return moes(line).central_thickness / _U**0.5
         load = self.moes_m * _U**0.75
         point = PointContact(1.0, self.radius_ratio, 1.0, load, speed, 1.0, coefficient)
-        return float(nijenbanning_venner_moes(point).central_thickness / _U**0.5)
+        return nijenbanning_venner_moes(point).central_thickness / _U**0.5
+
+    @property
+    def domain(self) -> tuple[Numbers, Numbers]:
+        """Length of the inlet and half of the width of the domain of the atlas, both in b.
+
+        The width of a line contact is without meaning, and zero.
+        """
+        length = np.sqrt(self.formula / self.thickness_unit)
+        inlet = as_float(np.maximum(_INLET, _INLET_LENGTHS * length))
+        if self.ratio is None:
+            return inlet, 0.0
+        least = np.minimum(4.5, _SIDE + 1.4 / self.ratio)
+        needed = _SIDE * self.ratio + _SIDE_LENGTHS * length * np.sqrt(self.radius_ratio)
+        return inlet, as_float(np.maximum(least * self.ratio, needed))
 
 
-def lubricant_coordinate(groups: Groups) -> float:
+def lubricant_coordinate(groups: Groups) -> Numbers:
     """Coordinate Y = L N^(1/6) of a contact with the load group N, M for a line contact.
 
     Examples
@@ -121,7 +170,7 @@ def lubricant_coordinate(groups: Groups) -> float:
     >>> lubricant_coordinate(Groups(64.0, 10.0))
     20.0
     """
-    return float(groups.moes_l * groups.load_group**SKEW)
+    return as_float(groups.moes_l * groups.load_group**SKEW)
 
 
 def film_problem(
@@ -133,12 +182,12 @@ def film_problem(
     """
     pressure = groups.hertz_number / alpha
     guess = groups.formula / groups.thickness_unit
-    length = math.sqrt(guess)
+    inlet, side = groups.domain
     fluid = Fluid(_over(laws[1], pressure), _over(laws[0], pressure), groups.velocity_parameter, 0.0)
     problem = FilmProblem(
         fluid,
         nodes=nodes,
-        inlet=-max(_INLET, _INLET_LENGTHS * length),
+        inlet=-inlet,
         outlet=_OUTLET if groups.ratio is not None else 2.0,
         thickness_guess=guess,
         wedge_order=3,
@@ -150,8 +199,6 @@ def film_problem(
     k = groups.ratio
     load = (groups._q * groups.moes_m) ** (1.0 / 3.0)
     compliance = 3.0 / math.pi**2 / k * groups.moes_m ** (1.0 / 3.0) * groups._q ** (-2.0 / 3.0) / load
-    least = min(4.5, _SIDE + 1.4 / k)
-    side = max(least * k, _SIDE * k + _SIDE_LENGTHS * length * math.sqrt(groups.radius_ratio))
     geometry = point_geometry(radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance)
     return replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side))
 

@@ -5,14 +5,16 @@ neighbours.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
 from importlib.resources import files
+from itertools import product
+from operator import and_
 from typing import Any
 
 import numpy as np
 from scipy.interpolate import NdBSpline, make_interp_spline
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.errors import InputError
 
 # Numbers of each film, in this order.
@@ -83,11 +85,45 @@ class Table:
         missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
         return HALVED * _largest_near(missed)
 
-    def __call__(self, *at: float) -> tuple[Array, Array]:
-        """Stored numbers and their errors at a point, which must lie in the range of the table."""
-        self.check(*at)
-        logs = np.log(at)[np.newaxis]
-        return self._spline(logs)[0], self._error(logs)[0]
+    def __call__(self, *at: Numbers) -> tuple[Array, Array]:
+        """Stored numbers and their errors at points of shape (...), each of shape (numbers, ...).
+
+        Points that ``has`` does not contain have no meaningful numbers; a single one of them, of shape (), is
+        refused with an InputError.
+        """
+        if np.ndim(at[0]) == 0:
+            self.check(*at)
+        points = np.stack(np.broadcast_arrays(*at), axis=-1)
+        logs = np.log(points)
+        return np.moveaxis(self._spline(logs), -1, 0), np.moveaxis(self._error(logs), -1, 0)
+
+    @cached_property
+    def middle(self) -> tuple[float, ...]:
+        """Point in the middle of the table, which stands for points that it does not have."""
+        return tuple(float(axis[axis.size // 2]) for axis in self.axes)
+
+    def has(self, *at: Numbers) -> Mask:
+        """Whether points of shape (...) lie in the table, in a cell whose nodes all have a film."""
+        return self._within(*at) & self._in_solved_cell(*at)
+
+    def _within(self, *at: Numbers) -> Mask:
+        """Whether points of shape (...) lie in the range of the table."""
+        inside = [(axis[0] <= value) & (value <= axis[-1]) for axis, value in zip(self.axes, at, strict=True)]
+        return np.asarray(reduce(and_, inside))
+
+    def _in_solved_cell(self, *at: Numbers) -> Mask:
+        """Whether all nodes of the cells of points of shape (...) have a film."""
+        cells = [self._cell(axis, value) for axis, value in zip(self.axes, at, strict=True)]
+        return np.asarray(reduce(and_, (self.solved[corner] for corner in product(*cells))))
+
+    @staticmethod
+    def _cell(axis: Array, value: Numbers) -> tuple[IntArray, IntArray]:
+        """Places of the nodes below and above values; on a node, as round contacts are, both are it."""
+        upper = np.clip(np.searchsorted(axis, value), 1, axis.size - 1)
+        lower = upper - 1
+        on_lower = np.abs(axis[lower] - value) <= _ALIKE * value
+        on_upper = np.abs(axis[upper] - value) <= _ALIKE * value
+        return np.where(on_upper, upper, lower), np.where(on_lower, lower, upper)
 
     def check_range(self, *at: float) -> None:
         """Raise an InputError for a point outside the table."""
@@ -99,13 +135,7 @@ class Table:
     def check(self, *at: float) -> None:
         """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
         self.check_range(*at)
-        cell = []
-        for axis, value in zip(self.axes, at, strict=True):
-            i = int(np.argmin(np.abs(axis - value)))
-            # On a node, as round contacts are, only the node itself decides.
-            j = i if abs(axis[i] - value) <= _ALIKE * value else i + 1 if value > axis[i] else i - 1
-            cell.append(slice(min(i, j), max(i, j) + 1))
-        if not self.solved[tuple(cell)].all():
+        if not self._in_solved_cell(*at):
             where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
             raise InputError(
                 "atlas", got=where, takes="a contact near solved ones; the atlas has no film there: solve it"

@@ -6,6 +6,7 @@ import pytest
 
 from ehlectric.bearing.margin import MarginAnalysis, SpeedRange, bearing_verdict
 from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
@@ -30,9 +31,7 @@ def as_solved(result, *, error=0.0, converged=True, warnings=()):
 
     def curve(one):
         changes = {"error": error, "converged": converged, "warnings": tuple(warnings)}
-        return dataclasses.replace(
-            one, solutions=tuple(dataclasses.replace(contact, **changes) for contact in one.solutions)
-        )
+        return ContactCurve.of([dataclasses.replace(contact, **changes) for contact in one.solutions])
 
     solution = result.solution
     case = solution.case.model_copy(update={"contacts": "solved"})

@@ -119,7 +119,7 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
     strength = case.discharge.dielectric_strength
     rings = [RingContacts(conditions, inner, angle=0.0, speed=4.5) for inner in (True, False)]
     curves = [
-        ContactCurve(tuple(contact(load, thick, strength) for load in (1.0, 900.0)))
+        ContactCurve.of(tuple(contact(load, thick, strength) for load in (1.0, 900.0)))
         for thick in (film, 1.2 * film)
     ]
     states = []
@@ -442,7 +442,7 @@ def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(
 
 def test_a_bearing_that_did_not_converge_says_so(result):
     curve = result.solution.inner_curve
-    failed = replace(curve, solutions=(replace(curve.solutions[0], converged=False), *curve.solutions[1:]))
+    failed = ContactCurve.of((replace(curve.solutions[0], converged=False), *curve.solutions[1:]))
     found = BearingResult(replace(result.solution, inner_curve=failed))
     for name in bearing_figures_of(found):
         drawn = figure(found, name)
