@@ -153,14 +153,11 @@ class BearingConditions(Generic[G_co]):
 
 
 def gap_breakdown(discharge: Discharge, thickness: N) -> N:
-    """Breakdown voltage [V] of uniform gaps of a thickness [m], shape (...); infinite without a strength.
+    """Breakdown voltage [V] of uniform gaps of a thickness [m]; infinite without a strength.
 
-    The strength is the one at ambient pressure. That of many points belongs to the first axis of the gaps.
+    The strength is the one at ambient pressure. Many points are the last axis of the gaps, shape (m, ...).
     """
     if not discharge.has_strength:
         return thickness * 0.0 + np.inf
-    strength = dielectric_strength(discharge, np.zeros(()))
-    if strength.ndim:
-        strength = strength.reshape(-1, *[1] * (np.ndim(thickness) - 1))
-    found: N = as_float(strength) * thickness
+    found: N = as_float(dielectric_strength(discharge, np.zeros(()))) * thickness
     return found

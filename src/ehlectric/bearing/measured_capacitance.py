@@ -198,7 +198,8 @@ class OperatingPoint:
 
     def film_error(self, factor: float) -> float:
         """Relative error of the films at a film factor."""
-        return film_error(self._solution(factor))
+        error: float = film_error(self._solution(factor))
+        return error
 
     def _solution(self, factor: float) -> BearingSolution:
         return solution_of_prepared(self.case, with_film_factor(self.prepared, factor))

@@ -37,13 +37,24 @@ _LIGHT = 0.02
 TAKEN = 1.0 / 3.0
 
 
+def too_light(conditions: BearingConditions[Geometry]) -> Mask:
+    """Whether loads are below the weight of one element, which the equilibrium neglects, shape (...)."""
+    bearing = conditions.bearing
+    return np.asarray(np.hypot(bearing.radial_load, bearing.axial_load) < element_weight(conditions))
+
+
+def element_weight(conditions: BearingConditions[Geometry]) -> Numbers:
+    """Weight of one element [N]."""
+    return conditions.geometry.element_mass(conditions.element.density) * gravity
+
+
 def check_load(conditions: BearingConditions[Geometry]) -> None:
-    """Refuse loads below the weight of one element, because the equilibrium neglects weights. Raises
-    InputError where the load is too small; the message states the weight.
+    """Refuse a load of a single bearing below the weight of one element, because the equilibrium neglects
+    weights. Raises InputError where the load is too small; the message states the weight.
     """
     bearing = conditions.bearing
-    weight = conditions.geometry.element_mass(conditions.element.density) * gravity
-    if math.hypot(bearing.radial_load, bearing.axial_load) < weight:
+    if too_light(conditions):
+        weight = element_weight(conditions)
         raise InputError(
             "bearing.radial_load",
             got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
@@ -51,8 +62,8 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
         )
 
 
-def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
-    """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
+def shoulder_angle(bearing: Bearing, *, inner: bool) -> Numbers:
+    """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f), shape (...) [rad].
 
     H is the height of the shoulder over the diameter of the ball, and f the osculation. The angle is infinite
     for a cylindrical raceway, which has no shoulder.
@@ -72,24 +83,36 @@ def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
     """
     if bearing.shoulder_height is None:
         return math.inf
-    return math.acos(1.0 - bearing.shoulder_height / groove_ratio(bearing, inner=inner))
+    return as_float(np.arccos(1.0 - bearing.shoulder_height / groove_ratio(bearing, inner=inner)))
 
 
-def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
-    """Osculation f: radius of the groove over the diameter of the ball; infinite for a cylinder."""
+def groove_ratio(bearing: Bearing, *, inner: bool) -> Numbers:
+    """Osculation f: groove radius over ball diameter, shape (...); infinite for a cylinder."""
     groove = bearing.inner_groove if inner else bearing.outer_groove
     return math.inf if groove is None else groove
 
 
+def furthest_angle(at: Equilibrium, *, inner: bool) -> Numbers:
+    """Largest angle of the contacts with a ring that are not light, shape (...) [rad]."""
+    ring = at.ring(inner=inner)
+    loaded = ring.load > _LIGHT * np.max(ring.load, axis=-1, keepdims=True)
+    return as_float(np.max(np.abs(ring.angle), axis=-1, where=loaded, initial=0.0))
+
+
+def beyond_shoulders(bearing: Bearing, at: Equilibrium) -> Mask:
+    """Whether the centre of a contact that is not light is beyond the shoulder of its groove, shape (...)."""
+    inner, outer = (
+        furthest_angle(at, inner=inner) >= shoulder_angle(bearing, inner=inner) for inner in (True, False)
+    )
+    return np.asarray(inner | outer)
+
+
 def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
-    """Refuse ball contacts outside the groove. Raises InputError where the centre of a contact is beyond the
-    shoulder.
+    """Refuse ball contacts of a single bearing outside the groove. Raises InputError where the centre of a
+    contact is beyond the shoulder.
     """
     for name, inner in (("inner", True), ("outer", False)):
-        ring = at.ring(inner=inner)
-        loaded = ring.load > _LIGHT * np.max(ring.load)
-        furthest = float(np.max(np.abs(ring.angle), where=loaded, initial=0.0))
-        end = shoulder_angle(bearing, inner=inner)
+        furthest, end = furthest_angle(at, inner=inner), shoulder_angle(bearing, inner=inner)
         if furthest >= end:
             raise InputError(
                 "bearing.shoulder_height",
@@ -149,6 +172,19 @@ class PreparedBearing:
     # Equilibrium at each position of the cage; at the first, an element is on the load line.
     equilibria: tuple[Equilibrium, ...]
     rings: tuple[RingContacts[Any], RingContacts[Any]]  # contacts with the inner and with the outer ring
+
+    @property
+    def refused(self) -> Mask:
+        """Points of many that are beyond the limits of the model, shape (...).
+
+        ``prepare_bearing`` of the single case of such a point raises its error.
+        """
+        conditions = self.conditions
+        refused = conditions.refused | too_light(conditions) | films_too_thick(self)
+        refused = refused | np.equal(conditions.oil.alpha, 0.0)
+        for at in self.equilibria:
+            refused = refused | np.logical_not(at.balanced) | beyond_shoulders(conditions.bearing, at)
+        return np.asarray(refused)
 
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
@@ -253,17 +289,20 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     """Conditions of a bearing, its equilibria at positions of the cage, and the contacts with both rings.
 
-    Returns bearing whose contacts can be solved. Raises InputError where the bearing cannot carry its load,
+    Returns bearing whose contacts can be solved, or those of many points, some of which may be ``refused``.
+    Raises, for a single bearing, InputError where the bearing cannot carry its load,
     or is beyond the limits of the model; ConvergenceError where the film that ``film_factor`` "solved" needs
     does not converge.
     """
     conditions = resolve_bearing(case)
     if is_quick(case):
         check_quick(case.contacts, conditions.discharge, conditions.oil)
-    check_load(conditions)
+    if not case.shape:
+        check_load(conditions)
     equilibria = equilibria_of(conditions, positions)
-    for at in equilibria:
-        check_shoulders(conditions.bearing, at)
+    if not case.shape:
+        for at in equilibria:
+            check_shoulders(conditions.bearing, at)
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
@@ -313,8 +352,12 @@ def films_too_thick(prepared: PreparedBearing) -> Mask:
 
 def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:
     """Contacts with one ring, at the contact angle and speed of the most loaded element."""
-    most, ring = int(np.argmax(at.inner_load)), at.ring(inner=inner)
-    return RingContacts(conditions, inner, float(ring.angle[most]), float(ring.entrainment_speed[most]))
+    most, ring = np.argmax(at.inner_load, axis=-1)[..., np.newaxis], at.ring(inner=inner)
+    angle, speed = (
+        as_float(np.take_along_axis(values, most, -1)[..., 0])
+        for values in (ring.angle, ring.entrainment_speed)
+    )
+    return RingContacts(conditions, inner, angle, speed)
 
 
 def largest_load(prepared: PreparedBearing, ring: RingContacts[Any]) -> Numbers:

@@ -71,7 +71,7 @@ def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
     a viscosity that does not grow with pressure.
     """
     name = OF_CONTACTS[contacts]
-    if oil.alpha == 0.0:
+    if np.all(np.equal(oil.alpha, 0.0)):
         raise InputError(
             "lubricant.viscosity_law",
             got=f"{oil.laws['viscosity']!r} with {name}, which are for piezoviscous oils;",

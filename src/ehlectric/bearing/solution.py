@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask, Numbers, labels
+from ehlectric.arrays import Array, Mask, Numbers, as_float, labels
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.circuit import Circuit, series
 from ehlectric.bearing.conditions import BearingConditions, gap_breakdown
@@ -80,32 +80,26 @@ def oil_part(fill: Numbers | str) -> Numbers:
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
     """State of the contacts of all elements with one ring, from the load [N] and the gap [m] of each, shape
-    (n,).
+    (..., n).
 
     Elements that are not loaded are rigid bodies at a gap.
     """
     solved = load > 0.0
     pairs = zip(
-        _loaded(ring, curve, load[solved]).columns(),
-        _unloaded(ring, curve, gap[~solved]).columns(),
+        _loaded(ring, curve, load).columns(),
+        _unloaded(ring, curve, np.where(solved, np.nan, gap)).columns(),
         strict=True,
     )
-
-    def together(loaded: Array, unloaded: Array) -> Array:
-        column = np.empty_like(load)
-        column[solved], column[~solved] = loaded, unloaded
-        return column
-
-    return RingState(load, gap, solved, ContactValues(*(together(*pair) for pair in pairs)))
+    return RingState(load, gap, solved, ContactValues(*(np.where(solved, *pair) for pair in pairs)))
 
 
 def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> ContactValues[Array]:
-    """Values of contacts at loads [N].
+    """Values of contacts at loads [N], shape (..., n).
 
     Contacts with less than the lightest solved load have the film at that load, but their own dry contact.
     """
     pressure, along, across, *others = curve.at(load).columns()
-    lighter = np.minimum(1.0, load / curve.least_load)
+    lighter = np.minimum(1.0, load / np.asarray(curve.least_load)[..., np.newaxis])
     exponents = kind_of(ring).dry_exponents
     dry = (
         values * lighter**exponent
@@ -115,12 +109,14 @@ def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> Contac
 
 
 def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> ContactValues[Array]:
-    """Values of rigid bodies at a gap [m]; it is at least the central film of the lightest solved load."""
+    """Values of rigid bodies at gaps [m], shape (..., n), NaN of the others; a gap is at least the central
+    film of the lightest solved load.
+    """
     conditions, rigid = ring.conditions, kind_of(ring).rigid_capacitance
-    apart = np.maximum(gap, curve.thickest_film)
-    vacuum = rigid(ring, apart)
-    none = np.zeros_like(apart)
-    return ContactValues(
+    # Numbers of many points have the points last.
+    apart = np.moveaxis(np.maximum(gap, np.asarray(curve.thickest_film)[..., np.newaxis]), -1, 0)
+    vacuum, none = rigid(ring, apart), np.zeros_like(apart)
+    values = ContactValues(
         max_pressure=none,
         semi_axis_x=none,
         semi_axis_y=none,
@@ -134,6 +130,7 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
         breakdown_voltage=gap_breakdown(conditions.discharge, apart),
         hertz=none,
     )
+    return ContactValues(*(np.moveaxis(column, 0, -1) for column in values.columns()))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -180,6 +177,11 @@ class BearingSolution(Values):
     def curves(self) -> tuple[ContactCurve, ContactCurve]:
         """Solved contacts over the load, with the inner and with the outer ring."""
         return self.inner_curve, self.outer_curve
+
+    @property
+    def refused(self) -> Mask | bool:
+        """Points of many with a contact beyond the model, shape (...); their numbers have no meaning."""
+        return self.inner_curve.refused | self.outer_curve.refused
 
     @property
     def converged(self) -> bool:
@@ -293,8 +295,8 @@ def plate_capacitance(solution: BearingSolution) -> Numbers | None:
     return np.mean(totals, axis=0)
 
 
-def film_error(solution: BearingSolution) -> float:
-    """Estimated error of the films of a bearing, relative, at most 1.
+def film_error(solution: BearingSolution) -> Numbers:
+    """Estimated error of the films of a bearing, relative, at most 1, shape (...).
 
     For solved contacts it is the largest estimated error of the films and of their interpolation over the
     load. Contacts from the atlas have the errors that the atlas states, from 2 % of the largest load on;
@@ -305,8 +307,9 @@ def film_error(solution: BearingSolution) -> float:
     curves = solution.curves
     if solution.case.contacts == "atlas":
         curves = curves[0].counted, curves[1].counted
-    errors = [curve.largest_error for curve in curves]
-    return float(min(1.0, max(errors) + max(curve.interpolation_error for curve in curves)))
+    own = np.maximum(*(curve.largest_error for curve in curves))
+    between = np.maximum(*(curve.interpolation_error for curve in curves))
+    return as_float(np.minimum(1.0, own + between))
 
 
 def error_text(solution: BearingSolution) -> str:

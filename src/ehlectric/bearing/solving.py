@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any
@@ -14,8 +14,8 @@ from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
 from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_curve
-from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts, solve
-from ehlectric.bearing.solution import BearingSolution, Position, ring_state
+from ehlectric.bearing.ring_contacts import ContactCurve, ContactValues, RingContacts, solve
+from ehlectric.bearing.solution import BearingSolution, Position, RingState, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.runtime.progress import Progress, silent
@@ -68,7 +68,7 @@ def solution_of_prepared(
         outer=prepared.rings[1],
         inner_curve=curves[0],
         outer_curve=curves[1],
-        positions=tuple(_position(prepared, curves, at) for at in prepared.equilibria),
+        positions=_positions(prepared, curves),
         seconds=time.perf_counter() - started,
     )
 
@@ -105,17 +105,27 @@ def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]
     return [partial(solve, kind_of(ring).contact(ring, load), solver=case.solver) for load in loads.tolist()]
 
 
-def _position(
-    prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCurve], at: Equilibrium
-) -> Position:
-    """Contacts of all elements at an equilibrium."""
+def _positions(prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCurve]) -> tuple[Position, ...]:
+    """Contacts of all elements at each equilibrium."""
     weibull = prepared.conditions.discharge.weibull
     inner, outer = (
-        ring_state(ring, curve, load=loads.load, gap=loads.gap)
-        for ring, curve in zip(prepared.rings, curves, strict=True)
-        for loads in (at.ring(inner=ring.inner),)
+        _states(prepared.equilibria, ring, curve) for ring, curve in zip(prepared.rings, curves, strict=True)
     )
-    return Position(at, inner, outer, None if weibull is None else weibull.shape)
+    shape = None if weibull is None else weibull.shape
+    return tuple(Position(*one, shape) for one in zip(prepared.equilibria, inner, outer, strict=True))
+
+
+def _states(
+    equilibria: Sequence[Equilibrium], ring: RingContacts[Any], curve: ContactCurve
+) -> Iterator[RingState]:
+    """Contacts of all elements with a ring at each equilibrium, computed together."""
+    loads = [at.ring(inner=ring.inner) for at in equilibria]
+    load, gap = (np.concatenate([getattr(one, name) for one in loads], axis=-1) for name in ("load", "gap"))
+    whole, number = ring_state(ring, curve, load=load, gap=gap), len(equilibria)
+    split = partial(np.split, indices_or_sections=number, axis=-1)
+    columns = zip(*map(split, whole.values.columns()), strict=True)
+    for at, apart, solved, values in zip(split(load), split(gap), split(whole.solved), columns, strict=True):
+        yield RingState(at, apart, solved, ContactValues(*values))
 
 
 def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int) -> list[Any]:
