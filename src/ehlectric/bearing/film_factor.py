@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
+from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
 from ehlectric.bearing.loads.geometry import Geometry, rolling_speeds
@@ -48,10 +48,10 @@ from ehlectric.quantities.units import rpm
 from ehlectric.runtime.progress import LOGGER
 
 
-def half_time(solution: BearingSolution) -> float | None:
+def half_time(solution: BearingSolution) -> Numbers | None:
     """Time [s] after which the film of the most loaded contact of a ring has halved without supply. Returns
-    smaller time of both rings; None for a flooded bearing, whose tracks are filled up at every passage, and
-    for rollers, from whose contacts hardly any oil flows to the sides.
+    smaller time of both rings, shape (...); None for a flooded bearing, whose tracks are filled up at every
+    passage, and for rollers, from whose contacts hardly any oil flows to the sides.
 
     All contacts are taken as loaded like the most loaded one, so that real films decay more slowly.
     """
@@ -60,17 +60,19 @@ def half_time(solution: BearingSolution) -> float | None:
         return None
     times = []
     for ring, state in zip((solution.inner, solution.outer), solution.positions[0].rings, strict=True):
-        most, values = int(np.argmax(state.load)), state.values
+        most, values = np.argmax(state.load, axis=-1)[..., np.newaxis], state.values
         quantities = values.max_pressure, values.semi_axis_x, values.semi_axis_y, values.central_thickness
-        pressure, along, across, thickness = (float(quantity[most]) for quantity in quantities)
+        pressure, along, across, thickness = (
+            np.take_along_axis(quantity, most, -1)[..., 0] for quantity in quantities
+        )
         times.append(contact_half_time(ring, pressure, (along, across), thickness))
-    return min(times)
+    return as_float(np.minimum(*times))
 
 
 def contact_half_time(
-    ring: RingContacts[Any], max_pressure: float, semi_axes: tuple[float, float], thickness: float
-) -> float:
-    """Time in which the film of a contact with a ring halves if no oil returns to its track [s].
+    ring: RingContacts[Any], max_pressure: Numbers, semi_axes: tuple[Numbers, Numbers], thickness: Numbers
+) -> Numbers:
+    """Time in which the film of a contact with a ring halves if no oil returns to its track, shape (...) [s].
     ``max_pressure``, Hertz pressure of the contact [Pa]; ``semi_axes``, semi-axes of the contact along and
     across the track [m]; ``thickness``, central film thickness at the start [m].
     """
@@ -79,22 +81,22 @@ def contact_half_time(
         semi_axes=semi_axes,
         viscosity=ring.oil.viscosity,
         pressure_viscosity_coefficient=ring.oil.alpha_star,
-        density_ratio=float(ring.oil.density_ratio(max_pressure)[0]),
+        density_ratio=as_float(ring.oil.density_ratio(max_pressure)[0]),
         track_length=track_length(ring.conditions, ring.angle, inner=ring.inner),
     )
-    return float(film_half_time(thickness, rate))
+    return as_float(film_half_time(thickness, rate))
 
 
-def track_length(conditions: BearingConditions[Any], angle: float, *, inner: bool) -> float:
-    """Length of track on both surfaces from which one contact with a ring presses oil [m].
+def track_length(conditions: BearingConditions[Any], angle: Numbers, *, inner: bool) -> Numbers:
+    """Length of track on both surfaces from which one contact with a ring presses oil, shape (...) [m].
 
     All Z contacts with the ring share its track of the length pi (d_m -+ D cos a), and both contacts of an
     element share that of the length pi D on its surface.
     """
     bearing = conditions.bearing
     sign = -1.0 if inner else 1.0
-    race = bearing.pitch_diameter + sign * bearing.element_diameter * math.cos(angle)
-    return math.pi * (race / bearing.elements + 0.5 * bearing.element_diameter)
+    race = bearing.pitch_diameter + sign * bearing.element_diameter * np.cos(angle)
+    return as_float(math.pi * (race / bearing.elements + 0.5 * bearing.element_diameter))
 
 
 # Intervals along entrainment for one across: half of the nodes across change the factor by 1e-4.

@@ -57,8 +57,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
 
     The verdict and the analysis of the margin are left out, which solve further bearings.
     """
-    case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
-    duty = duty_of(solution)
+    case, duty = solution.case, duty_of(solution)
     summary: dict[str, Any] = plain(
         {
             "schema": SCHEMA,
@@ -67,20 +66,30 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             "converged": solution.converged,
             **texts_and_codes(bearing_warnings(solution)),
             "inputs": case.to_dict(),
-            "lubricant": {
-                **conditions.oil.summary(),
-                **_of_rings(conditions),
-                "expansion": None if oil is None else oil.expansion,
-                "conductivity": conductivity_of(case.discharge, conditions.oil),
-                "film_factor": conditions.film_factor,
-            },
-            "bearing": clearances_of(conditions) | _totals(solution, duty),
-            "mechanics": mechanics_of(solution.positions[0].equilibrium),
+            **numbers_of(solution, duty),
             "contacts": contact_rows(solution, duty),
             "seconds": solution.seconds,
         }
     )
     return summary
+
+
+def numbers_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dict[str, dict[str, Any]]:
+    """Tables ``lubricant``, ``bearing`` and ``mechanics`` of summary.json, with numbers and texts of shape
+    (...); None for what no point has. ``duty`` is that of the solution, where it is already known.
+    """
+    case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
+    return {
+        "lubricant": {
+            **conditions.oil.summary(),
+            **_of_rings(conditions),
+            "expansion": None if oil is None else oil.expansion,
+            "conductivity": conductivity_of(case.discharge, conditions.oil),
+            "film_factor": conditions.film_factor,
+        },
+        "bearing": clearances_of(conditions) | _totals(solution, duty or duty_of(solution)),
+        "mechanics": mechanics_of(solution.positions[0].equilibrium),
+    }
 
 
 def _of_rings(conditions: BearingConditions[Any]) -> dict[str, Numbers]:
@@ -148,7 +157,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         **dataclasses.asdict(bearing_costs(solution)),
         "discretisation_error": max(float(np.max(error)) for error in errors) if stated else None,
         "film_error": film_error(solution),
-        "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
+        "interpolation_error": np.maximum(*(curve.interpolation_error for curve in solution.curves)),
     }
 
 

@@ -41,6 +41,7 @@ from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.oil_inputs import OilTemperature
+from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
 from ehlectric.discharge.film_verdict import breakdown_flag
@@ -83,6 +84,21 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
     yield from film_flags(solution)
     yield from voltage_flags(solution)
     yield from edge_flags(solution.case.bearing, solution.positions)
+
+
+def contact_flags(solution: BearingSolution) -> Iterator[Flag]:
+    """Warnings of quick contacts of many points: those outside the atlas, and pressures that deform steel.
+
+    The texts of a single bearing name the contacts; see ``contact_warnings``.
+    """
+    for curve in solution.curves:
+        if curve.left is not None:
+            heavy = curve.counted.used
+            left = curve.left & curve.used
+            yield Flag.of(np.any(left & heavy, axis=-1), "atlas-left")
+            yield Flag.of(np.any(left & ~heavy, axis=-1), "atlas-left-light")
+        kind = "line" if solution.case.bearing.kind == ROLLERS else "point"
+        yield Flag.of(np.max(curve.values.max_pressure, axis=-1) > PERMANENT[kind], "plastic-deformation")
 
 
 def film_flags(solution: BearingSolution) -> Iterator[Flag]:

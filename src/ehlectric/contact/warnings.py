@@ -29,7 +29,7 @@ from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
 
 # Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
-_PERMANENT = {"line": 4e9, "point": 4.2e9}
+PERMANENT = {"line": 4e9, "point": 4.2e9}
 
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
@@ -123,7 +123,7 @@ def pressure_warnings(
     the load of the contact.
     """
     pressure, kind = conditions.max_pressure, conditions.geometry
-    permanent = _PERMANENT[kind]
+    permanent = PERMANENT[kind]
     ambient_load = oil.ambient_pressure / pressure * domain
     if ambient_load > 0.01:
         yield ResultWarning.of("ambient-pressure", percent=100 * ambient_load)
@@ -240,7 +240,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
     has its own warning.
     """
-    limit = _PERMANENT["line" if film.thickness.ndim == 1 else "point"]
+    limit = PERMANENT["line" if film.thickness.ndim == 1 else "point"]
     error = (film.max_pressure_error or 0.0) if rough else 0.0
     largest = film.max_pressure * (1.0 + error)
     likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)

@@ -25,7 +25,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
-from scipy.optimize.elementwise import find_root
 from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array, N, Numbers, as_float
@@ -282,11 +281,27 @@ def axis_ratio(radius_x: Numbers, radius_y: Numbers) -> Numbers:
         return _axis_ratio(float(radius_x), float(radius_y))
     target = np.log(radius_y / radius_x)
     near = np.abs(target) < _CIRCLE
-    # k lies between 1, the value of a circle, and Ry/Rx.
-    ends = np.zeros_like(target), np.where(near, 1.0, target)
-    wanted = np.where(near, 0.5, target)
-    found = find_root(_excess, ends, args=(wanted,), tolerances={"xatol": 1e-15, "xrtol": 1e-14})
-    return np.exp(np.where(near, 2.0 / 3.0 * target, found.x))
+    return np.exp(np.where(near, 2.0 / 3.0 * target, _log_ratios(np.where(near, _CIRCLE, target))))
+
+
+# Share of ln(Ry/Rx) that ln(k) is about, and the Newton step after which the next one is below rounding.
+_USUAL_SHARE, _LAST_STEP = 0.65, 1e-9
+
+
+def _log_ratios(target: Array) -> Array:
+    """Logarithms of k of contacts with logarithms of Ry/Rx, none of which is a circle, by Newton's method.
+
+    With P = R_D(0, k^2, 1) and Q = R_D(0, 1, k^2), whose derivatives follow from both of them, the slope of
+    ln(P/Q) over ln(k) is 3 - D (k^2/P + 1/Q), D = (P - Q)/(k^2 - 1).
+    """
+    log_ratio, step = _USUAL_SHARE * target, np.array(np.inf)
+    while np.max(np.abs(step)) > _LAST_STEP:
+        k2 = np.exp(2.0 * log_ratio)
+        p, q = elliprd(0.0, k2, 1.0), elliprd(0.0, 1.0, k2)
+        slope = 3.0 - (p - q) / (k2 - 1.0) * (k2 / p + 1.0 / q)
+        step = (np.log(p / q) - target) / slope
+        log_ratio = log_ratio - step
+    return np.asarray(log_ratio)
 
 
 def _excess(log_ratio: Numbers, target: Numbers) -> Numbers:

@@ -200,5 +200,5 @@ def test_strengths_of_many_temperatures():
     np.testing.assert_allclose(strength, [[2e7, 1.3e7, np.nan]] * 2, rtol=1e-12)
     gaps = np.array([[1e-6, 2e-6], [1e-6, 3e-6], [1e-6, 1e-6]])
     expected = [[20.0, 40.0], [13.0, 39.0], [np.nan, np.nan]]
-    np.testing.assert_allclose(gap_breakdown(discharge, gaps), expected, rtol=1e-12)
+    np.testing.assert_allclose(gap_breakdown(discharge, gaps.T).T, expected, rtol=1e-12)
     assert gap_breakdown(BearingDischarge.from_dict({"dielectric_strength": 1e7}).at(300.0), 1e-6) == 10.0

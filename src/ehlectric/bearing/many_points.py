@@ -1,0 +1,130 @@
+"""Bearings at many points of operation: solved in parts, with their numbers and warning codes as columns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.bearing.preparation import prepare_bearing
+from ehlectric.bearing.solution import BearingSolution
+from ehlectric.bearing.solving import POSITIONS, solution_of, solution_of_prepared
+from ehlectric.bearing.summary import numbers_of
+from ehlectric.bearing.warnings import contact_flags, flags_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.changes import flattened
+from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.runtime.values import is_number
+
+# Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
+TOGETHER = 512
+
+# Texts of summary.json that may differ between points.
+TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
+
+
+# Value and type of a column without results, by whether it has texts.
+_EMPTY: Mapping[bool, tuple[Any, type]] = {False: (math.nan, float), True: ("", object)}
+
+
+@dataclass(frozen=True)
+class SolvedPart:
+    """Points of a case that were solved together."""
+
+    points: IntArray  # places of the points, shape (m,)
+    solution: BearingSolution  # solution with numbers of shape (m,)
+
+
+@dataclass
+class Columns:
+    """Numbers, texts and warning codes of n points."""
+
+    size: int  # n
+    # Numbers and texts by dotted key of summary.json, shape (n,); NaN or "" where a point has none.
+    values: dict[str, Array] = field(default_factory=dict)
+    codes: dict[str, Mask] = field(
+        default_factory=dict
+    )  # points that have a warning, by its code, shape (n,)
+    reasons: dict[int, str] = field(default_factory=dict)  # why a point has no result, by its place
+
+    @property
+    def solved(self) -> Mask:
+        """Whether a point has a result, shape (n,)."""
+        solved = np.ones(self.size, dtype=bool)
+        solved[list(self.reasons)] = False
+        return solved
+
+    def codes_of(self) -> list[tuple[str, ...]]:
+        """Warning codes of each point."""
+        columns = list(self.codes.items())
+        return [tuple(code for code, mask in columns if mask[k]) for k in range(self.size)]
+
+    def add(self, part: SolvedPart) -> None:
+        """Take the numbers and codes of solved points."""
+        for key, value in flattened(numbers_of(part.solution)).items():
+            if key in TEXTS or is_number(value) or np.ndim(value):
+                column = self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS]))
+                column[part.points] = value
+        for flag in (*flags_of(part.solution), *contact_flags(part.solution)):
+            if np.any(flag.where):
+                mask = self.codes.setdefault(flag.code, np.zeros(self.size, dtype=bool))
+                mask[part.points] |= flag.where
+
+
+def columns_of(case: BearingCase, *, positions: int = POSITIONS) -> Columns:
+    """Numbers, texts and warning codes of all points of a case with arrays; see ``solved_parts``."""
+    columns = Columns(case.shape[0])
+    for part in solved_parts(case, positions=positions, reasons=columns.reasons):
+        columns.add(part)
+    return columns
+
+
+def solved_parts(
+    case: BearingCase, *, reasons: dict[int, str], positions: int = POSITIONS
+) -> Iterator[SolvedPart]:
+    """Solutions of a case with arrays and quick contacts, in parts of ``TOGETHER`` points.
+
+    Points without a solution are left out, and their errors are put into ``reasons`` by their places. Raises
+    InputError where no point has one for a reason that all share, as an oil that needs solved contacts.
+    """
+    for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
+        part = _solved(case, points, positions)
+        if part is not None:
+            yield part
+        solved = () if part is None else part.points
+        for place in np.setdiff1d(points, solved).tolist():
+            reasons[place] = _reason(case.single(place))
+
+
+def _solved(case: BearingCase, points: IntArray, positions: int) -> SolvedPart | None:
+    """Solution of those of some points that have one; None where none has."""
+    while points.size:
+        some = case.some(points)
+        prepared = prepare_bearing(some, positions)
+        refused = np.broadcast_to(prepared.refused, points.shape)
+        if not refused.any():
+            solution = solution_of_prepared(some, prepared)
+            refused = np.broadcast_to(solution.refused, points.shape)
+            if not refused.any():
+                return SolvedPart(points, solution)
+        points = points[~refused]
+    return None
+
+
+def _reason(case: BearingCase) -> str:
+    """Error of a single bearing that is beyond the model."""
+    try:
+        solution_of(case, positions=1)
+    except (InputError, ConvergenceError) as error:
+        return str(error)
+    return "the bearing is beyond the model at one of the positions of its cage"
+
+
+def single_of(columns: Columns, place: int) -> Mapping[str, Any]:
+    """Numbers and texts of one point by dotted key, None where it has none."""
+    row = {key: column[place] for key, column in columns.values.items()}
+    return {key: None if value == "" or value != value else value for key, value in row.items()}
