@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ehlectric.runs.exports import export
     from ehlectric.runs.measured_film_factors import film_factors
     from ehlectric.runs.solve import Solved, load, save, solve, solve_many, solve_motion
+    from ehlectric.sweep.evaluation import evaluate
     from ehlectric.sweep.result import SweepResults
     from ehlectric.sweep.run import run_sweep
     from ehlectric.sweep.store import read_sweep
@@ -44,6 +45,7 @@ __all__ = [  # noqa: RUF022
     "solve_bearing",
     "solve_drive",
     "solve_motion",
+    "evaluate",
     "film_factors",
     "Case",
     "LineCase",
@@ -88,6 +90,7 @@ _HOMES = {
     "solve_many": "runs.solve",
     "solve_bearing": "bearing.result",
     "solve_motion": "runs.solve",
+    "evaluate": "sweep.evaluation",
     "film_factors": "runs.measured_film_factors",
     "Case": "cases.case",
     "LineCase": "cases.case",

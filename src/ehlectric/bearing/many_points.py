@@ -67,12 +67,26 @@ class Columns:
         """Take the numbers and codes of solved points."""
         for key, value in flattened(numbers_of(part.solution)).items():
             if key in TEXTS or is_number(value) or np.ndim(value):
-                column = self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS]))
-                column[part.points] = value
+                self._column(key)[part.points] = value
         for flag in (*flags_of(part.solution), *contact_flags(part.solution)):
             if np.any(flag.where):
-                mask = self.codes.setdefault(flag.code, np.zeros(self.size, dtype=bool))
-                mask[part.points] |= flag.where
+                self._mask(flag.code)[part.points] |= flag.where
+
+    def take(self, points: IntArray, own: Columns) -> None:
+        """Take the columns of some of the points."""
+        for key, values in own.values.items():
+            self._column(key)[points] = values
+        for code, mask in own.codes.items():
+            self._mask(code)[points] = mask
+        self.reasons |= {int(points[place]): reason for place, reason in own.reasons.items()}
+
+    def _column(self, key: str) -> Array:
+        """Column of a key, which is empty at first."""
+        return self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS]))
+
+    def _mask(self, code: str) -> Mask:
+        """Points that have a warning, which are none at first."""
+        return self.codes.setdefault(code, np.zeros(self.size, dtype=bool))
 
 
 def columns_of(case: BearingCase, *, positions: int = POSITIONS) -> Columns:
@@ -122,9 +136,3 @@ def _reason(case: BearingCase) -> str:
     except (InputError, ConvergenceError) as error:
         return str(error)
     return "the bearing is beyond the model at one of the positions of its cage"
-
-
-def single_of(columns: Columns, place: int) -> Mapping[str, Any]:
-    """Numbers and texts of one point by dotted key, None where it has none."""
-    row = {key: column[place] for key, column in columns.values.items()}
-    return {key: None if value == "" or value != value else value for key, value in row.items()}

@@ -1,0 +1,159 @@
+"""Numbers of a bearing at many points of operation, computed together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import IntArray
+from ehlectric.bearing.many_points import TEXTS, Columns, columns_of
+from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.cases.amounts import Amount
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.input_keys import kind_of
+from ehlectric.errors import InputError, shown
+from ehlectric.sweep.axis_labels import label_of
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def evaluate(case: BearingCase, inputs: Mapping[str, Any]) -> xr.Dataset:
+    """Evaluate a bearing at many points of operation, a thousand or more a second.
+
+    Contacts are from the atlas of films, or by formula where those of the case are; those of a case with
+    solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` gives for it
+    alone, to 1e-8.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file; its inputs hold at every point unless they are given anew.
+    inputs : mapping
+        Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
+        names. Points that share their names and whole numbers are computed together.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dataset over ``point`` in SI units. Its coordinates are the inputs; its variables are the numbers of
+        the tables ``bearing``, ``lubricant`` and ``mechanics`` of summary.json by dotted key, NaN where a
+        point has none, but not those with the key of an input. ``converged`` tells whether a point has a
+        result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined by
+        "; ". Warnings about the pressure range of the laws of the oil are not among them.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown, a value is wrong, arrays differ in their length, or the bearing needs solved
+        contacts, as with a Weibull law of the strength.
+
+    Examples
+    --------
+    The capacitance falls with the speed, because the films become thicker:
+
+    >>> case = BearingCase.of(
+    ...     base="6208", radial_clearance="10 um", radial_load="1 kN", inner_speed="3000 rpm",
+    ...     temperature="70 degC", composite_rq="0.03 um", film_factor="none",
+    ...     lubricant={"base": "paper", "viscosity": "20 mPa s"},
+    ... )
+    >>> found = evaluate(case, {"bearing.inner_speed": ["1000 rpm", "3000 rpm"]})
+    >>> found["converged"].values.tolist()
+    [True, True]
+    >>> bool(found["bearing.capacitance"][0] > found["bearing.capacitance"][1])
+    True
+    """
+    given = {key: _values(key, values) for key, values in inputs.items()}
+    if not given:
+        raise InputError("inputs", got="none", takes="at least one key with an array")
+    lengths = {key: len(values) for key, values in given.items()}
+    (first, number), *others = lengths.items()
+    for key, length in others:
+        if length != number:
+            raise InputError(key, got=f"{length} values", takes=f"{number}, as many as {first}")
+    columns, found = _columns(_quick(case), given, number)
+    return _dataset(case, columns, found)
+
+
+def _values(key: str, values: Any) -> Any:
+    """Values of one key at all points."""
+    if isinstance(values, np.ndarray) and values.ndim == 1 and values.size:
+        return values
+    if isinstance(values, str) or not isinstance(values, Sequence) or not len(values):
+        raise InputError(key, got=shown(values), takes="an array or a list, with a value for each point")
+    return values
+
+
+def _quick(case: BearingCase) -> BearingCase:
+    """Case whose contacts are not solved; an InputError where the bearing needs solved ones."""
+    if not isinstance(case, BearingCase):
+        raise InputError("case", got=type(case).__name__, takes="a BearingCase")
+    quick, refused = quick_case(case)
+    if quick is None or refused is not None:
+        assert refused is not None
+        raise refused
+    return quick
+
+
+def _columns(case: BearingCase, given: Mapping[str, Any], number: int) -> tuple[Columns, dict[str, Any]]:
+    """Results of all points, and their inputs in SI units."""
+    columns, found = Columns(number), {key: np.empty(number, dtype=object) for key in given}
+    for points, names in _groups(given, number):
+        own = case.replace(names) if names else case
+        arrays = {key: _at(values, points) for key, values in given.items() if key not in names}
+        if not arrays:
+            # A case of many points has an array at least; its own speed is one.
+            arrays = {"bearing.inner_speed": np.full(points.size, own.bearing.inner_speed)}
+        many = own.with_arrays(arrays)
+        columns.take(points, columns_of(many))
+        own_inputs = names | many.arrays()
+        for key, column in found.items():
+            column[points] = own_inputs[key]
+    return columns, {key: np.array(column.tolist()) for key, column in found.items()}
+
+
+def _at(values: Any, points: IntArray) -> Any:
+    """Values of some points."""
+    return values[points] if isinstance(values, np.ndarray) else [values[k] for k in points.tolist()]
+
+
+def _groups(given: Mapping[str, Any], number: int) -> Iterator[tuple[IntArray, dict[str, Any]]]:
+    """Points that share their names and whole numbers, with these by key."""
+    shared = [key for key in given if not isinstance(kind_of(key), Amount)]
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for point in range(number):
+        groups.setdefault(tuple(given[key][point] for key in shared), []).append(point)
+    for names, points in groups.items():
+        yield np.array(points), dict(zip(shared, names, strict=True))
+
+
+def _dataset(case: BearingCase, columns: Columns, inputs: Mapping[str, Any]) -> xr.Dataset:
+    """Dataset of results over the points, with the inputs as coordinates."""
+    import xarray as xr
+
+    def entry(key: str, values: Any) -> tuple[str, Any, dict[str, str]]:
+        label = label_of(key, case)
+        attributes = {"long_name": label.name}
+        if key not in TEXTS and values.dtype.kind == "f":
+            attributes["units"] = label.unit.replace("**", "^").replace("*", " ") or "1"
+        return "point", values, attributes
+
+    solved = columns.solved
+    reasons = np.array([columns.reasons.get(k, "") for k in range(columns.size)], dtype=object)
+    codes = np.array(["; ".join(own) for own in columns.codes_of()], dtype=object)
+    own = {"converged": ("point", solved), "reason": ("point", reasons), "warning_codes": ("point", codes)}
+    results = {key: entry(key, values) for key, values in columns.values.items() if key not in inputs}
+    return xr.Dataset(
+        own | results,
+        coords={key: entry(key, values) for key, values in inputs.items()},
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": case.title or "Bearing at many points of operation",
+            "source": f"ehlectric {__version__}",
+            "comment": "SI units; NaN where a point has no result; see warning_codes before a value is used",
+            "case": case.to_toml(),
+        },
+    )
