@@ -98,20 +98,22 @@ def columns_of(case: BearingCase, *, positions: int = POSITIONS) -> Columns:
 
 
 def solved_parts(
-    case: BearingCase, *, reasons: dict[int, str], positions: int = POSITIONS
+    case: BearingCase, *, reasons: dict[int, str] | None = None, positions: int = POSITIONS
 ) -> Iterator[SolvedPart]:
     """Solutions of a case with arrays and quick contacts, in parts of ``TOGETHER`` points.
 
-    Points without a solution are left out, and their errors are put into ``reasons`` by their places. Raises
-    InputError where no point has one for a reason that all share, as an oil that needs solved contacts.
+    Points without a solution are left out, and their errors are put into ``reasons`` by their places where
+    they are asked for. Raises InputError for a reason that all points share, as an oil that needs solved
+    contacts.
     """
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         part = _solved(case, points, positions)
         if part is not None:
             yield part
-        solved = () if part is None else part.points
-        for place in np.setdiff1d(points, solved).tolist():
-            reasons[place] = _reason(case.single(place))
+        if reasons is not None:
+            solved = () if part is None else part.points
+            for place in np.setdiff1d(points, solved).tolist():
+                reasons[place] = _reason(case.single(place))
 
 
 def _solved(case: BearingCase, points: IntArray, positions: int) -> SolvedPart | None:

@@ -22,6 +22,12 @@ from ehlectric.bearing.bearing_discharges import (
 from ehlectric.bearing.bearing_touching import duty_of, time_text
 from ehlectric.bearing.film_factor import supply_words
 from ehlectric.bearing.impedance import film_share, shaft_path
+from ehlectric.bearing.input_changes import (
+    Change,
+    changes_of,
+    proportional_to_strength,
+    temperature_is_unused,
+)
 from ehlectric.bearing.quick_contacts import formula_factor, is_quick, quick_case
 from ehlectric.bearing.solution import (
     CONDUCTING,
@@ -37,13 +43,8 @@ from ehlectric.bearing.solution import (
 from ehlectric.bearing.solving import quick_solution
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import Bearing
-from ehlectric.cases.case_oil import depends_on_temperature
 from ehlectric.cases.defaults import HOW
-from ehlectric.cases.input_keys import input_of
-from ehlectric.cases.library.bearing_catalogue import clearance_range
 from ehlectric.discharge.film_verdict import (
-    STRENGTH_UNKNOWN,
     UNLIKELY,
     Level,
     Verdict,
@@ -58,9 +59,7 @@ from ehlectric.discharge.film_verdict import (
     weibull_part,
 )
 from ehlectric.errors import InputError, raised
-from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import rpm, rpm_text
 
 # Tables and keys on which neither films nor breakdown voltages of contacts depend.
@@ -119,13 +118,18 @@ class QuickMargins:
         ratios = own.margin / point.margin, own.lambda_ratio / point.lambda_ratio
         return cls(solution.case, own, *ratios, quick)
 
+    @staticmethod
+    def is_quick(key: str) -> bool:
+        """Whether an input has an effect on contacts that are not solved."""
+        return key not in _NOT_QUICK
+
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
         margin is 0 where the surfaces touch. Raises InputError where the changed inputs make no valid case,
         or one that needs solved contacts.
         """
         for key in changes:
-            if key in _NOT_QUICK:
+            if not self.is_quick(key):
                 raise InputError.worded(key, "has an effect that only solved contacts have")
         case = self.case.replace(changes)
         same_films = all(key.startswith(_NOT_IN_FILMS) for key in changes)
@@ -284,23 +288,6 @@ def _crossings(logs: list[float], value: Callable[[float], float]) -> list[float
     ]
 
 
-# Changes of the inputs, either way: load relative to its value, temperature [K], clearance [m] and free
-# contact angle [rad], and these two relative to their value where they are small. Engineering judgement: what
-# is seldom known better in a machine.
-LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
-
-# Relative change of the capacitances of the motor, which data sheets do not have and few users measure.
-MOTOR = 0.5
-
-# Input that an ISO viscosity grade stands for.
-_AT_40 = "lubricant.temperature.kinematic_viscosity_40"
-
-# Inputs that scale a dielectric strength, and the list of strengths of a table, which a factor scales. Every
-# breakdown voltage is proportional to the strength.
-_STRENGTHS = ("discharge.dielectric_strength", "discharge.weibull.scale")
-OF_TABLE = "discharge.strength_table.strength"
-
-
 @dataclass(frozen=True)
 class Effect:
     """Effect of one input on the margin, all others as in the case."""
@@ -321,46 +308,18 @@ class Effect:
         return math.inf if low <= 0.0 else math.log(high / low)
 
 
-@dataclass(frozen=True)
-class _Change:
-    """Two values of an input, and the changes of the case that make them.
-
-    With ``factor_of_load`` both loads change in proportion; the inputs ``shift_of`` change by one step.
-    """
-
-    key: str
-    label: str
-    ends: tuple[float, float]
-    factor_of_load: bool = False
-    shift_of: tuple[str, ...] = ()
-
-    def changes(self, case: BearingCase, end: float) -> dict[str, Any]:
-        if self.shift_of:
-            table = case.to_dict()
-            step = end - value_at(table, self.key)
-            return {key: value_at(table, key) + step for key in self.shift_of}
-        if not self.factor_of_load:
-            return {self.key: end}
-        bearing, factor = case.bearing, end / value_at(case.to_dict(), self.key)
-        loads = {"bearing.radial_load": bearing.radial_load, "bearing.axial_load": bearing.axial_load}
-        return {key: factor * load for key, load in loads.items() if load}
-
-
 def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects of strength, temperature, clearance, load, motor and all inputs with a range on the margin.
 
     ``margin`` is that of the bearing, dimensionless. A range of the file replaces the usual change of an
     input. Returns the effects, the largest first, and texts about inputs whose effect could not be computed.
     """
-    case, effects, left_out = margins.case, [], []
-    table = case.to_dict()
-    if _temperature_is_unused(case):
+    effects, left_out = [], []
+    if temperature_is_unused(margins.case):
         left_out.append("temperature: without effect, because lubricant.viscosity is given")
-    changes = {change.key: change for change in _standard(case, table)}
-    changes |= {one.key: _Change(one.key, _label(one.key), (one.low, one.high)) for one in case.ranges or ()}
-    for change in changes.values():
+    for change in changes_of(margins.case):
         try:
-            low, high = (_margin(margins, margin, table, change, end) for end in change.ends)
+            low, high = (_margin(margins, margin, change, end) for end in change.ends)
         except InputError as error:
             left_out.append(f"{change.label}: {error}")
         else:
@@ -369,98 +328,11 @@ def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...]
     return tuple(effects), tuple(left_out)
 
 
-def _margin(
-    margins: QuickMargins, margin: float, table: Mapping[str, Any], change: _Change, end: float
-) -> float:
+def _margin(margins: QuickMargins, margin: float, change: Change, end: float) -> float:
     """Margin with one changed input."""
-    if change.key == OF_TABLE:
-        return margin * end
-    if change.key in _STRENGTHS:
-        return margin * end / float(value_at(table, change.key))
+    if proportional_to_strength(change.key):
+        return margin * end / change.value(margins.case)
     return margins.at(change.changes(margins.case, end)).margin
-
-
-def _temperature_is_unused(case: BearingCase) -> bool:
-    """Whether the temperature has no effect: oil, strength and clearance do not depend on it."""
-    strengths = case.discharge.strength_table
-    over_temperature = strengths is not None and strengths.over == "temperature"
-    constant = not depends_on_temperature(case.lubricant)
-    return constant and not over_temperature and case.bearing.fits is None
-
-
-def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
-    """Changes of strength, temperature, clearance or contact angle, load, and motor."""
-    bearing = case.bearing
-    for key in _STRENGTHS:
-        strength = value_at(table, key)
-        if strength is not None:
-            yield _Change(key, _label(key), _part(strength, STRENGTH_UNKNOWN))
-    if case.discharge.strength_table is not None:
-        yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH_UNKNOWN))
-    if not _temperature_is_unused(case):
-        yield _temperature(bearing)
-    oil = case.lubricant.temperature
-    if oil is not None and oil.iso_vg is not None:
-        label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
-        yield _Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH))
-    yield from _clearance(bearing)
-    if bearing.contact_angle is not None:
-        key = "bearing.contact_angle"
-        yield _Change(key, _label(key), _around(bearing.contact_angle, ANGLE))
-    radial = bearing.radial_load >= bearing.axial_load
-    load = bearing.radial_load if radial else bearing.axial_load
-    both = min(bearing.radial_load, bearing.axial_load) > 0.0
-    key = f"bearing.{'radial' if radial else 'axial'}_load"
-    name = _label(key)
-    yield _Change(
-        key,
-        f"{name} ({'axial' if radial else 'radial'} in proportion)" if both else name,
-        _part(load, LOAD),
-        factor_of_load=both,
-    )
-    for name in ("winding_rotor", "rotor_frame"):
-        key = f"motor.{name}_capacitance"
-        yield _Change(key, _label(key), _part(value_at(table, key), MOTOR))
-
-
-def _temperature(bearing: Bearing) -> _Change:
-    """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
-    keys = tuple(f"bearing.{key}" for key in bearing.all_temperatures())
-    label = _label(keys[0]) + (" (of all other parts by the same)" if len(keys) > 1 else "")
-    return _Change(keys[0], label, _around(bearing.oil_temperature, TEMPERATURE), shift_of=keys)
-
-
-def _clearance(bearing: Bearing) -> Iterator[_Change]:
-    """Change of the clearance to the limits of its class, or by a step either way; none without one."""
-    key, clearance = "bearing.fits.unmounted_clearance", bearing.unmounted_clearance
-    if clearance is None:
-        key, clearance = "bearing.radial_clearance", bearing.radial_clearance
-    if clearance is None:
-        return
-    if bearing.clearance_class is None or bearing.bore is None:
-        yield _Change(key, _label(key), _around(clearance, CLEARANCE))
-        return
-    limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
-    label = f"{_label(key)} (limits of class {bearing.clearance_class})"
-    yield _Change(key, label, (limits.least, limits.most))
-
-
-def _part(value: float, part: float) -> tuple[float, float]:
-    """Value less and plus a part of it."""
-    return (1.0 - part) * value, (1.0 + part) * value
-
-
-def _around(value: float, step: float) -> tuple[float, float]:
-    """Value less and plus a step, or half of the value where a positive value would not stay positive."""
-    if 0.0 < value <= step:
-        step = RELATIVE * value
-    return value - step, value + step
-
-
-def _label(key: str) -> str:
-    """Label of an input in the book; its dotted key if no file has it."""
-    entry = input_of(key)
-    return key if entry is None else entry.label
 
 
 def margin_range(

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_touching import SELDOM, time_text
-from ehlectric.bearing.margin import OF_TABLE
+from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text

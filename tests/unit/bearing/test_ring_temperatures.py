@@ -3,7 +3,7 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.margin import _standard
+from ehlectric.bearing.input_changes import usual_changes
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
@@ -121,7 +121,7 @@ def test_the_margin_over_temperature_warms_all_parts_together():
     fits |= {"housing_material": "cast-iron", "housing_temperature": "50 degC"}
     sizes = {"bearing__radial_clearance": None, "bearing__bore": "40 mm", "bearing__outer_diameter": "80 mm"}
     case = at(70, 85, bearing__fits=fits, **sizes)
-    changes = {change.key: change for change in _standard(case, case.to_dict())}
+    changes = {change.key: change for change in usual_changes(case, case.to_dict())}
     warmth = changes["bearing.temperature"]
     for step, end in zip((-10.0, 10.0), warmth.ends, strict=True):
         bearing = case.replace(warmth.changes(case, end)).bearing

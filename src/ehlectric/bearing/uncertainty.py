@@ -1,0 +1,333 @@
+"""Probability that a bearing breaks down: its margin over what is uncertain of its inputs and its films."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.stats import qmc
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.bearing_discharges import first_margin
+from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
+from ehlectric.bearing.many_points import solved_parts
+from ehlectric.bearing.margin import LEAST, MOST, QuickMargins
+from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.bearing.solution import BearingSolution, film_error, insulating
+from ehlectric.bearing.solving import REMEMBERED_POSITIONS
+from ehlectric.cases.amounts import Amount
+from ehlectric.cases.input_keys import kind_of
+from ehlectric.errors import InputError
+from ehlectric.formulas.variance_shares import variance_shares
+
+# Points of the design, a power of 2, and the seed of its random shifts.
+SAMPLES, SEED = 2048, 1
+
+# Probabilities of the ends of the interval that is stated, and of its middle.
+INTERVAL = (0.05, 0.5, 0.95)
+
+# Standard deviations of a normal distribution within which the sampling error is at a confidence of 95 %.
+_CONFIDENCE = 1.959963984540054
+
+# Speeds at which the probability is computed for its curve, and points at each of them, a power of 2.
+_SPEEDS, _AT_EACH = 12, 128
+
+# Names of what is uncertain beside the inputs of a file.
+FILMS, SCATTER = "films", "scatter"
+
+
+@dataclass(frozen=True)
+class UncertainInput:
+    """Input within its range, and what it contributes to the spread of the margin."""
+
+    key: str  # dotted key; "films" for their error, "scatter" for that of a Weibull law
+    label: str
+    # low and high: ends of the range, SI units; factors on the margin for "films"; None for "scatter".
+    low: float | None
+    high: float | None
+    assumed: bool  # whether the range is the usual one, as the file states none
+    reason: str  # where the usual range comes from; empty for a range of the file
+    # Shares of the variance of ln(margin), dimensionless: that would disappear if the input were known, and
+    # that would remain if all others were known.
+    first_order: float
+    total: float
+
+
+@dataclass(frozen=True)
+class MarginBand:
+    """Margin over the speed of the inner ring, within what is uncertain."""
+
+    speed: Array  # [rad/s], shape (n,)
+    # low, median and high: quantiles of the margin of ``INTERVAL``, dimensionless, shape (n,).
+    low: Array
+    median: Array
+    high: Array
+    probability: Array  # probability of a margin below 1, shape (n,)
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Distribution of the margin of a bearing over what is uncertain of its inputs and its films.
+
+    Inputs are independent and evenly distributed over their ranges. What follows from an input, such as the
+    viscosity from the temperature, changes with it. A point whose surfaces touch counts as breakdown.
+    """
+
+    margins: Array = field(
+        repr=False
+    )  # margins of all points with a result, 0 where surfaces touch, shape (n,)
+    inputs: tuple[UncertainInput, ...]  # the largest contribution first
+    touching: float  # share of points whose surfaces touch
+    failed: int  # number of points without a result
+    # Share of the variance of ln(margin) that the polynomial behind the shares of the inputs predicts.
+    predicted: float
+    samples: int
+    seed: int
+    left_out: tuple[str, ...] = ()  # ranges that are not in the distribution, and why
+
+    @property
+    def median(self) -> float:
+        """Margin that half of the points have, dimensionless."""
+        return self._quantile(INTERVAL[1])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Margins between which 90 % of the points are, dimensionless."""
+        return self._quantile(INTERVAL[0]), self._quantile(INTERVAL[2])
+
+    def _quantile(self, probability: float) -> float:
+        return float(np.quantile(self.margins, probability))
+
+    @property
+    def probability(self) -> float:
+        """Probability that the margin is below 1."""
+        return float(np.mean(self.margins < 1.0))
+
+    @property
+    def probability_error(self) -> float:
+        """Sampling error of the probability at a confidence of 95 %: that of as many random points.
+
+        Half of Wilson's interval; the points of a Sobol design have a smaller one.
+        """
+        return sampling_error(self.probability, self.margins.size)
+
+    def summary(self) -> dict[str, Any]:
+        """Values as in the table ``uncertainty`` of summary.json, SI units."""
+        low, high = self.interval
+        return {
+            "margin_median": self.median,
+            "margin_low": low,
+            "margin_high": high,
+            "breakdown_probability": self.probability,
+            "breakdown_probability_error": self.probability_error,
+            "touching_probability": self.touching,
+            "indices": [asdict(one) for one in self.inputs],
+            "predicted": self.predicted,
+            "samples": self.samples,
+            "failed": self.failed,
+            "seed": self.seed,
+            "left_out": list(self.left_out),
+        }
+
+
+def sampling_error(probability: float, number: int) -> float:
+    """Half of Wilson's interval of a share of random points at a confidence of 95 %.
+
+    Examples
+    --------
+    >>> round(sampling_error(0.5, 2048), 4), round(sampling_error(0.0, 2048), 4)
+    (0.0216, 0.0009)
+    """
+    z2 = _CONFIDENCE**2 / number
+    return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
+
+
+@dataclass(frozen=True)
+class _Design:
+    """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
+
+    margins: QuickMargins
+    computed: tuple[Change, ...]  # inputs for which films or circuits are computed
+    factors: tuple[Change, ...]  # inputs to which the margin is proportional
+    films: tuple[float, float]  # ends of the factor on the margin by the error of the films
+    shape: float | None  # shape of a Weibull law of the strength
+    assumed: Mapping[str, str]  # reasons of usual ranges by their key
+    left_out: tuple[str, ...]
+
+    @classmethod
+    def of(cls, solution: BearingSolution, margins: QuickMargins) -> _Design:
+        """Design of a solved bearing."""
+        case, left_out, computed, factors = solution.case, [], [], []
+        stated = {one.key for one in case.ranges or ()}
+        changes = changes_of(case)
+        for change in changes:
+            if proportional_to_strength(change.key):
+                factors.append(change)
+            elif isinstance(kind_of(change.key), Amount) and margins.is_quick(change.key):
+                computed.append(change)
+            else:
+                left_out.append(f"{change.key}: its range has no part in the probability")
+        weibull = case.discharge.weibull
+        assumed = {change.key: change.reason for change in changes if change.key not in stated}
+        return cls(
+            margins,
+            tuple(computed),
+            tuple(factors),
+            _film_factors(solution),
+            None if weibull is None else weibull.shape,
+            assumed,
+            tuple(left_out),
+        )
+
+    @property
+    def width(self) -> int:
+        """Number of uncertain inputs, with the films and the scatter of the strength."""
+        return len(self.computed) + len(self.factors) + 1 + (self.shape is not None)
+
+    def arrays(self, at: Array) -> dict[str, Array]:
+        """Inputs of the case by key at points from 0 to 1, shape (n, width)."""
+        arrays: dict[str, Array] = {}
+        for k, change in enumerate(self.computed):
+            low, high = change.ends
+            arrays |= change.changes(self.margins.case, low + (high - low) * at[:, k])
+        return arrays
+
+    def log_factors(self, at: Array) -> Array:
+        """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - computed)."""
+        columns, k = [], len(self.computed)
+        ends = [(change.ends, change.value(self.margins.case)) for change in self.factors]
+        for (low, high), value in [*ends, (self.films, 1.0)]:
+            columns.append(np.log((low + (high - low) * at[:, k]) / value))
+            k += 1
+        if self.shape is not None:
+            # Part of the strength at 63.2 % at which a share of equal films has broken down.
+            columns.append(np.log(-np.log1p(-at[:, k])) / self.shape)
+        return np.stack(columns, axis=-1)
+
+
+def _film_factors(solution: BearingSolution) -> tuple[float, float]:
+    """Ends of the factor on the margin by the error of the films, as they break down in proportion to it."""
+    if solution.case.contacts == "formula":
+        factor = formula_factor(solution.case.bearing.kind)
+        return 1.0 / factor, factor
+    off = float(film_error(solution))
+    return 1.0 - off, 1.0 + off
+
+
+def uncertainty_of(
+    solution: BearingSolution,
+    margins: QuickMargins,
+    *,
+    samples: int = SAMPLES,
+    seed: int = SEED,
+) -> Uncertainty:
+    """Distribution of the margin of a solved bearing over what is uncertain.
+
+    Ranges are those of the file, and the usual ones of ``changes_of`` for all other inputs. Films at other
+    inputs are from the atlas or by formula, and scaled to those of the solution. ``margins``, margins of the
+    solution at changed inputs; ``samples``, number of points, a power of 2; ``seed`` of the design.
+
+    Raises InputError where no point has a result.
+    """
+    design = _Design.of(solution, margins)
+    at = qmc.Sobol(design.width, seed=seed).random(samples)
+    computed, solved = _computed(design, at)
+    factors = design.log_factors(at)
+    margin = computed * np.exp(np.sum(factors, axis=-1))
+    inputs, predicted = _inputs(design, at, computed, solved)
+    return Uncertainty(
+        margin[solved],
+        inputs,
+        float(np.mean(computed[solved] == 0.0)),
+        int(np.count_nonzero(~solved)),
+        predicted,
+        samples,
+        seed,
+        design.left_out,
+    )
+
+
+def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[Array, Mask]:
+    """Margins without the factors, 0 where the surfaces touch, and which points have a result, shape (n,).
+
+    ``speed`` of the inner ring at the points [rad/s], by default that of the case.
+    """
+    arrays = design.arrays(at)
+    if speed is not None:
+        arrays["bearing.inner_speed"] = speed
+    if not arrays:
+        arrays = {"bearing.inner_speed": np.full(len(at), design.margins.case.bearing.inner_speed)}
+    many = design.margins.quick.case.with_arrays(arrays)
+    margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
+    for part in solved_parts(many, positions=REMEMBERED_POSITIONS):
+        found = first_margin(part.solution)
+        assert found is not None
+        margin[part.points] = np.where(insulating(part.solution), found, 0.0)
+        solved[part.points] = True
+    if not np.any(solved):
+        raise InputError.worded(None, "the margin has no value within the ranges of the inputs")
+    return design.margins.margin_factor * margin, solved
+
+
+def _inputs(
+    design: _Design, at: Array, computed: Array, solved: Mask
+) -> tuple[tuple[UncertainInput, ...], float]:
+    """Uncertain inputs with their shares of the variance of ln(margin), the largest first, and the share of
+    this variance that is predicted.
+    """
+    number = len(design.computed)
+    separated = solved & (computed > 0.0)
+    own = np.var(design.log_factors(at), axis=0)
+    first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
+    if number and np.count_nonzero(separated) > 1:
+        logs = np.log(computed[separated])
+        found = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
+        first, total, variance = found.first, found.total, found.variance
+        missed = (1.0 - found.predicted) * float(np.var(logs))
+    whole = variance + float(np.sum(own)) or 1.0
+    shares = [*zip(variance * first, variance * total, strict=True), *zip(own, own, strict=True)]
+    inputs = [
+        UncertainInput(*names, first_order=float(one / whole), total=float(all_ / whole))
+        for names, (one, all_) in zip(_names(design), shares, strict=True)
+    ]
+    return tuple(sorted(inputs, key=lambda one: -one.total)), 1.0 - missed / whole
+
+
+def _names(design: _Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
+    """Key, label, range and reason of each uncertain input, in the order of the design."""
+    for change in (*design.computed, *design.factors):
+        reason = design.assumed.get(change.key)
+        yield change.key, change.label, *change.ends, reason is not None, reason or ""
+    case = design.margins.case
+    by = {"atlas": "stated error of the atlas", "formula": "stated error of the formula"}
+    yield FILMS, "films", *design.films, True, by.get(case.contacts, "estimated error of the solved films")
+    if design.shape is not None:
+        yield SCATTER, "scatter of the dielectric strength", None, None, False, ""
+
+
+def margin_band(
+    solution: BearingSolution,
+    margins: QuickMargins,
+    speeds: Sequence[float] | None = None,
+    *,
+    seed: int = SEED,
+) -> MarginBand:
+    """Margin over the speed, from a tenth of that of the case to four times it, within what is uncertain.
+
+    The temperature does not change with the speed. Every speed has the same 128 points of the other inputs.
+    """
+    own = margins.case.bearing.inner_speed
+    speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
+    design = _Design.of(solution, margins)
+    at = qmc.Sobol(design.width, seed=seed).random(_AT_EACH)
+    many = np.tile(at, (speed.size, 1))
+    computed, solved = _computed(design, many, np.repeat(speed, _AT_EACH))
+    margin = computed * np.exp(np.sum(design.log_factors(many), axis=-1))
+    rows = np.where(solved, margin, np.nan).reshape(speed.size, _AT_EACH)
+    known = np.any(np.isfinite(rows), axis=1)
+    low, median, high = np.nanquantile(rows[known], INTERVAL, axis=1)
+    below = np.nanmean(np.where(np.isfinite(rows[known]), rows[known] < 1.0, np.nan), axis=1)
+    return MarginBand(speed[known], low, median, high, below)
