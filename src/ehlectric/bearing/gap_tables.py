@@ -43,7 +43,7 @@ LEAST = 200
 # Largest error of polynomials over the value in the middle of their box: for capacitances around short and
 # around long domains, which are 1 to 30 % and 15 to 60 % of the capacitance of the whole contact; and for
 # integrals between two domains. Largest relative error of integrals around an ellipse and of rigid balls.
-_SHORT, _LONG, _BETWEEN, _RELATIVE = 5e-9, 5e-9, 5e-9, 3e-9
+_SHORT, _LONG, _BETWEEN, _RELATIVE = 1e-8, 2e-8, 2e-8, 3e-9
 
 # Steps to which the ends of boxes are rounded outwards, so that similar batches have the same ones: of
 # logarithms and of squares of angles.

@@ -21,7 +21,7 @@ from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.runtime.values import is_number
 
 # Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
-TOGETHER = 512
+TOGETHER = 1024
 
 # Texts of summary.json that may differ between points.
 TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
