@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, IntArray, Numbers, where
+from ehlectric.arrays import Array, IntArray, Numbers, labels, where
 from ehlectric.bearing.circuit import Circuit, leakage_conductance, shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import film_share, oil_relaxation_time, shaft_capacitance, shaft_path
 from ehlectric.bearing.solution import (
@@ -127,7 +127,7 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
         "shaft_through_breakdown": np.min([shaft_through_breakdown(one, path) for one in circuits], axis=0),
     }
     return Breakdown(
-        first_break_at=_weakest(circuits, np.argmin(first, axis=0)),
+        first_break_at=labels((known, _weakest(circuits, np.argmin(first, axis=0))), ""),
         **{name: where(known, values) for name, values in voltages.items()},
     )
 

@@ -14,7 +14,7 @@ from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import POSITIONS, solution_of, solution_of_prepared
 from ehlectric.bearing.summary import numbers_of
-from ehlectric.bearing.warnings import contact_flags, flags_of
+from ehlectric.bearing.warnings import contact_codes, flags_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.errors import ConvergenceError, InputError
@@ -68,9 +68,10 @@ class Columns:
         for key, value in flattened(numbers_of(part.solution)).items():
             if key in TEXTS or is_number(value) or np.ndim(value):
                 self._column(key)[part.points] = value
-        for flag in (*flags_of(part.solution), *contact_flags(part.solution)):
-            if np.any(flag.where):
-                self._mask(flag.code)[part.points] |= flag.where
+        flags = ((flag.code, flag.where) for flag in flags_of(part.solution))
+        for code, where in (*flags, *contact_codes(part.solution)):
+            if np.any(where):
+                self._mask(code)[part.points] |= where
 
     def take(self, points: IntArray, own: Columns) -> None:
         """Take the columns of some of the points."""
@@ -119,7 +120,7 @@ def solved_parts(
 def _solved(case: BearingCase, points: IntArray, positions: int) -> SolvedPart | None:
     """Solution of those of some points that have one; None where none has."""
     while points.size:
-        some = case.some(points)
+        some = case.with_values({key: array[points] for key, array in case.arrays().items()})
         prepared = prepare_bearing(some, positions)
         refused = np.broadcast_to(prepared.refused, points.shape)
         if not refused.any():

@@ -264,8 +264,9 @@ def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[A
     margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
     for part in solved_parts(many, positions=REMEMBERED_POSITIONS):
         found = first_margin(part.solution)
-        assert found is not None
-        margin[part.points] = np.where(insulating(part.solution), found, 0.0)
+        # There is none where the surfaces touch at all of the points.
+        if found is not None:
+            margin[part.points] = np.where(insulating(part.solution), found, 0.0)
         solved[part.points] = True
     if not np.any(solved):
         raise InputError.worded(None, "the margin has no value within the ranges of the inputs")

@@ -9,7 +9,7 @@ from operator import mul, truediv
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     current_flags,
@@ -86,19 +86,19 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
     yield from edge_flags(solution.case.bearing, solution.positions)
 
 
-def contact_flags(solution: BearingSolution) -> Iterator[Flag]:
-    """Warnings of quick contacts of many points: those outside the atlas, and pressures that deform steel.
+def contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
+    """Codes of warnings of quick contacts of many points, and which points have them, shape (...): contacts
+    outside the atlas, and pressures that deform steel.
 
     The texts of a single bearing name the contacts; see ``contact_warnings``.
     """
+    permanent = PERMANENT["line" if solution.case.bearing.kind == ROLLERS else "point"]
     for curve in solution.curves:
         if curve.left is not None:
-            heavy = curve.counted.used
-            left = curve.left & curve.used
-            yield Flag.of(np.any(left & heavy, axis=-1), "atlas-left")
-            yield Flag.of(np.any(left & ~heavy, axis=-1), "atlas-left-light")
-        kind = "line" if solution.case.bearing.kind == ROLLERS else "point"
-        yield Flag.of(np.max(curve.values.max_pressure, axis=-1) > PERMANENT[kind], "plastic-deformation")
+            heavy, left = curve.counted.used, curve.left & curve.used
+            yield "atlas-left", np.any(left & heavy, axis=-1)
+            yield "atlas-left-light", np.any(left & ~heavy, axis=-1)
+        yield "plastic-deformation", np.max(curve.values.max_pressure, axis=-1) > permanent
 
 
 def film_flags(solution: BearingSolution) -> Iterator[Flag]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
@@ -32,6 +33,7 @@ from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.library.bearing_catalogue import with_class
 from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import (
     CaseFile,
     Table,
@@ -135,6 +137,13 @@ def _field(key: str, model: type[Table], takes: str = "a list of two values") ->
     if table_of(field.annotation) is not None:
         raise InputError(key, "is a table", takes=f"one of its keys with {takes}")
     return field
+
+
+def _quantity(model: type[Table], key: str) -> Amount | None:
+    """Quantity of a dotted key; None for a key that is none."""
+    field = fields_within(model).get(key)
+    quantity = None if field is None else number_of(field)
+    return quantity if isinstance(quantity, Amount) else None
 
 
 def _array_of(key: str, values: Any, model: type[Table]) -> Array:
@@ -265,6 +274,12 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Text that tells by which key a file without the table of its bearing is that of a bearing."""
         sign = bearing_key(given) if key == "bearing" else None
         return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_uncertainties(cls, tables: Any) -> Any:
+        """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
+        return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
 
     @model_validator(mode="wrap")
     @classmethod

@@ -35,7 +35,7 @@ from ehlectric.runtime.reading import read_text
 from ehlectric.runtime.values import Tabled
 
 if TYPE_CHECKING:
-    from ehlectric.arrays import Array, IntArray
+    from ehlectric.arrays import Array
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
@@ -245,10 +245,6 @@ class Table(BaseModel, metaclass=_Listed):
                 changes[first] = value
         changes |= {name: getattr(self, name).with_values(inner) for name, inner in nested.items()}
         return self.model_copy(update=changes)
-
-    def some(self, index: IntArray) -> Self:
-        """Table of some of many points, which are not checked. ``index``, places of the points."""
-        return self.with_values({key: array[index] for key, array in self.arrays().items()})
 
     def single(self, index: int) -> Self:
         """Table of one of many points, with its numbers as floats, which are not checked."""

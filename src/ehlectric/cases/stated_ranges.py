@@ -1,0 +1,131 @@
+"""Inputs that are written with their uncertainty, as "15 V/um +- 30 %" or "10 V/um to 20 V/um"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from ehlectric.cases.amounts import Amount
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities import units
+
+# A value and what it may be off either way, and two ends of a range.
+_AROUND = re.compile(r"(?P<value>.+?)\s*(?:\+-|\+/-|±)\s*(?P<part>.+)", re.DOTALL)
+_BETWEEN = re.compile(r"(?P<low>.+?)\s+to\s+(?P<high>.+)", re.DOTALL)
+
+_PERCENT = re.compile(r"(?P<number>[^%]+?)\s*(?:%|percent)")
+_TEMPERATURE = re.compile(r"(?P<number>.+?)\s*(?:degC|°C|deltadegC|delta_degC|K)")
+
+
+def with_stated_ranges(
+    tables: Mapping[str, Any], quantity_of: Callable[[str], Amount | None]
+) -> dict[str, Any]:
+    """Tables in which inputs with an uncertainty have their middle, and ``ranges`` both ends, in SI units.
+
+    ``quantity_of`` gives the quantity of a dotted key, None for a key that is none. Raises InputError where
+    an uncertainty is no number above 0, or ``ranges`` has the same key too.
+
+    Examples
+    --------
+    >>> tables = {"bearing": {"radial_load": "2 kN +- 10 %"}}
+    >>> with_stated_ranges(tables, lambda key: Amount(unit="N"))
+    {'bearing': {'radial_load': '2000.0 N'}, 'ranges': {'bearing.radial_load': ['1800.0 N', '2200.0 N']}}
+    """
+    stated: dict[str, list[Any]] = {}
+    for key, text in _texts(tables):
+        quantity = quantity_of(key)
+        if quantity is not None:
+            stated[key] = [_written(value, quantity) for value in _range(key, text, quantity)]
+    if not stated:
+        return dict(tables)
+    given = tables.get("ranges") or {}
+    if not isinstance(given, Mapping):
+        return dict(tables)
+    for key in stated:
+        if key in given:
+            raise InputError(key, got="an uncertainty, and a range in [ranges]", takes="one of the two")
+    changed = _changed(tables, {key: ends[1] for key, ends in stated.items()})
+    return changed | {"ranges": {**given, **{key: [ends[0], ends[2]] for key, ends in stated.items()}}}
+
+
+def _texts(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Dotted keys of nested tables whose text may have an uncertainty, with these texts."""
+    for name, value in tables.items():
+        if isinstance(value, Mapping) and name != "ranges":
+            yield from _texts(value, f"{prefix}{name}.")
+        elif isinstance(value, str) and (_AROUND.fullmatch(value) or _BETWEEN.fullmatch(value)):
+            yield prefix + str(name), value
+
+
+def _changed(tables: Mapping[str, Any], values: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Nested tables with other values of some dotted keys."""
+    changed: dict[str, Any] = {}
+    for name, value in tables.items():
+        key = f"{prefix}{name}"
+        if isinstance(value, Mapping) and name != "ranges":
+            changed[name] = _changed(value, values, f"{key}.")
+        else:
+            changed[name] = values.get(key, value)
+    return changed
+
+
+def _written(value: float, quantity: Amount) -> float | str:
+    """Value in SI units with its unit, which a speed has to have."""
+    return f"{value!r} {quantity.unit}" if quantity.unit else value
+
+
+def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
+    """Low end, middle and high end of an input with its uncertainty, SI units."""
+    if between := _BETWEEN.fullmatch(text):
+        low, high = (_parsed(key, quantity, between[end].strip()) for end in ("low", "high"))
+        if not low < high:
+            raise InputError(key, got=shown(text), takes="the smaller value first")
+        return low, 0.5 * (low + high), high
+    around = _AROUND.fullmatch(text)
+    assert around is not None
+    value = _parsed(key, quantity, around["value"].strip())
+    part = _difference(key, text, value, around["part"].strip(), quantity)
+    ends = value - part, value + part
+    for end in ends:
+        _parsed(key, quantity, end)
+    return ends[0], value, ends[1]
+
+
+def _difference(key: str, text: str, value: float, part: str, quantity: Amount) -> float:
+    """What a value may be off either way, SI units."""
+    takes = "a difference above 0 behind +-, with the unit of the value or in %"
+    percent = _PERCENT.fullmatch(part)
+    if quantity.unit == "K":
+        takes = "a difference above 0 behind +-, in K or degC"
+        kelvin = _TEMPERATURE.fullmatch(part)
+        found = None if kelvin is None else _number(kelvin["number"])
+    elif percent is not None:
+        number = _number(percent["number"])
+        found = None if number is None else 0.01 * number * abs(value)
+    elif not quantity.unit:
+        found = _number(part)
+    else:
+        try:
+            found = units.to_si(part, quantity.unit)
+        except ValueError:
+            found = None
+    if found is None or not found > 0.0:
+        raise InputError(key, got=shown(text), takes=takes)
+    return found
+
+
+def _number(text: str) -> float | None:
+    """Number of a text; None where it is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _parsed(key: str, quantity: Amount, entry: object) -> float:
+    """Value of an entry in SI units."""
+    try:
+        return quantity.parse(entry, written=isinstance(entry, str))
+    except InputError as error:
+        raise error.retold(key, error.text) from None

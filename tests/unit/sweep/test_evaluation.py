@@ -1,0 +1,131 @@
+"""Bearings at many points of operation, against each point alone."""
+
+import numpy as np
+import pytest
+
+from ehlectric import BearingCase, InputError, evaluate, solve_bearing
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.changes import flattened
+from ehlectric.runtime.values import is_number
+from tests.helpers.each import each
+
+MOTOR = {
+    "common_mode_voltage": "300 V",
+    "winding_rotor_capacitance": "20 pF",
+    "rotor_frame_capacitance": "1 nF",
+}
+OIL = {
+    "base": "paper",
+    "temperature": {
+        "kinematic_viscosity_40": "46 mm^2/s",
+        "kinematic_viscosity_100": "6.8 mm^2/s",
+        "density_15": "870 kg/m^3",
+        "thermal_conductivity": "0.14 W/m/K",
+    },
+}
+KINDS = {
+    "6208": {"radial_clearance": "10 um", "film_factor": "none"},
+    "7208-c": {"axial_load": "1 kN", "film_factor": "inlet-shear"},
+    "nu-208": {"profile": "logarithmic", "radial_clearance": "20 um", "coating": {"base": "alumina"}},
+}
+POINTS = 60
+
+
+def bearing(base="6208", **further):
+    table = {
+        "base": base,
+        "radial_load": "2 kN",
+        "inner_speed": "3000 rpm",
+        "temperature": "70 degC",
+        "composite_rq": "0.05 um",
+    }
+    return BearingCase.from_dict(
+        {
+            "contacts": "atlas",
+            "bearing": table | KINDS[base] | further,
+            "lubricant": OIL,
+            "discharge": {"dielectric_strength": "15 V/um"},
+            "motor": MOTOR,
+        }
+    )
+
+
+def inputs(number, seed):
+    rng = np.random.default_rng(seed)
+    return {
+        "bearing.inner_speed": 10.0 ** rng.uniform(1.2, 3.0, number),
+        "bearing.radial_load": 10.0 ** rng.uniform(2.8, 3.7, number),
+        "bearing.temperature": rng.uniform(300.0, 380.0, number),
+        "motor.rotor_frame_capacitance": rng.uniform(5e-10, 2e-9, number),
+    }
+
+
+@each("base", list(KINDS))
+def test_points_are_those_of_each_bearing_alone(base):
+    case, given = bearing(base), inputs(POINTS, 1)
+    found = evaluate(case, given)
+    solved = np.flatnonzero(found["converged"].values)
+    assert solved.size > 0.8 * POINTS
+    for k in solved[:: max(1, solved.size // 5)].tolist():
+        changes = {key: float(values[k]) for key, values in given.items()}
+        summary = summary_of(solve_bearing(case.replace(changes), workers=1).solution)
+        alone = flattened({name: summary[name] for name in ("lubricant", "bearing", "mechanics")})
+        assert set(found["warning_codes"].values[k].split("; ")) == set(summary["warning_codes"])
+        for key, values in found.data_vars.items():
+            if key not in alone or key in ("mechanics.residual", "bearing.interpolation_error"):
+                continue
+            value = alone[key]
+            if is_number(value):
+                assert values.values[k] == pytest.approx(value, rel=1e-8, abs=1e-12), key
+            elif value is None:
+                assert values.values[k] == "" or np.isnan(values.values[k]), key
+            else:
+                assert values.values[k] == value, key
+
+
+def test_points_beyond_the_model_have_the_reason_of_the_bearing_alone():
+    case = bearing("7208-c")
+    given = {"bearing.inner_speed": [100.0] * 4, "bearing.axial_load": ["1 kN", "0 N", "90 kN", "2 kN"]}
+    found = evaluate(case, given)
+    assert found["converged"].values.tolist() == [True, False, False, True]
+    assert np.isnan(found["bearing.capacitance"].values).tolist() == [False, True, True, False]
+    for k in (1, 2):
+        changes = {key: values[k] for key, values in given.items()}
+        with pytest.raises(InputError) as caught:
+            solve_bearing(case.replace(changes), workers=1)
+        assert found["reason"].values[k] == str(caught.value)
+
+
+def test_names_are_computed_in_groups():
+    given = {"bearing.base": ["6208", "6205", "6208"], "bearing.inner_speed": ["1000 rpm"] * 3}
+    given["bearing.fill"] = ["oil", "oil", "air"]
+    found = evaluate(bearing(), given)
+    alone = [
+        solve_bearing(bearing().replace({key: values[k] for key, values in given.items()}), workers=1)
+        for k in range(3)
+    ]
+    expected = [one.capacitance() for one in alone]
+    np.testing.assert_allclose(found["bearing.capacitance"], expected, rtol=1e-9)
+    assert found["bearing.base"].values.tolist() == given["bearing.base"]
+    assert found["bearing.inner_speed"].attrs["units"] == "rad/s"
+
+
+def test_ceramic_elements_have_no_breakdown():
+    found = evaluate(bearing(element_material="silicon-nitride"), {"bearing.radial_load": [1e3, 2e3]})
+    assert "bearing.margin" not in found
+    assert np.all(found["bearing.capacitance"] > 0.0)
+
+
+@each(
+    ("given", "text"),
+    [
+        ({}, "at least one key"),
+        ({"bearing.radial_load": [1e3], "bearing.inner_speed": [1.0, 2.0]}, "as many as bearing.radial_load"),
+        ({"bearing.radial_load": 1e3}, "a value for each point"),
+        ({"bearing.radial_lod": [1e3]}, "unknown"),
+        ({"bearing.radial_load": ["1 kN", "-3 N"]}, "at index 1"),
+    ],
+)
+def test_wrong_arrays_are_refused(given, text):
+    with pytest.raises(InputError, match=text):
+        evaluate(bearing(), given)
