@@ -19,6 +19,7 @@ from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.solution import BearingSolution, film_error, insulating
 from ehlectric.bearing.solving import REMEMBERED_POSITIONS
 from ehlectric.cases.amounts import Amount
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
@@ -149,6 +150,7 @@ def sampling_error(probability: float, number: int) -> float:
 class _Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
 
+    case: BearingCase
     margins: QuickMargins
     computed: tuple[Change, ...]  # inputs for which films or circuits are computed
     factors: tuple[Change, ...]  # inputs to which the margin is proportional
@@ -173,6 +175,7 @@ class _Design:
         weibull = case.discharge.weibull
         assumed = {change.key: change.reason for change in changes if change.key not in stated}
         return cls(
+            case,
             margins,
             tuple(computed),
             tuple(factors),
@@ -192,13 +195,13 @@ class _Design:
         arrays: dict[str, Array] = {}
         for k, change in enumerate(self.computed):
             low, high = change.ends
-            arrays |= change.changes(self.margins.case, low + (high - low) * at[:, k])
+            arrays |= change.changes(self.case, low + (high - low) * at[:, k])
         return arrays
 
     def log_factors(self, at: Array) -> Array:
         """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - computed)."""
         columns, k = [], len(self.computed)
-        ends = [(change.ends, change.value(self.margins.case)) for change in self.factors]
+        ends = [(change.ends, change.value(self.case)) for change in self.factors]
         for (low, high), value in [*ends, (self.films, 1.0)]:
             columns.append(np.log((low + (high - low) * at[:, k]) / value))
             k += 1
@@ -259,7 +262,7 @@ def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[A
     if speed is not None:
         arrays["bearing.inner_speed"] = speed
     if not arrays:
-        arrays = {"bearing.inner_speed": np.full(len(at), design.margins.case.bearing.inner_speed)}
+        arrays = {"bearing.inner_speed": np.full(len(at), design.case.bearing.inner_speed)}
     many = design.margins.quick.case.with_arrays(arrays)
     margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
     for part in solved_parts(many, positions=REMEMBERED_POSITIONS):
@@ -302,9 +305,14 @@ def _names(design: _Design) -> Iterator[tuple[str, str, float | None, float | No
     for change in (*design.computed, *design.factors):
         reason = design.assumed.get(change.key)
         yield change.key, change.label, *change.ends, reason is not None, reason or ""
-    case = design.margins.case
     by = {"atlas": "stated error of the atlas", "formula": "stated error of the formula"}
-    yield FILMS, "films", *design.films, True, by.get(case.contacts, "estimated error of the solved films")
+    yield (
+        FILMS,
+        "films",
+        *design.films,
+        True,
+        by.get(design.case.contacts, "estimated error of the solved films"),
+    )
     if design.shape is not None:
         yield SCATTER, "scatter of the dielectric strength", None, None, False, ""
 
@@ -320,7 +328,7 @@ def margin_band(
 
     The temperature does not change with the speed. Every speed has the same 128 points of the other inputs.
     """
-    own = margins.case.bearing.inner_speed
+    own = solution.case.bearing.inner_speed
     speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
     design = _Design.of(solution, margins)
     at = qmc.Sobol(design.width, seed=seed).random(_AT_EACH)
