@@ -46,6 +46,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
 from ehlectric.discharge.film_verdict import (
     UNLIKELY,
+    Chance,
     Level,
     Verdict,
     assumption_of,
@@ -430,11 +431,14 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
 _OPENING = "Contacts discharge at a low voltage as they open"
 
 
-def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
+def bearing_verdict(
+    solution: BearingSolution, analysis: MarginAnalysis, chance: Chance | None = None
+) -> Verdict:
     """Verdict on a solved bearing; grey where the numbers must not be used, for ceramic elements, and without
     a strength or a shaft voltage.
 
-    The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
+    The level follows the probability of breakdown, ``chance``, where it is known. Otherwise the margin may
+    lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
     widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
     that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
     strength by 20 % takes across 1 is yellow, too.
@@ -469,7 +473,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
             f"No verdict: {first} {_at(solution)}, but no shaft voltage is known without [motor]. "
             + _assumptions(solution),
         )
-    return _judged(solution, analysis, breakdown, shaft, doubts_of(warnings))
+    return _judged(solution, analysis, breakdown, shaft, doubts_of(warnings), chance)
 
 
 def _judged(
@@ -478,9 +482,32 @@ def _judged(
     breakdown: Breakdown,
     shaft: float,
     warned: Iterable[str],
+    chance: Chance | None,
 ) -> Verdict:
     """Verdict on a bearing with a margin; ``warned`` are sentences of warnings that make it doubtful."""
     margin = breakdown.shaft_first_break / shaft
+    doubts = [*_doubts(solution, analysis, margin), *warned]
+    if chance is None:
+        level, lead, reasons, interval = _by_ends(solution, analysis, margin, doubts)
+    else:
+        level, lead, reasons, interval = chance.level, chance.lead, [*doubts, chance.sentence], ""
+        if doubts and level == "green":
+            level, lead = "yellow", "Breakdown possible"
+    text = (
+        f"{lead}: shaft voltage {shaft:.3g} V, first breakdown at "
+        f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
+    )
+    speeds = list(_speeds(analysis.speeds, level))
+    shares, leaks = _coating(solution, shaft), _leaks(solution)
+    sentences = filter(None, [text, shares, *speeds, *reasons, leaks, _assumptions(solution)])
+    return Verdict(level, " ".join(sentences), margin)
+
+
+def _by_ends(
+    solution: BearingSolution, analysis: MarginAnalysis, margin: float, doubts: Sequence[str]
+) -> tuple[Level, str, list[str], str]:
+    """Level, first words, reasons and interval of a verdict from the smallest and the largest margin."""
+    reasons = [*doubts]
     low, high = _widened(solution, *_stated(solution, analysis, margin))
     # Without a stated range of the strength a usual one counts.
     strength = not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
@@ -488,25 +515,17 @@ def _judged(
         weakest, strongest = strength_interval(margin)
         low, high = min(low, weakest), max(high, strongest)
     level = level_of(low, high)
-    doubts = [*_doubts(solution, analysis, margin), *warned]
     if doubts and level == "green":
         level = "yellow"
     if strength:
-        doubts += filter(None, [strength_doubt(solution.case.discharge, margin)])
-    reasons = [*doubts, *_widths(solution, analysis, margin)]
+        reasons += filter(None, [strength_doubt(solution.case.discharge, margin)])
+    reasons += _widths(solution, analysis, margin)
     interval = ""
     if analysis.low is not None and analysis.high is not None:
         interval = (
             f", {ratio_text(analysis.low)} to {ratio_text(analysis.high)} within the stated ranges of inputs"
         )
-    text = (
-        f"{lead_of(level, margin)}: shaft voltage {shaft:.3g} V, first breakdown at "
-        f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
-    )
-    speeds = list(_speeds(analysis.speeds, level))
-    shares, leaks = _coating(solution, shaft), _leaks(solution)
-    sentences = filter(None, [text, shares, *speeds, *reasons, leaks, _assumptions(solution)])
-    return Verdict(level, " ".join(sentences), margin)
+    return level, lead_of(level, margin), reasons, interval
 
 
 def _coating(solution: BearingSolution, shaft: float) -> str:

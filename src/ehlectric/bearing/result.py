@@ -17,6 +17,7 @@ from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
+from ehlectric.bearing.uncertainty import Uncertainty, uncertainty_of_result
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
@@ -152,9 +153,19 @@ class BearingResult(Shown):
         return analyse_margin(self.solution)
 
     @cached_property
+    def uncertainty(self) -> Uncertainty | None:
+        """Distribution of the margin over what is uncertain of the inputs and the films, with its probability
+        of breakdown; None where there is no margin.
+
+        It evaluates 2048 bearings with contacts from the atlas when it is first asked for: some two seconds.
+        """
+        return uncertainty_of_result(self.solution)
+
+    @cached_property
     def verdict(self) -> Verdict:
         """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
-        return bearing_verdict(self.solution, self.margin_analysis)
+        chance = None if self.uncertainty is None else self.uncertainty.chance
+        return bearing_verdict(self.solution, self.margin_analysis, chance)
 
     @cached_property
     def capacitive_speed(self) -> float | None:
@@ -173,6 +184,8 @@ class BearingResult(Shown):
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
                 summary["margin"] = plain({"level": verdict.level, **analysis.summary(), **speed})
+                uncertainty = self.uncertainty
+                summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
             summary[key] = value
             if key == "warning_codes":
                 summary["verdict"] = verdict.text

@@ -21,6 +21,7 @@ from ehlectric.bearing.solving import REMEMBERED_POSITIONS
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
+from ehlectric.discharge.film_verdict import Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
 
@@ -114,6 +115,14 @@ class Uncertainty:
         Half of Wilson's interval; the points of a Sobol design have a smaller one.
         """
         return sampling_error(self.probability, self.margins.size)
+
+    @property
+    def chance(self) -> Chance:
+        """Probability and interval as a verdict says them."""
+        first, (low, high) = self.inputs[0], self.interval
+        return Chance(
+            self.probability, self.probability_error, low, self.median, high, first.label, first.total
+        )
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""
@@ -251,6 +260,16 @@ def uncertainty_of(
         seed,
         design.left_out,
     )
+
+
+def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
+    """Distribution of the margin of a solved bearing; None where it has no margin, or at no other inputs."""
+    if not solution.converged or first_margin(solution) is None:
+        return None
+    try:
+        return uncertainty_of(solution, QuickMargins.of(solution))
+    except InputError:
+        return None
 
 
 def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[Array, Mask]:

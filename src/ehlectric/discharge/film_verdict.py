@@ -47,8 +47,10 @@ class Verdict:
         return self.text
 
 
-# Probability below which a voltage of a Weibull law counts as safe.
-UNLIKELY = 0.05
+# Probabilities of breakdown below which it is not expected, below which it is possible, and above which it is
+# expected; between the last two it is likely. The first one also is that at which a voltage of a Weibull law
+# counts as safe.
+UNLIKELY, EVEN, CERTAIN = 0.05, 0.5, 0.95
 
 # Part of a dielectric strength by which it may be wrong either way where no range of it is stated:
 # engineering judgement.
@@ -74,6 +76,66 @@ def lead_of(level: Level, margin: float) -> str:
     if level == "yellow":
         return "Breakdown possible" if margin >= 1.0 else "Breakdown likely"
     return "No breakdown expected" if level == "green" else "Breakdown expected"
+
+
+@dataclass(frozen=True)
+class Chance:
+    """Probability of breakdown within what is uncertain, and what makes it so."""
+
+    probability: float
+    error: float  # sampling error of the probability
+    # low, median and high: margin at 5 %, 50 % and 95 %, dimensionless; 0 where surfaces touch.
+    low: float
+    median: float
+    high: float
+    first: str  # name of the input that spreads the margin most
+    share: float  # its share of the variance of the logarithm of the margin
+
+    @property
+    def level(self) -> Level:
+        """Level of a verdict by the probability."""
+        if self.probability < UNLIKELY:
+            return "green"
+        return "yellow" if self.probability <= CERTAIN else "red"
+
+    @property
+    def lead(self) -> str:
+        """First words of a verdict by the probability."""
+        if self.level == "yellow":
+            return "Breakdown possible" if self.probability <= EVEN else "Breakdown likely"
+        return lead_of(self.level, self.median)
+
+    @property
+    def sentence(self) -> str:
+        """Sentence about the probability, the interval of the margin, and the input to measure first.
+
+        Examples
+        --------
+        >>> Chance(0.163, 0.016, 0.783, 1.474, 3.0, "rotor capacitance", 0.567).sentence
+        'The probability of breakdown is 16 % (sampling error 1.6 %): within what is uncertain the margin is \
+0.78 to 3.00 in 90 of 100 cases, 1.47 in the middle. Measure first: rotor capacitance, 57 % of the spread.'
+        """
+        low, median, high = map(ratio_text, (self.low, self.median, self.high))
+        return (
+            f"The probability of breakdown is {chance_text(self.probability, self.error)}: within what is "
+            f"uncertain the margin is {low} to {high} in 90 of 100 cases, {median} in the middle. "
+            f"Measure first: {self.first}, {100.0 * self.share:.0f} % of the spread."
+        )
+
+
+def chance_text(probability: float, error: float) -> str:
+    """Probability with its sampling error as text.
+
+    Examples
+    --------
+    >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
+    ('16 % (sampling error 1.6 %)', 'below 0.1 %', 'above 99.9 %')
+    """
+    if probability < error:
+        return f"below {100.0 * (probability + error):.1g} %"
+    if 1.0 - probability < error:
+        return f"above {100.0 * (probability - error):.3g} %"
+    return f"{100.0 * probability:.2g} % (sampling error {100.0 * error:.2g} %)"
 
 
 def ratio_text(ratio: Numbers) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_touching import SELDOM, time_text
 from ehlectric.bearing.input_changes import OF_TABLE
+from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text
@@ -324,6 +325,28 @@ def _effects(summary: Summary) -> Iterator[Row]:
         yield Row(name, margins, note=note, bound=bound, key=f"margin.effects.{effect['key']}")
 
 
+def _margin_range(summary: Summary) -> str | None:
+    found = summary.get("uncertainty")
+    return None if not found else _between(found["margin_low"], found["margin_high"])
+
+
+def _shares(summary: Summary) -> Iterator[Row]:
+    """Rows of the shares of the uncertain inputs in the spread of the margin, the largest first."""
+    for one in (summary.get("uncertainty") or {}).get("indices", ()):
+        if one["total"] >= _LEAST_SHARE:
+            name, _, beside = one["label"].partition(" (")
+            within = "" if one["low"] is None else f", {input_range(one)}"
+            assumed = ", a usual range" if one["assumed"] and one["key"] != FILMS else ""
+            note = f"{', ' + beside.removesuffix(')') if beside else ''}{assumed}"
+            share = f"{100.0 * one['total']:.2g} % of the spread"
+            yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{one['key']}")
+
+
+def _left_out_of_probability(summary: Summary) -> Iterator[Row]:
+    for text in (summary.get("uncertainty") or {}).get("left_out", ()):
+        yield Row("not in the probability", note=text, key="uncertainty.left_out")
+
+
 def _left_out(summary: Summary) -> Iterator[Row]:
     for text in (summary.get("margin") or {}).get("left_out", ()):
         yield Row("not computed", note=text, key="margin.left_out")
@@ -339,9 +362,8 @@ def input_range(effect: Mapping[str, Any]) -> str:
     >>> input_range({"key": "discharge.dielectric_strength", "low_input": 12e6, "high_input": 18e6})
     '12 to 18 V/µm'
     """
-    ends, unit = (effect["low_input"], effect["high_input"]), unit_of(effect["key"])
-    if effect["key"] == OF_TABLE:
-        unit = ""
+    low, high = (effect.get(f"{end}_input", effect.get(end)) for end in ("low", "high"))
+    ends, unit = (low, high), "" if effect["key"] in (OF_TABLE, FILMS) else unit_of(effect["key"])
     scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
     low, high = (f"{scale.of(end):.4g}" for end in ends)
     return f"{low} to {high} {scale.unit}".rstrip()
@@ -350,6 +372,9 @@ def input_range(effect: Mapping[str, Any]) -> str:
 # Units that are printed whatever the size of a value, by their SI units.
 _SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N", "mm²/s")}
 
+
+# Least share of the spread of an input that has a row.
+_LEAST_SHARE = 0.005
 
 _WORDS = Words(
     notes={
@@ -375,6 +400,10 @@ _WORDS = Words(
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,
         "bearing.current_density": _limits,
+        "uncertainty.breakdown_probability": lambda s: (
+            f", sampling error {100.0 * s['uncertainty']['breakdown_probability_error']:.2g} %"
+        ),
+        "uncertainty.margin_range": lambda s: f", median {ratio_text(s['uncertainty']['margin_median'])}",
     },
     values={
         "inputs.discharge.dielectric_strength": _strength,
@@ -397,6 +426,7 @@ _WORDS = Words(
         "bearing.meter_capacitance": _meter,
         "bearing.first_break": _first_break,
         "margin.range": _range,
+        "uncertainty.margin_range": _margin_range,
         "margin.critical_speed": _critical_speed,
         **{
             f"margin.{name}": _speed(name)
@@ -410,7 +440,12 @@ _WORDS = Words(
         "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
     },
-    rows={"margin.effects": _effects, "margin.left_out": _left_out},
+    rows={
+        "margin.effects": _effects,
+        "margin.left_out": _left_out,
+        "uncertainty.indices": _shares,
+        "uncertainty.left_out": _left_out_of_probability,
+    },
     holds={
         "radial load": lambda s: bool(_bearing(s)["radial_load"]),
         "axial load": lambda s: bool(_bearing(s)["axial_load"]),
@@ -420,6 +455,8 @@ _WORDS = Words(
         "mounted": lambda s: value_at(s, "bearing.unmounted_clearance") is not None,
         "starved": lambda s: bool(_supply(s) != "flooded"),
         "solved heat": lambda s: bool(_bearing(s)["film_factor"] == "solved"),
+        "probability": lambda s: bool(s.get("uncertainty")),
+        "surfaces that may touch": lambda s: bool(s["uncertainty"]["touching_probability"]),
         "quick contacts": lambda s: value_at(s, "bearing.contacts") != "solved",
         "touching": lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) >= SELDOM,
         "law other than Clarke's": lambda s: value_at(s, "bearing.contact_model") != "clarke",
