@@ -491,6 +491,7 @@ def _judged(
         level, lead, reasons, interval = _by_ends(solution, analysis, margin, doubts)
     else:
         level, lead, reasons, interval = chance.level, chance.lead, [*doubts, chance.sentence], ""
+        reasons += _widths(solution, analysis, margin)
         if doubts and level == "green":
             level, lead = "yellow", "Breakdown possible"
     text = (

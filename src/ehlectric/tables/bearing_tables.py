@@ -456,7 +456,7 @@ _WORDS = Words(
         "starved": lambda s: bool(_supply(s) != "flooded"),
         "solved heat": lambda s: bool(_bearing(s)["film_factor"] == "solved"),
         "probability": lambda s: bool(s.get("uncertainty")),
-        "surfaces that may touch": lambda s: bool(s["uncertainty"]["touching_probability"]),
+        "surfaces that may touch": lambda s: bool(value_at(s, "uncertainty.touching_probability")),
         "quick contacts": lambda s: value_at(s, "bearing.contacts") != "solved",
         "touching": lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) >= SELDOM,
         "law other than Clarke's": lambda s: value_at(s, "bearing.contact_model") != "clarke",

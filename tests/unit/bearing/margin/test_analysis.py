@@ -7,8 +7,8 @@ import re
 import pytest
 
 from ehlectric import load
+from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.margin import (
-    OF_TABLE,
     Effect,
     MarginAnalysis,
     QuickMargins,
