@@ -19,13 +19,16 @@ def at_lambda(case, ratio):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["gaussian 400 nm", "sinusoid 140 nm", "asperity 200 nm"])
-def test_line_with_a_thin_film(name):
-    """Where the film of the formula is 3 % of the roughness: ridges float, on 1601 nodes.
+@pytest.mark.parametrize(
+    ("name", "nodes"), [("gaussian 400 nm", 3201), ("sinusoid 140 nm", 1601), ("asperity 200 nm", 1601)]
+)
+def test_line_with_a_thin_film(name, nodes):
+    """Where the film of the formula is 3 % of the roughness, ridges float on grids that resolve them.
 
-    On 801 nodes most of the load is on asperities, and a warning says that its share is not resolved.
+    On 801 nodes most of the load is on asperities. Of the Gaussian surface asperities have 6 % of the load on
+    1601 nodes, 16 % on 2401 and none on 3201: a warning says that the share is not resolved.
     """
-    film = at_lambda(rough_line(LINES[name], nodes=1601), 0.03)
+    film = at_lambda(rough_line(LINES[name], nodes=nodes), 0.03)
     assert film.converged
     assert film.share < 0.05
 
