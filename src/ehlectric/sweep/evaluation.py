@@ -1,4 +1,4 @@
-"""Numbers of a bearing at many points of operation, computed together."""
+"""Numbers of bearings at many points of operation, computed together."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from ehlectric.bearing.many_points import TEXTS, Columns, columns_of
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.version import __version__
 
@@ -21,8 +23,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def evaluate(case: BearingCase, inputs: Mapping[str, Any]) -> xr.Dataset:
-    """Evaluate a bearing at many points of operation, a thousand or more a second.
+def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dataset:
+    """Evaluate a bearing, or both of a drive, at many points of operation, a thousand or more a second.
 
     Contacts are from the atlas of films, or by formula where those of the case are; those of a case with
     solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` gives for it
@@ -30,11 +32,13 @@ def evaluate(case: BearingCase, inputs: Mapping[str, Any]) -> xr.Dataset:
 
     Parameters
     ----------
-    case : BearingCase
-        Bearing file; its inputs hold at every point unless they are given anew.
+    case : BearingCase or DriveCase
+        Bearing file, or drive file, of which both bearings are evaluated; its inputs hold at every point
+        unless they are given anew.
     inputs : mapping
         Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
-        names. Points that share their names and whole numbers are computed together.
+        names. Points that share their names and whole numbers are computed together. Keys of a drive are
+        ``drive.speed``, ``drive.temperature``, and those of its bearings.
 
     Returns
     -------
@@ -43,7 +47,8 @@ def evaluate(case: BearingCase, inputs: Mapping[str, Any]) -> xr.Dataset:
         the tables ``bearing``, ``lubricant`` and ``mechanics`` of summary.json by dotted key, NaN where a
         point has none, but not those with the key of an input. ``converged`` tells whether a point has a
         result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined by
-        "; ". Warnings about the pressure range of the laws of the oil are not among them.
+        "; ". Warnings about the pressure range of the laws of the oil are not among them. Variables of a
+        drive begin with the end of their bearing, as in ``drive_end.bearing.capacitance``.
 
     Raises
     ------
@@ -74,8 +79,44 @@ def evaluate(case: BearingCase, inputs: Mapping[str, Any]) -> xr.Dataset:
     for key, length in others:
         if length != number:
             raise InputError(key, got=f"{length} values", takes=f"{number}, as many as {first}")
+    if isinstance(case, DriveCase):
+        return _of_drive(case, given, number)
     columns, found = _columns(_quick(case), given, number)
     return _dataset(case, columns, found)
+
+
+# Keys of a drive that stand for one of both of its bearings.
+_OF_BEARINGS = {"drive.speed": "bearing.inner_speed", "drive.temperature": "bearing.temperature"}
+
+
+def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Dataset:
+    """Dataset of both bearings of a drive, whose variables begin with the end of their bearing."""
+    import xarray as xr
+
+    parts: list[xr.Dataset] = []
+    found: dict[str, Any] = {}
+    for end, bearing in zip(ENDS, case.bearings, strict=True):
+        own = {key: _key_of_end(key, end) for key in given}
+        inputs = {name: given[key] for key, name in own.items() if name is not None}
+        # A bearing without inputs of its own is the same at every point.
+        speed = {"bearing.inner_speed": np.full(number, bearing.bearing.inner_speed)}
+        columns, values = _columns(_quick(bearing), inputs or speed, number)
+        found |= {key: values[name] for key, name in own.items() if name is not None}
+        part = _dataset(bearing, columns, values).drop_vars(list(values))
+        parts.append(part.rename_vars({name: f"{end}.{name}" for name in part.data_vars}))
+    coordinates = {key: ("point", values) for key, values in found.items()}
+    attributes = parts[0].attrs | {"title": case.title or "Drive at many points", "case": case.to_toml()}
+    return xr.merge(parts, combine_attrs="drop").assign_coords(coordinates).assign_attrs(attributes)
+
+
+def _key_of_end(key: str, end: str) -> str | None:
+    """Key of a bearing file that a key of a drive stands for at one of its ends; None for the other end."""
+    name = _OF_BEARINGS.get(key, key)
+    of, own = end_and_key(name)
+    if name == key and not of:
+        takes = "drive.speed, drive.temperature, or a key of drive_end, non_drive_end or bearings"
+        raise InputError(key, got="a key of the drive itself", takes=takes)
+    return own if of in ("", BOTH, end) else None
 
 
 def _values(key: str, values: Any) -> Any:
@@ -90,7 +131,7 @@ def _values(key: str, values: Any) -> Any:
 def _quick(case: BearingCase) -> BearingCase:
     """Case whose contacts are not solved; an InputError where the bearing needs solved ones."""
     if not isinstance(case, BearingCase):
-        raise InputError("case", got=type(case).__name__, takes="a BearingCase")
+        raise InputError("case", got=type(case).__name__, takes="a BearingCase or a DriveCase")
     quick, refused = quick_case(case)
     if quick is None or refused is not None:
         assert refused is not None

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric import BearingCase, InputError, evaluate, solve_bearing
+import ehlectric
+from ehlectric import BearingCase, DriveCase, InputError, evaluate, solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.changes import flattened
 from ehlectric.runtime.values import is_number
@@ -129,3 +130,22 @@ def test_ceramic_elements_have_no_breakdown():
 def test_wrong_arrays_are_refused(given, text):
     with pytest.raises(InputError, match=text):
         evaluate(bearing(), given)
+
+
+def test_both_bearings_of_a_drive_are_evaluated():
+    """Each is the bearing of the drive alone, at the speed and the temperature of the drive."""
+    drive = DriveCase.from_toml(ehlectric.example("drive"))
+    given = {
+        "drive.speed": ["1000 rpm", "2000 rpm"],
+        "non_drive_end.bearing.radial_load": ["300 N", "600 N"],
+        "bearings.bearing.composite_rq": ["0.05 um", "0.04 um"],
+    }
+    found = evaluate(drive, given)
+    for k in range(2):
+        own = drive.replace({key: values[k] for key, values in given.items()})
+        for end, case in zip(("drive_end", "non_drive_end"), own.bearings, strict=True):
+            alone = solve_bearing(case.replace({"contacts": "atlas"}), workers=1).capacitance()
+            assert found[f"{end}.bearing.capacitance"].values[k] == pytest.approx(alone, rel=1e-8)
+            assert found[f"{end}.converged"].values[k]
+    with pytest.raises(InputError, match="a key of the drive itself"):
+        evaluate(drive, {"source.dc_link_voltage": ["500 V"]})
