@@ -88,17 +88,19 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
 
 def contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
     """Codes of warnings of quick contacts of many points, and which points have them, shape (...): contacts
-    outside the atlas, and pressures that deform steel.
+    outside the atlas, pressures that deform steel, and laws of the oil beyond their range.
 
     The texts of a single bearing name the contacts; see ``contact_warnings``.
     """
     permanent = PERMANENT["line" if solution.case.bearing.kind == ROLLERS else "point"]
-    for curve in solution.curves:
+    for ring, curve in zip((solution.inner, solution.outer), solution.curves, strict=True):
         if curve.left is not None:
             heavy, left = curve.counted.used, curve.left & curve.used
             yield "atlas-left", np.any(left & heavy, axis=-1)
             yield "atlas-left-light", np.any(left & ~heavy, axis=-1)
-        yield "plastic-deformation", np.max(curve.values.max_pressure, axis=-1) > permanent
+        pressure = np.max(curve.values.max_pressure, axis=-1)
+        yield "plastic-deformation", pressure > permanent
+        yield from ring.oil.codes(pressure)
 
 
 def film_flags(solution: BearingSolution) -> Iterator[Flag]:

@@ -74,13 +74,11 @@ def oil_at(oil: Properties, temperature: Numbers | None, key: str) -> Oil:
         conductivity = conductivity_at(oil, temperature, laws.get("conductivity_law"))
         # A law that has no value at the temperature says so here, with the key of the temperature.
         first = [laws[name](np.zeros(()))[1] for name in ("viscosity_law", "density_law")]
-        checks: tuple[Estimate | RangeCheck | None, ...] = ()
+        ranges = (range_check(oil, key, temperature, viscosity) for key in names)
+        checks: tuple[Estimate | RangeCheck | None, ...] = (estimated_alpha(oil, temperature), *ranges)
         if many:
             values = (viscosity, permittivity, 0.0 if conductivity is None else conductivity, *first)
             viscosity = as_float(np.where(np.isfinite(sum(values)), viscosity, math.nan))
-        else:
-            ranges = (range_check(oil, key, temperature, viscosity) for key in names)
-            checks = (estimated_alpha(oil, temperature), *ranges)
         return Oil(
             viscosity=viscosity,
             relative_permittivity=permittivity,
@@ -324,7 +322,9 @@ def permittivity_at(oil: Properties, temperature: Numbers | None) -> Numbers:
     return as_float(over_points(law.function)(ratio, temperature, **_given(oil, law)))
 
 
-def range_check(oil: Properties, key: str, temperature: float | None, viscosity: float) -> RangeCheck | None:
+def range_check(
+    oil: Properties, key: str, temperature: Numbers | None, viscosity: Numbers
+) -> RangeCheck | None:
     """Check of the range of a law, for a key of ``LAWS``; None if the law has no range."""
     name = oil.law(key)
     assert name is not None

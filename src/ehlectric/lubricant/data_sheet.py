@@ -180,6 +180,10 @@ class Estimate:
         alpha, percent = 1e9 * self.value, 100.0 * self.scatter
         yield ResultWarning.of("estimated-alpha", alpha=alpha, base_oil=self.base_oil, percent=percent)
 
+    def codes(self, max_pressure: Array) -> Iterator[tuple[int, str]]:
+        """The same for many points with Hertz pressures [Pa], shape (n,): their places and its code."""
+        yield from ((place, "estimated-alpha") for place in range(max_pressure.size))
+
 
 def so_klaus(kinematic_viscosity: Numbers, slope: Numbers, density: Numbers) -> Numbers:
     """Pressure-viscosity coefficient of a mineral oil after So and Klaus.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,19 +66,50 @@ class OfDensity:
         return self.law(density_ratio)
 
 
+class LawCheck(Protocol):
+    """Check of a law in contacts."""
+
+    def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:
+        """Warnings about the law in a contact with this Hertz pressure [Pa]."""
+
+    def codes(self, max_pressure: Array) -> Iterator[tuple[int, str]]:
+        """Places of many points and the codes of their warnings, at Hertz pressures [Pa], shape (n,)."""
+
+
 @dataclass(frozen=True)
 class RangeCheck:
     """Check of a law's range in a contact, with the parameters of an oil."""
 
     function: Callable[..., Iterator[ResultWarning]]
-    viscosity: float  # viscosity of the oil at zero pressure [Pa s]
-    parameters: Mapping[str, float]  # values of the parameters by name, SI units
-    temperature: float | None = None  # temperature of the oil [K]; None if the case gives none
+    viscosity: Numbers  # viscosity of the oil at zero pressure [Pa s]
+    parameters: Mapping[str, Numbers]  # values of the parameters by name, SI units
+    temperature: Numbers | None = None  # temperature of the oil [K]; None if the case gives none
     of: str = ""  # what the law describes, one of ``LAW_NAMES``
 
     def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:
         """Warnings about the law in a contact with this Hertz pressure [Pa]."""
         yield from self.function(max_pressure, self.viscosity, self.temperature, **self.parameters)
+
+    def codes(self, max_pressure: Array) -> Iterator[tuple[int, str]]:
+        """Places of many points and the codes of their warnings, at their Hertz pressures [Pa], shape (n,).
+
+        The functions make texts of one point; a call for each point takes some microseconds.
+        """
+
+        def column(values: Numbers | None) -> list[Any]:
+            if values is None:
+                return [None] * max_pressure.size
+            row: list[Any] = np.broadcast_to(values, max_pressure.shape).tolist()
+            return row
+
+        names, columns = list(self.parameters), [column(values) for values in self.parameters.values()]
+        points = zip(
+            max_pressure.tolist(), column(self.viscosity), column(self.temperature), *columns, strict=True
+        )
+        for place, (pressure, viscosity, temperature, *values) in enumerate(points):
+            parameters = dict(zip(names, values, strict=True))
+            for warning in self.function(pressure, viscosity, temperature, **parameters):
+                yield place, warning.code
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +118,7 @@ class Oil:
 
     Numbers of the oil are floats, or arrays of shape (n,) of n points; those that do not differ between
     points may stay floats. The points are the last axis of the pressures and density ratios that the laws of
-    many points take. A point at which the oil has no value has NaN for its viscosity and its laws, and
-    ``checks`` are empty for many points, as warnings are texts about one.
+    many points take. A point at which the oil has no value has NaN for its viscosity and its laws.
 
     Examples
     --------
@@ -114,7 +144,7 @@ class Oil:
     # Names of the laws by "viscosity", "density", "permittivity" and others that the oil has.
     laws: Mapping[str, str] = field(default_factory=dict)
     # Checks of the laws' ranges: each yields warnings about a contact with a Hertz pressure [Pa].
-    checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
+    checks: tuple[LawCheck, ...] = ()
     # Checks that yield warnings about a solved film with a maximum pressure [Pa].
     film_checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
     # Keys of the case from which the oil is made, SI units, for files.
@@ -146,6 +176,18 @@ class Oil:
             yield from check(max_pressure)
         if unfinished_share(self.log_viscosity) > _UNFINISHED:
             yield ResultWarning.of("law-range", "no_alpha_star", law=self.laws.get("viscosity", ""))
+
+    def codes(self, max_pressure: Array) -> Iterator[tuple[str, Mask]]:
+        """Codes of the warnings about the laws at many points, and which points have them, shape (n,).
+
+        ``max_pressure``, Hertz pressures of the points [Pa], shape (n,).
+        """
+        for check in self.checks:
+            found: dict[str, Mask] = {}
+            for place, code in check.codes(max_pressure):
+                found.setdefault(code, np.zeros(max_pressure.shape, dtype=bool))[place] = True
+            yield from found.items()
+        yield "law-range", np.asarray(unfinished_share(self.log_viscosity) > _UNFINISHED)
 
     @cached_property
     def alpha(self) -> Numbers:

@@ -47,8 +47,8 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dat
         the tables ``bearing``, ``lubricant`` and ``mechanics`` of summary.json by dotted key, NaN where a
         point has none, but not those with the key of an input. ``converged`` tells whether a point has a
         result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined by
-        "; ". Warnings about the pressure range of the laws of the oil are not among them. Variables of a
-        drive begin with the end of their bearing, as in ``drive_end.bearing.capacitance``.
+        "; ". Variables of a drive begin with the end of their bearing, as in
+        ``drive_end.bearing.capacitance``.
 
     Raises
     ------

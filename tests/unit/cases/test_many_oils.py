@@ -12,6 +12,7 @@ from ehlectric.errors import InputError
 from ehlectric.lubricant.data_sheet import viscosity_at_100
 from ehlectric.lubricant.law import Law, Parameter
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from tests.helpers.each import each
 from tests.unit.lubricant.oils import (
     DOOLITTLE,
     LARSSON_C,
@@ -218,10 +219,16 @@ def test_equal_temperatures_are_asked_for_once():
     assert oil.at(temperatures) is not oil.at(temperatures.copy())
 
 
-def test_many_points_have_no_texts():
-    oil = named("iso-vg-46").at(np.array([300.0, 340.0]))
-    assert oil.checks == ()
-    assert oil.inputs == {}
+@each("oil", ["iso-vg-46", "fva-3", "e-axle-fluid"])
+def test_codes_of_many_points_are_those_of_each(oil):
+    temperatures, pressures = np.linspace(295.0, 380.0, 12), np.geomspace(1e8, 3e9, 12)
+    given = named(oil)
+    many = given.at(temperatures)
+    assert many.inputs == {}
+    found = dict(many.codes(pressures))
+    for k, (temperature, pressure) in enumerate(zip(temperatures, pressures, strict=True)):
+        alone = {warning.code for warning in given.at(float(temperature)).warnings(float(pressure))}
+        assert {code for code, mask in found.items() if mask[k]} == alone
 
 
 def by_floats(pressure, temperature=None, *, stiffness):
