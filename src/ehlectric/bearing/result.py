@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.bearing_touching import capacitive_speed
-from ehlectric.bearing.margin import MarginAnalysis, analyse_margin, bearing_verdict
+from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin, bearing_verdict
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.ring_contacts import check_contact
@@ -17,7 +17,7 @@ from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
-from ehlectric.bearing.uncertainty import Uncertainty, uncertainty_of_result
+from ehlectric.bearing.uncertainty import MarginBand, Uncertainty, margin_band, uncertainty_of_result
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
@@ -160,6 +160,16 @@ class BearingResult(Shown):
         It evaluates 2048 bearings with contacts from the atlas when it is first asked for: some two seconds.
         """
         return uncertainty_of_result(self.solution)
+
+    @cached_property
+    def margin_band(self) -> MarginBand | None:
+        """Margin over the speed within what is uncertain; None where there is no margin.
+
+        It evaluates 1536 bearings with contacts from the atlas when it is first asked for: some two seconds.
+        """
+        if self.uncertainty is None:
+            return None
+        return margin_band(self.solution, QuickMargins.of(self.solution))
 
     @cached_property
     def verdict(self) -> Verdict:

@@ -29,7 +29,7 @@ from ehlectric.bearing.speed_curves import (
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS
-from ehlectric.discharge.film_verdict import lead_of, ratio_text
+from ehlectric.discharge.film_verdict import chance_text, lead_of, ratio_text
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing_figures import (
     LEAST_VARIATION,
@@ -53,7 +53,7 @@ from ehlectric.figures.bearing_figures import (
 )
 from ehlectric.figures.breakdown_over_speed import breakdown_over_speed as draw_breakdown_over_speed
 from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as draw_capacitance_over_speed
-from ehlectric.figures.breakdown_over_speed import rpm_text
+from ehlectric.figures.breakdown_over_speed import margin_over_speed, rpm_text
 from ehlectric.figures.figure_names import in_formats, of_cut
 from ehlectric.figures.style import drawing_of, new_panels, save_each, share_below, style, titled
 from ehlectric.quantities.units import rpm
@@ -114,6 +114,17 @@ def impedance(result: BearingResult) -> str:
         return f"An element touches both rings {time_text(duty.touching_time_share)}: mean |Z| = {values}"
     value = prefixed(shaft_capacitance(result.solution), "F")
     return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
+
+
+def margin(result: BearingResult) -> str:
+    """Sentence: the probability of breakdown at the speed of the bearing, and the interval of its margin."""
+    assert result.uncertainty is not None
+    chance = result.uncertainty.chance
+    low, high = ratio_text(chance.low), ratio_text(chance.high)
+    return (
+        f"{chance.lead} at {rpm_text(result.case.bearing.inner_speed)}: probability "
+        f"{chance_text(chance.probability, chance.error)}, margin {low} to {high} in 90 of 100 cases"
+    )
 
 
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
@@ -241,6 +252,10 @@ def _breaks(result: BearingResult) -> bool:
     return result.breaks()["first_break"] is not None
 
 
+def _margin(result: BearingResult) -> tuple[Draw, ...]:
+    return () if result.uncertainty is None else (margin_over_speed,)
+
+
 # Functions of the panels and of the first line of the title, by the names of the files. A figure without
 # panels has nothing to show.
 FIGURES: Mapping[str, tuple[Callable[[BearingResult], tuple[Draw, ...]], Callable[[BearingResult], str]]] = {
@@ -248,6 +263,7 @@ FIGURES: Mapping[str, tuple[Callable[[BearingResult], tuple[Draw, ...]], Callabl
     "bearing_circuit.png": (_circuit, circuit),
     "bearing_pitch.png": (_pitch, pitch),
     "bearing_impedance.png": (_impedance, impedance),
+    "bearing_margin.png": (_margin, margin),
 }
 
 # Functions that draw a figure over the speed of the shaft, and give the first line of its title.

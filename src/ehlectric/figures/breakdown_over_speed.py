@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.speed_curves import (
     Curves,
     Speed,
@@ -17,9 +18,9 @@ from ehlectric.bearing.speed_curves import (
 )
 from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.figures.bearing_figures import label_ends, volts
-from ehlectric.figures.data import Panel
+from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
+from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, margin_panel, speed_axis
 from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
 from ehlectric.quantities import units
 from ehlectric.quantities.palette import GREY, ORANGE
@@ -54,6 +55,17 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
     _draw(breakdown_panel(points, curves, own), curves, ax)
     _name_critical(curves, ax)
     _own_margin(own, curves, ax)
+    return ax
+
+
+def margin_over_speed(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the margin of a bearing over its speed within what is uncertain: median, and 90 of 100 cases."""
+    ax, band, found = axes_or_new(ax), result.margin_band, result.margin
+    assert band is not None and found is not None
+    panel = margin_panel(band, (result.case.bearing.inner_speed, found))
+    draw_panel(panel, ax, Along("speed of the inner ring", "rpm", log=True))
+    label_ends(ax, [(float(line.y[-1]), line.name, line.colour) for line in panel.curves if line.name])
+    legend_above(ax, [area for area in ax.collections if not str(area.get_label()).startswith("_")])
     return ax
 
 

@@ -18,6 +18,7 @@ from ehlectric.bearing.speed_curves import (
     nearly_equal,
     value_of,
 )
+from ehlectric.bearing.uncertainty import MarginBand
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
@@ -83,6 +84,29 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely
         uprights=marked,
         log=is_wide(everything),
     )
+
+
+def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Panel:
+    """Margin over the speed within what is uncertain, and that of the bearing itself at its speed [rad/s]."""
+    rpm, ones = band.speed / RPM, np.ones_like(band.speed)
+    # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
+    least = 0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0))
+    low, median, high = (np.maximum(values, least) for values in (band.low, band.median, band.high))
+    drawn = [
+        Curve("margin 1", rpm, ones, MIDDLE_GREY, "dash"),
+        Curve("median", rpm, np.where(band.median > 0.0, median, np.nan), BLACK, width=1.4),
+    ]
+    if own is not None:
+        drawn.append(_mark(own[0], own[1], BLACK, "star"))
+    areas: tuple[Area, ...] = (
+        Area("90 of 100 cases", rpm, np.isfinite(high), BLUE, 0.2, (low, high)),
+        Area("breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, np.minimum(high, 1.0))),
+    )
+    touching = Area("surfaces touch in 5 of 100 cases or more", rpm, band.low == 0.0, MIDDLE_GREY, 0.2)
+    if np.any(touching.within):
+        areas = (*areas, touching)
+    top = 1.1 * float(np.max(high, initial=1.0))
+    return Panel("margin", "", drawn, top, least, areas=areas, log=True)
 
 
 def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:

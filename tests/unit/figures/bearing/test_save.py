@@ -37,7 +37,7 @@ from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.titles import title_of
 
-LOADS, CIRCUIT, PITCH, IMPEDANCE = BEARING_FIGURE_FILES
+LOADS, CIRCUIT, PITCH, IMPEDANCE, MARGIN = BEARING_FIGURE_FILES
 
 TABLE = {
     "title": "By hand",
@@ -310,19 +310,37 @@ def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
 @each(
     "changes, figures, panels",
     [
-        ({}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
+        ({}, (LOADS, CIRCUIT, IMPEDANCE, MARGIN), (2, 2, 1, 1)),
         ({"motor": None}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
         ({"discharge": None}, (LOADS, CIRCUIT), (2, 1)),
         ({"film": 0.02e-6}, (LOADS, CIRCUIT), (2, 1)),
         ({"bearing": {"element_material": "silicon-nitride"}}, (LOADS,), (2,)),
         # A conductive oil: its corner at 7.5 kHz is in the range, and the phase is no number there.
-        ({"discharge": {"conductivity": "1 uS/m"}}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 2)),
+        ({"discharge": {"conductivity": "1 uS/m"}}, (LOADS, CIRCUIT, IMPEDANCE, MARGIN), (2, 2, 2, 1)),
     ],
 )
 def test_what_has_no_meaning_is_not_drawn(changes, figures, panels):
     found = bearing_figures_of(by_hand(positions=1, **changes))
     assert tuple(found) == figures
     assert tuple(len(draws) for draws in found.values()) == panels
+
+
+def test_the_margin_over_the_speed_has_its_band_and_the_bearing_itself():
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"})
+    result = solve_bearing(case, workers=1)
+    ax = bearing_speed_plot.margin_over_speed(result)
+    band, lines = result.margin_band, [line.get_xydata() for line in ax.get_lines()]
+    (star,) = (line for line in lines if len(line) == 1)
+    assert star[0].tolist() == pytest.approx([case.bearing.inner_speed * RPM, result.margin])
+    (median,) = (line for line in lines if len(line) == band.speed.size and not np.all(line[:, 1] == 1.0))
+    np.testing.assert_allclose(median, np.stack([band.speed * RPM, band.median], axis=-1))
+    ends = ax.collections[0].get_paths()[0].vertices[:, 1]
+    # The axis ends at half of the least median.
+    least = max(band.low.min(), 0.5 * band.median.min())
+    assert (ends.min(), ends.max()) == pytest.approx((least, band.high.max()), rel=1e-6)
+    finding = title_of(figure(result, MARGIN)).replace("\n", " ")
+    assert "probability" in finding
+    assert "90 of 100 cases" in finding
 
 
 def test_a_bearing_without_motor_has_no_shaft_voltage():
