@@ -338,7 +338,7 @@ def test_the_margin_over_the_speed_has_its_band_and_the_bearing_itself():
     # The axis ends at half of the least median.
     least = max(band.low.min(), 0.5 * band.median.min())
     assert (ends.min(), ends.max()) == pytest.approx((least, band.high.max()), rel=1e-6)
-    finding = title_of(figure(result, MARGIN)).replace("\n", " ")
+    finding = " ".join(title_of(figure(result, MARGIN)))
     assert "probability" in finding
     assert "90 of 100 cases" in finding
 
