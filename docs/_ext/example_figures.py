@@ -25,6 +25,7 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("bearing", "bearing_6208.toml", "--contacts", "formula", *_MEASURED),
         ("measured_and_computed.png",),
     ),
+    "duty_wltc": (("bearing", "duty_wltc.toml"), ("bearing_duty.png",)),
     "drive": (
         ("drive", "drive.toml"),
         (

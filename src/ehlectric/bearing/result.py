@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.bearing_touching import capacitive_speed
+from ehlectric.bearing.duty_cycle import DutyResult, check_duty, run_duty
 from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin, bearing_verdict
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.quick_contacts import heat_by_formula
@@ -21,7 +22,7 @@ from ehlectric.bearing.uncertainty import MarginBand, Uncertainty, margin_band, 
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, ResultWarning, shown, texts_and_codes
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
@@ -46,6 +47,8 @@ class BearingResult(Shown):
     ----------
     solution : BearingSolution
         Loads, films, fields and circuits.
+    stored_duty : DutyResult, optional
+        Result of the duty cycle that was stored with the solution.
 
     Examples
     --------
@@ -67,6 +70,7 @@ class BearingResult(Shown):
     """
 
     solution: BearingSolution
+    stored_duty: DutyResult | None = field(default=None, compare=False)
 
     @property
     def case(self) -> BearingCase:
@@ -186,6 +190,15 @@ class BearingResult(Shown):
         """
         return capacitive_speed(self.solution)
 
+    @cached_property
+    def duty(self) -> DutyResult | None:
+        """Result of the duty cycle of the case, lubrication and margins over time; None without one.
+
+        It is computed when it is first asked for, at a millisecond for each operating point. Raises an
+        InputError where the file of the cycle cannot be used.
+        """
+        return run_duty(self.case) if self.stored_duty is None else self.stored_duty
+
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
         verdict, analysis = self.verdict, self.margin_analysis
@@ -199,6 +212,10 @@ class BearingResult(Shown):
             summary[key] = value
             if key == "warning_codes":
                 summary["verdict"] = verdict.text
+            if key == "mechanics" and self.duty is not None:
+                summary["duty"] = plain(self.duty.summary())
+        if self.duty is not None:
+            summary |= texts_and_codes((*self.warnings, *self.duty.warnings))
         return summary
 
     def to_xarray(self) -> xr.Dataset:
@@ -209,7 +226,7 @@ class BearingResult(Shown):
         xarray.Dataset
             Variables in SI units, the same as bearing.nc; the case is an attribute, as TOML.
         """
-        return dataset_of(self.solution)
+        return dataset_of(self.solution, self.duty)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Contacts as a table of pandas, a row per element and ring, with the cage at its first position.
@@ -297,8 +314,10 @@ def solve_bearing(
 
 def check_bearing(case: BearingCase) -> None:
     """Refuse a bearing that cannot be solved, before a folder is made for its results. Raises InputError as
-    ``solve_bearing`` does, for the most loaded contacts at the first position of the cage.
+    ``solve_bearing`` does, for the most loaded contacts at the first position of the cage, and where the file
+    of a duty cycle cannot be used.
     """
+    check_duty(case)
     prepared = prepare_bearing(heat_by_formula(case), 1)
     for ring in prepared.rings:
         contact = kind_of(ring).contact(ring, largest_load(prepared, ring))

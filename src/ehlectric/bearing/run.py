@@ -1,4 +1,4 @@
-"""Run of a bearing and the files of its result: summary.json, contacts.csv, impedance.csv and bearing.nc."""
+"""Run of a bearing and the files of its result: summary.json, bearing.nc and tables as CSV."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ehlectric.bearing.duty_cycle import DUTY_CSV
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, check_bearing, contact_units, solve_bearing
-from ehlectric.bearing.stored import SCHEMA, solution_of
+from ehlectric.bearing.stored import SCHEMA, duty_of, solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 SUMMARY, CONTACTS, IMPEDANCE, NETCDF = "summary.json", "contacts.csv", "impedance.csv", "bearing.nc"
-FILES = (SUMMARY, CONTACTS, IMPEDANCE, NETCDF)
+FILES = (SUMMARY, CONTACTS, IMPEDANCE, DUTY_CSV, NETCDF)
 
 
 def run(
@@ -32,7 +33,7 @@ def run(
     others: Sequence[str] = (),
     further: Mapping[str, Content] | None = None,
 ) -> RunOutcome[BearingResult]:
-    """Solve a whole bearing, and write summary.json, contacts.csv, impedance.csv and bearing.nc.
+    """Solve a whole bearing, and write summary.json, contacts.csv, impedance.csv, duty.csv and bearing.nc.
 
     Files of an earlier result in the folder are removed when the bearing is solved, also the ``others``, such
     as figures. The outcome has a ``failure`` where a contact is not converged; its files are written all the
@@ -59,7 +60,8 @@ def run(
         result = solve_bearing(case, progress=progress, workers=workers)
         files = save(result, folder, replaced=names, further=further)
     failure = None if result.converged else "not converged: a contact of the bearing"
-    return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)
+    warnings = (*result.warnings, *(() if result.duty is None else result.duty.warnings))
+    return RunOutcome(result, result.summary(), tuple(files), warnings, failure)
 
 
 def save(
@@ -69,9 +71,10 @@ def save(
     replaced: Sequence[str] = (),
     further: Mapping[str, Content] | None = None,
 ) -> list[Path]:
-    """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv, all or none.
+    """Save the result of a bearing: summary.json, bearing.nc and tables as CSV, all or none.
 
-    The file impedance.csv is written only if the bearing has an impedance. Further files are written together
+    The file impedance.csv is written only if the bearing has an impedance, and duty.csv only if it has a duty
+    cycle. Further files are written together
     with these, and those of the names ``replaced`` are removed. Raises an InputError where the folder cannot
     be used.
     """
@@ -91,6 +94,8 @@ def save(
             units |= {"mean_magnitude": "ohm", "mean_phase_degrees": "deg"}
         heads = [column_head(*one) for one in units.items()]
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
+    if result.duty is not None:
+        contents |= result.duty.contents()
     contents[NETCDF] = content_of(result.to_xarray())
     contents |= further or {}
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
@@ -104,4 +109,4 @@ def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
     """
     check_format(dataset.attrs, SCHEMA, path, "the result of a bearing")
     with refusing(path):
-        return BearingResult(solution_of(dataset))
+        return BearingResult(solution_of(dataset), duty_of(dataset))

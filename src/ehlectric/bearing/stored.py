@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
+from ehlectric.bearing.duty_cycle import STATES, DutyResult, DutyRows, Stretch
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium
 from ehlectric.bearing.loads.geometry import Speeds
 from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
@@ -21,7 +22,15 @@ from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.runtime.file_rules import VALUES, Rule, UnfitError, case_of, number_of, text_of
-from ehlectric.runtime.stored import Part, check_parts, values_of, warnings_in_tables
+from ehlectric.runtime.stored import (
+    Part,
+    check_parts,
+    numbers_of,
+    read_many_numbers,
+    read_numbers,
+    values_of,
+    warnings_in_tables,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +43,10 @@ RINGS = ("inner", "outer")
 # Attribute with the solved factors of the heat of both rings, where a case has them solved, and attributes
 # with the friction of their most loaded contacts.
 _HEAT, _FRICTIONS = "heat_factor", Part(ContactFriction, ("ring",), "solved_")
+
+# Rows of a duty cycle, and attributes with its numbers and its worst stretches.
+_DUTY = Part(DutyRows, prefix="duty_")
+_DUTY_NUMBERS, _DUTY_STRETCHES, _DUTY_WARNINGS = "duty", "duty_stretches", "duty_warnings"
 
 # Contacts of all elements, and what these contacts are made of: solved contacts of each ring over the load.
 _OVER = ("cage_position", "ring", "element")
@@ -57,10 +70,12 @@ _EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
 _OF_EQUILIBRIA = ((), ("element",), ("slice",), ("element", "slice"))
 
 
-def dataset_of(solution: BearingSolution) -> xr.Dataset:
-    """Dataset of a solved bearing over loads, cage positions, rings and elements, SI units.
+def dataset_of(solution: BearingSolution, duty: DutyResult | None = None) -> xr.Dataset:
+    """Dataset of a solved bearing over loads, cage positions, rings and elements, and of the rows of its duty
+    cycle, SI units.
 
-    Its attributes hold the case, so that ``solution_of`` returns an equal solution.
+    Its attributes hold the case, so that ``solution_of`` returns an equal solution, and ``duty_of`` an equal
+    duty cycle.
     """
     import xarray as xr
 
@@ -72,6 +87,8 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
     variables |= _STATES.written(states)
     variables |= _VALUES.written([[ring.values for ring in rings] for rings in states])
     variables |= _equilibrium_variables([position.equilibrium for position in solution.positions])
+    if duty is not None:
+        variables |= _DUTY.written(duty.rows)
     rings, shape = (solution.inner, solution.outer), solution.positions[0].shape
     return xr.Dataset(
         variables,
@@ -83,6 +100,7 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
             "seconds": solution.seconds,
             "equilibrium": type(solution.positions[0].equilibrium).__name__,
             **_solved_heat(solution),
+            **({} if duty is None else _duty_attributes(duty)),
             "weibull_shape": "" if shape is None else repr(shape),
             "contact_angle": [ring.angle for ring in rings],
             "entrainment_speed": [ring.speed for ring in rings],
@@ -90,6 +108,34 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
                 [[texts_and_codes(one.warnings) for one in curve.solutions] for curve in solution.curves]
             ),
         },
+    )
+
+
+def _duty_attributes(duty: DutyResult) -> dict[str, str]:
+    """Attributes with the numbers, the worst stretches and the warnings of a duty cycle."""
+    return {
+        _DUTY_NUMBERS: numbers_of(duty),
+        _DUTY_STRETCHES: json.dumps([json.loads(numbers_of(one)) for one in duty.stretches]),
+        _DUTY_WARNINGS: json.dumps(texts_and_codes(duty.warnings)),
+    }
+
+
+def duty_of(dataset: xr.Dataset) -> DutyResult | None:
+    """Result of the duty cycle in a dataset that ``dataset_of`` made; None without one. Raises UnfitError
+    where a variable or an attribute is missing, or is not as it was written.
+    """
+    attributes = dataset.attrs
+    if _DUTY_NUMBERS not in attributes:
+        return None
+    check_parts(dataset, [_DUTY])
+    rows = DutyRows(**_DUTY.read(values_of(dataset)))
+    if np.any(rows.state >= len(STATES)):
+        raise UnfitError("duty_state is no state")
+    return DutyResult(
+        rows=rows,
+        stretches=tuple(Stretch(**one) for one in read_many_numbers(Stretch, attributes, _DUTY_STRETCHES)),
+        **read_numbers(DutyResult, attributes, _DUTY_NUMBERS),
+        warnings=warnings_in_tables(attributes, depth=0, name=_DUTY_WARNINGS),
     )
 
 

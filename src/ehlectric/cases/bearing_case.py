@@ -28,11 +28,13 @@ from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
+from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.library.bearing_catalogue import with_class
 from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
 from ehlectric.cases.table import (
     CaseFile,
@@ -54,7 +56,7 @@ from ehlectric.quantities.units import rpm
 from ehlectric.runtime.values import headline, is_number
 
 # Tables and keys of a bearing file that a case of a contact does not have.
-_TABLES = ("motor", "contacts", "ranges")
+_TABLES = ("motor", "contacts", "ranges", "duty")
 
 
 def bearing_key(table: Mapping[str, Any]) -> str | None:
@@ -218,6 +220,7 @@ class _Tables(TypedDict, total=False):
     motor: Motor | Keys | None
     solver: Solver | Keys | None
     ranges: Keys | None
+    duty: Duty | Keys | None
 
 
 class _BearingCaseKeys(_Tables, BearingKeys, total=False):
@@ -241,7 +244,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         Title of tables and figures.
     contacts : str, optional
         "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
-    discharge, motor, solver, ranges : mapping, optional
+    discharge, motor, solver, ranges, duty : mapping, optional
         Further tables, as in a bearing file.
     """
 
@@ -258,6 +261,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             motor: Motor | Keys | None = ...,
             solver: Solver | Keys = ...,
             ranges: Keys | None = ...,
+            duty: Duty | Keys | None = ...,
         ) -> None: ...
 
     title: Title = ""
@@ -268,6 +272,7 @@ class BearingCase(CaseFile, book="bearing_file"):
     motor: Motor | None = None
     solver: Solver = Solver()
     ranges: tuple[InputRange, ...] | None = None
+    duty: Duty | None = None
 
     @classmethod
     def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:
@@ -455,12 +460,13 @@ class BearingCase(CaseFile, book="bearing_file"):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Read a bearing case from a TOML file."""
+        """Read a bearing case from a TOML file; files that it names are looked for beside it."""
         table = read_toml(path)
         if "contact" in table and "bearing" not in table:
             raise InputError(
                 path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
             )
+        find_files(table, Path(path).parent)
         return cls.from_written(table)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:

@@ -179,7 +179,9 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
-    """Bearing with changes, without the motor of its own file and what belongs to it."""
+    """Bearing with changes, without the duty cycle and the motor of its own file, and what belongs to it."""
+    if bearing.duty is not None:
+        bearing = bearing.model_copy(update={"duty": None})
     if bearing.motor is not None:
         table = {key: part for key, part in bearing.to_dict().items() if key not in ("motor", "ranges")}
         table["discharge"].pop("pit", None)

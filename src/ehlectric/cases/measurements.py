@@ -1,5 +1,5 @@
-"""Measurements beside a case: columns with units, and rows of a text file or a table of pandas, in SI
-units.
+"""Measurements and duty cycles beside a case: columns with units, and rows of a text file or a table of
+pandas, in SI units.
 """
 
 from __future__ import annotations
@@ -7,8 +7,8 @@ from __future__ import annotations
 import codecs
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -32,22 +32,46 @@ class Measurable(Amount):
 
     usual: str = ""  # unit that stands for the quantity in the advice of an error
     names: tuple[str, ...] = ()  # further names that people write over a column, in small letters
+    key: str = ""  # dotted key of the input in whose place it stands; empty without one
 
 
-# Quantities of a measurement by the names of their columns in the program.
-COLUMNS: Mapping[str, Measurable] = MappingProxyType(
-    {
-        name: Measurable(**{**column, "names": tuple(column.get("names", ()))})
-        for name, column in data_file("ehlectric.quantities", "measured_columns.toml")["measured"].items()
-    }
+@dataclass(frozen=True)
+class ColumnBook:
+    """Quantities that the columns of a kind of file may have."""
+
+    columns: Mapping[str, Measurable]  # by the names of the columns in the program
+    examples: str  # heads that an error names as examples
+    most_rows: int  # largest number of rows
+
+    @classmethod
+    def of(cls, table: str, examples: str, most_rows: int) -> ColumnBook:
+        """Book of a table of measured_columns.toml."""
+        entries = data_file("ehlectric.quantities", "measured_columns.toml")[table].items()
+        columns = {
+            name: Measurable(**{**column, "names": tuple(column.get("names", ()))})
+            for name, column in entries
+        }
+        return cls(MappingProxyType(columns), examples, most_rows)
+
+    @cached_property
+    def names(self) -> Mapping[str, str]:
+        """Quantities by the names over a column, in small letters and with spaces."""
+        return {
+            name: key for key, one in self.columns.items() for name in (key.replace("_", " "), *one.names)
+        }
+
+
+# Largest numbers of rows of a measurement and of a duty cycle: 28 hours at a row a second.
+MOST_ROWS, MOST_ROWS_OF_CYCLE = 20_000, 100_000
+
+MEASURED = ColumnBook.of(
+    "measured",
+    "'speed [rpm]' and 'capacitance [pF]', or 'entrainment speed [m/s]' and 'film [nm]'",
+    MOST_ROWS,
 )
+CYCLE = ColumnBook.of("duty", "'time [s]', 'speed [rpm]' and 'radial load [N]'", MOST_ROWS_OF_CYCLE)
 
-# Quantities by the names over a column, in small letters and with spaces.
-_NAMES = {name: key for key, one in COLUMNS.items() for name in (key.replace("_", " "), *one.names)}
 _UNCERTAINTY = "uncertainty"
-
-# Heads that an error names as examples.
-EXAMPLES = "'speed [rpm]' and 'capacitance [pF]', or 'entrainment speed [m/s]' and 'film [nm]'"
 
 # Longest head of a column [characters].
 _LONGEST = 200
@@ -57,12 +81,12 @@ _LONGEST = 200
 class Column:
     """Column of a measurement, by its head."""
 
-    # Name of the quantity, one of ``COLUMNS``; of an uncertainty that of the quantity, or "" for the measured
-    # one.
+    # Name of the quantity in its book; of an uncertainty that of the quantity, or "" for the measured one.
     name: str
     head: str
     unit: str  # unit in the head; "%" of a relative uncertainty
     uncertainty: bool = False  # whether the column has standard uncertainties
+    book: ColumnBook = field(default=MEASURED, repr=False)
 
     def factor(self) -> float:
         """Factor from the unit of the column to the SI unit; 0.01 for per cent. Raises ValueError if the unit
@@ -70,7 +94,7 @@ class Column:
         """
         if self.unit == "%":
             return 0.01
-        return _factor(_plain(self.unit), COLUMNS[self.name].unit)
+        return _factor(_plain(self.unit), self.book.columns[self.name].unit)
 
     def value(self, number: float) -> float:
         """Value in SI units of a number in the unit of the column; an uncertainty stays a difference. Raises
@@ -80,7 +104,7 @@ class Column:
             if not 0.0 < (value := number * self.factor()) < math.inf:
                 raise ValueError("an uncertainty above 0")
             return value
-        bounds = COLUMNS[self.name]
+        bounds = self.book.columns[self.name]
         value = units.absolute(number, self.unit) if bounds.unit == "K" else number * self.factor()
         if not bounds.allow(value):
             least = f"above {bounds.above:g}" if math.isfinite(bounds.above) else f"at least {bounds.least:g}"
@@ -95,7 +119,7 @@ def _factor(written: str, unit: str) -> float:
     return units.factor(written, unit)
 
 
-def column_of(head: str) -> Column | None:
+def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     """Column by its head, such as "speed [rpm]" or "capacitance (pF)"; None for an unknown quantity. Returns
     column of a known quantity or of its uncertainty. Raises InputError if the quantity is known, but its unit
     is missing or is not one of the quantity.
@@ -116,17 +140,17 @@ def column_of(head: str) -> Column | None:
     bare = " ".join(name.lower().replace("_", " ").split())
     uncertain = _UNCERTAINTY in bare
     words = bare.replace(_UNCERTAINTY + " of", "").replace(_UNCERTAINTY, "").strip()
-    if words not in _NAMES and not (uncertain and not words):
+    if words not in book.names and not (uncertain and not words):
         return None
-    known = _NAMES.get(words, "")
+    known = book.names.get(words, "")
     if unit is None:
-        usual = "%" if uncertain else COLUMNS[known].usual
+        usual = "%" if uncertain else book.columns[known].usual
         raise InputError(
             f"column {shown(text)}", "has no unit", takes=f"a unit in brackets, as '{name} [{usual}]'"
         )
     if uncertain:
-        return Column(known, text, unit, uncertainty=True)
-    return _checked(known, text, unit)
+        return Column(known, text, unit, uncertainty=True, book=book)
+    return _checked(known, text, unit, book)
 
 
 def _parts(text: str) -> tuple[str, str | None]:
@@ -138,13 +162,13 @@ def _parts(text: str) -> tuple[str, str | None]:
     return text, None
 
 
-def _checked(name: str, head: str, unit: str) -> Column:
-    """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed."""
-    reasons = []
-    for candidate in (name, "entrainment_speed") if name == "speed" else (name,):
-        column = Column(candidate, head, unit)
+def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
+    """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed if that is known."""
+    reasons, other = [], "entrainment_speed"
+    for candidate in (name, other) if name == "speed" and other in book.columns else (name,):
+        column = Column(candidate, head, unit, book=book)
         try:
-            if COLUMNS[candidate].unit == "K":
+            if book.columns[candidate].unit == "K":
                 units.absolute(0.0, unit)
             else:
                 column.factor()
@@ -155,7 +179,7 @@ def _checked(name: str, head: str, unit: str) -> Column:
     raise InputError(
         f"column {shown(head)}",
         f"has the unit {shown(unit)} ({short(reasons[0])})",
-        takes=COLUMNS[name].usual,
+        takes=book.columns[name].usual,
     )
 
 
@@ -247,8 +271,8 @@ def _stated(value: Array, stated: Array | None, relative: float | None) -> Array
     return None if relative is None else relative * value
 
 
-# Largest size of a file [bytes], and largest numbers of rows, of lines above the heads, and of columns.
-_MOST_BYTES, MOST_ROWS, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 20_000, 500, 200
+# Largest size of a file [bytes], and largest numbers of lines above the heads, and of columns.
+_MOST_BYTES, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 500, 200
 
 # Letters of a number, and its largest length [characters].
 _OF_NUMBERS, _LONGEST_TEXT = frozenset("0123456789+-.,eE"), 40
@@ -262,7 +286,7 @@ class Measurement:
 
     source: str  # path of the file, or "table" for a table of pandas
     lines: tuple[int, ...]  # line of each row in the file, from 1; of a table its rows, from 1
-    values: Mapping[str, Array]  # quantities of the rows by name, as ``COLUMNS`` has them, shape (n,)
+    values: Mapping[str, Array]  # quantities of the rows by name, as their book has them, shape (n,)
     # Standard uncertainties of the quantities, in the same units; relative ones are multiplied out,
     # shape (n,).
     uncertainties: Mapping[str, Array]
@@ -286,13 +310,14 @@ class _Rows:
     decimal: str
 
 
-def read_measurement(measured: str | Path | pd.DataFrame) -> Measurement:
+def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEASURED) -> Measurement:
     """Read a measurement from a text file or a table of pandas.
 
     ``measured``, text file with separators ``,``, ``;`` or tab, decimal points or (not with ``,``) decimal
-    commas, and a line of heads such as ``speed [rpm];capacitance [pF]``. Returns all rows in SI units. Raises
-    InputError if the file cannot be read or is too large, has no heads that are known, a head has no unit or
-    a wrong one, or a row has a value that is missing, is no number or is out of bounds; the line is named.
+    commas, and a line of heads such as ``speed [rpm];capacitance [pF]``; ``book``, quantities that its
+    columns may have. Returns all rows in SI units. Raises InputError if the file cannot be read or is too
+    large, has no heads that are known, a head has no unit or a wrong one, or a row has a value that is
+    missing, is no number or is out of bounds; the line is named.
 
     Examples
     --------
@@ -306,12 +331,13 @@ def read_measurement(measured: str | Path | pd.DataFrame) -> Measurement:
         source, rows = "table", _of_table(measured)
     else:
         path = Path(measured)
-        source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=_MOST_BYTES)))
-    columns, ignored = _columns(source, rows.heads)
+        source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=_MOST_BYTES)), book)
+    columns, ignored = _columns(source, rows.heads, book)
     if not rows.cells:
         raise InputError(source, "has no rows below its heads", takes="at least one")
-    if len(rows.cells) > MOST_ROWS:
-        raise InputError(source, f"has {len(rows.cells)} rows", takes=f"at most {MOST_ROWS}; average them")
+    if len(rows.cells) > book.most_rows:
+        takes = f"at most {book.most_rows}; average them"
+        raise InputError(source, f"has more than {book.most_rows} rows", takes=takes)
     found = {place: _values(source, rows, place, column) for place, column in columns.items()}
     values = {columns[place].name: found[place] for place in found if not columns[place].uncertainty}
     uncertain = {place: found[place] for place in found if columns[place].uncertainty}
@@ -340,21 +366,21 @@ def _of_table(table: pd.DataFrame) -> _Rows:
     return _Rows(heads, cells, tuple(range(1, len(cells) + 1)), ".")
 
 
-def _of_text(path: Path, text: str) -> _Rows:
+def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
     """Heads and rows of a text; the heads may stand in a line of comment above the numbers."""
     lines = text.splitlines()
-    at, separator = _head_line(path, lines)
+    at, separator = _head_line(path, lines, book)
     heads = _fields(lines[at].lstrip("# "), separator)
     below = [(n, line) for n, line in enumerate(lines[at + 1 :], at + 2) if _is_row(line, separator)]
     cells = []
-    for number, line in below[: MOST_ROWS + 1]:
+    for number, line in below[: book.most_rows + 1]:
         fields = _fields(line, separator)
         if len(fields) != len(heads):
             raise InputError(
                 path, f"line {number} has {len(fields)} columns", takes=f"{len(heads)} as in its heads"
             )
         cells.append(fields)
-    numbers = tuple(number for number, _ in below[: MOST_ROWS + 1])
+    numbers = tuple(number for number, _ in below[: book.most_rows + 1])
     return _Rows(heads, cells, numbers, _decimal(path, cells, separator))
 
 
@@ -364,7 +390,7 @@ def _is_row(line: str, separator: str | None) -> bool:
     return bool(text.strip(separator or "")) and not text.startswith("#")
 
 
-def _head_line(path: Path, lines: Sequence[str]) -> tuple[int, str | None]:
+def _head_line(path: Path, lines: Sequence[str], book: ColumnBook) -> tuple[int, str | None]:
     """Place of the heads, the first line with a known quantity, and the separator of the columns."""
     wrong: InputError | None = None
     for place, line in enumerate(lines[:_MOST_ABOVE]):
@@ -372,9 +398,9 @@ def _head_line(path: Path, lines: Sequence[str]) -> tuple[int, str | None]:
         separator = next((mark for mark in (";", "\t", ",") if mark in text), None)
         fields = _fields(text, separator)
         known = 0
-        for field in fields[:_MOST_COLUMNS]:
+        for text_of_head in fields[:_MOST_COLUMNS]:
             try:
-                known += column_of(field) is not None
+                known += column_of(text_of_head, book) is not None
             except InputError as error:
                 # A sentence above the heads may be the name of a quantity, too: it has no unit.
                 wrong = wrong or error
@@ -384,7 +410,7 @@ def _head_line(path: Path, lines: Sequence[str]) -> tuple[int, str | None]:
             return place, separator
     if wrong is not None:
         raise InputError(path, str(wrong))
-    raise InputError(path, "has no heads of known columns", takes=f"heads such as {EXAMPLES}")
+    raise InputError(path, "has no heads of known columns", takes=f"heads such as {book.examples}")
 
 
 def _fields(line: str, separator: str | None) -> list[str]:
@@ -405,13 +431,15 @@ def _decimal(path: Path, cells: Sequence[Sequence[str]], separator: str | None) 
     return "." if comma is None else ","
 
 
-def _columns(source: str, heads: Sequence[str]) -> tuple[dict[int, Column], tuple[str, ...]]:
+def _columns(
+    source: str, heads: Sequence[str], book: ColumnBook
+) -> tuple[dict[int, Column], tuple[str, ...]]:
     """Known columns by their place, and heads of the others."""
     columns: dict[int, Column] = {}
     ignored = []
     for place, head in enumerate(heads):
         try:
-            column = column_of(head)
+            column = column_of(head, book)
         except InputError as error:
             raise InputError(source, str(error)) from None
         if column is None:
@@ -426,7 +454,7 @@ def _columns(source: str, heads: Sequence[str]) -> tuple[dict[int, Column], tupl
             )
         columns[place] = column
     if all(column.uncertainty for column in columns.values()):
-        raise InputError(source, "has no heads of known columns", takes=f"heads such as {EXAMPLES}")
+        raise InputError(source, "has no heads of known columns", takes=f"heads such as {book.examples}")
     return columns, tuple(head for head in ignored if head)
 
 
@@ -487,7 +515,7 @@ def _absolute(source: str, column: Column, name: str, numbers: Array) -> Array:
     """Uncertainties in the SI unit of a quantity, from numbers in the unit of the column."""
     unit = {"degC": "K", "°C": "K", "C": "K"}.get(column.unit, column.unit)
     try:
-        factor = Column(name, column.head, unit).factor()
+        factor = Column(name, column.head, unit, book=column.book).factor()
     except ValueError as error:
         takes = f"per cent or a unit of {name.replace('_', ' ')}"
         raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None

@@ -139,13 +139,14 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:
-    """Make the names of roughness files absolute; in a case file they are relative to its ``folder``.
+    """Make the names of files of roughness and of a duty cycle absolute; in a case file they are relative to
+    its ``folder``.
 
     They then stay valid if the case is written to another folder.
     """
     rough = table.get("roughness")
-    for surface in rough if isinstance(rough, list) else []:
-        if not isinstance(surface, dict) or not isinstance(surface.get("file"), str):
+    for holder in (*(rough if isinstance(rough, list) else []), table.get("duty")):
+        if not isinstance(holder, dict) or not isinstance(holder.get("file"), str):
             continue
-        if not Path(surface["file"]).is_absolute():
-            surface["file"] = str((folder / surface["file"]).absolute())
+        if not Path(holder["file"]).is_absolute():
+            holder["file"] = str((folder / holder["file"]).absolute())

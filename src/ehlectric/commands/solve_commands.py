@@ -231,7 +231,8 @@ def bearing(
     """Solve a whole rolling bearing; write summary.json, bearing.nc, tables as CSV and figures.
 
     With --measured, capacitances over the speed give the film factor that explains them: in measured.json,
-    measured.csv and a figure.
+    measured.csv and a figure. With the table [duty] in the file, duty.csv and a figure have the bearing over
+    the time of a duty cycle.
 
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.

@@ -21,8 +21,11 @@ _HERE = Path(__file__).parent
 TEMPLATES: Mapping[str, str] = MappingProxyType(TEXTS["templates"])
 _GEOMETRIES = ("line", "point")
 
-# Measurements that belong to an example, by the name of its file.
-_MEASUREMENTS = {"bearing_6208.toml": "measurements/bearing_6208_capacitance.csv"}
+# Measurements and duty cycles that belong to an example, by the name of its file.
+_MEASUREMENTS = {
+    "bearing_6208.toml": "measurements/bearing_6208_capacitance.csv",
+    "duty_wltc.toml": "measurements/wltc_class_3b_motor.csv",
+}
 
 # Folder of the examples that holds the surfaces of rough contacts.
 _SURFACES = "surfaces"

@@ -54,8 +54,19 @@ from ehlectric.figures.bearing_figures import (
 from ehlectric.figures.breakdown_over_speed import breakdown_over_speed as draw_breakdown_over_speed
 from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as draw_capacitance_over_speed
 from ehlectric.figures.breakdown_over_speed import margin_over_speed, rpm_text
-from ehlectric.figures.figure_names import in_formats, of_cut
-from ehlectric.figures.style import drawing_of, new_panels, save_each, share_below, style, titled
+from ehlectric.figures.data import Panel
+from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.duty_panels import duty_panels, time_axis
+from ehlectric.figures.figure_names import DUTY_FIGURE, in_formats, literal, of_cut
+from ehlectric.figures.style import (
+    drawing_of,
+    legend_above,
+    new_panels,
+    save_each,
+    share_below,
+    style,
+    titled,
+)
 from ehlectric.quantities.units import rpm
 
 _TOUCHING = ("conducting", "touching")
@@ -125,6 +136,32 @@ def margin(result: BearingResult) -> str:
         f"{chance.lead} at {rpm_text(result.case.bearing.inner_speed)}: probability "
         f"{chance_text(chance.probability, chance.error)}, margin {low} to {high} in 90 of 100 cases"
     )
+
+
+def duty_cycle(result: BearingResult) -> str:
+    """Sentence: share of the time of a duty cycle with a margin below 1; and a line with those of the states
+    of lubrication.
+    """
+    assert result.duty is not None
+    found = result.duty.summary()
+    names = {"full_film": "full film", "partial_film": "partial film", "touching": "touching"}
+    names["standstill"] = "standstill"
+    shares = [f"{name} {100.0 * found[f'{key}_share']:.3g} %" for key, name in names.items()]
+    what, share = "Margin below 1", found["low_margin_share"]
+    if share is None:
+        what, share = "Full film", found["full_film_share"]
+    return f"{what} for {100.0 * share:.3g} % of the time\n{', '.join(shares)}"
+
+
+def duty_lines(result: BearingResult) -> list[str]:
+    """Lines: title of the case, and how the films of its duty cycle were computed."""
+    duty = result.duty
+    assert duty is not None
+    text = f"{duty.points} operating points, contacts {HOW[duty.contacts]}"
+    if duty.interpolation_error is not None:
+        text += f", interpolated within {100.0 * duty.interpolation_error:.2g} %"
+    title = textwrap.shorten(result.case.title, 70, placeholder=" ...")
+    return [*filter(None, [title]), f"{literal(Path(duty.source).name)}: {text}"]
 
 
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
@@ -248,6 +285,25 @@ def _impedance(result: BearingResult) -> tuple[Draw, ...]:
     return (impedance_magnitude, *((impedance_phase,) if phase_varies(result) else ()))
 
 
+def _duty(result: BearingResult) -> tuple[Draw, ...]:
+    """Panels of a duty cycle; none without one."""
+    duty = result.duty
+    if duty is None:
+        return ()
+
+    def draw(number: int, panel: Panel) -> Draw:
+        def drawn(_: BearingResult, ax: Axes) -> Axes:
+            draw_panel(panel, ax, time_axis(duty))
+            bands = [area for area in ax.collections if not str(area.get_label()).startswith("_")]
+            if bands and not number:
+                legend_above(ax, bands, columns=3)
+            return ax
+
+        return drawn
+
+    return tuple(draw(number, panel) for number, panel in enumerate(duty_panels(duty)))
+
+
 def _breaks(result: BearingResult) -> bool:
     return result.breaks()["first_break"] is not None
 
@@ -264,6 +320,7 @@ FIGURES: Mapping[str, tuple[Callable[[BearingResult], tuple[Draw, ...]], Callabl
     "bearing_pitch.png": (_pitch, pitch),
     "bearing_impedance.png": (_impedance, impedance),
     "bearing_margin.png": (_margin, margin),
+    DUTY_FIGURE: (_duty, duty_cycle),
 }
 
 # Functions that draw a figure over the speed of the shaft, and give the first line of its title.
@@ -279,7 +336,8 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
 
     Figures with nothing to show are left out. There is no circuit of ceramic elements, no breakdown without a
     dielectric strength or where surfaces touch, and no impedance without a conductivity or where surfaces
-    touch. What varies by less than a per cent over a pitch of the cage is not drawn over it.
+    touch, and no duty cycle without the table ``duty``. What varies by less than a per cent over a pitch of
+    the cage is not drawn over it.
     """
     panels = {name: panels_of(result) for name, (panels_of, _) in FIGURES.items()}
     return {name: draws for name, draws in panels.items() if draws}
@@ -294,7 +352,8 @@ def figure(result: BearingResult, name: str) -> Figure:
         return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
     voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
-    title = "\n".join([FIGURES[name][1](result), *case_lines(result, voltages=voltages)])
+    lines = duty_lines(result) if name == DUTY_FIGURE else case_lines(result, voltages=voltages)
+    title = "\n".join([FIGURES[name][1](result), *lines])
     polar = panels[0] is load_around
     with style():
         axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))

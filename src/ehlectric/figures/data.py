@@ -60,7 +60,7 @@ class Upright:
 
 @dataclass(frozen=True)
 class Panel:
-    """Panel of a figure: a quantity with its unit, and the ends of its axis at first."""
+    """Panel of a figure: a quantity with its unit, empty without one, and the ends of its axis at first."""
 
     title: str
     unit: str

@@ -55,14 +55,16 @@ ALL_FIGURES = tuple(
 # Figures of transient contacts: over time, over position and time, and compared with stationary roughness.
 MOTION_FIGURE_FILES = ("motion_history.png", "motion_maps.png", "motion_beside_stationary.png")
 
-# Figures of bearings: loads and films, circuit, course over a pitch of the cage, impedance over
-# frequency, margin over the speed within what is uncertain.
+# Figures of bearings: loads and films, circuit, course over a pitch of the cage, impedance over frequency,
+# margin over the speed within what is uncertain, and a duty cycle over time, of a bearing that has one.
+DUTY_FIGURE = "bearing_duty.png"
 BEARING_FIGURE_FILES = (
     "bearing_loads.png",
     "bearing_circuit.png",
     "bearing_pitch.png",
     "bearing_impedance.png",
     "bearing_margin.png",
+    DUTY_FIGURE,
 )
 
 # Figures of bearings over the speed of the shaft.

@@ -27,6 +27,7 @@ from ehlectric.figures import motion_figures as motion
 from ehlectric.figures import sweep_figures as sweep
 from ehlectric.figures.figure_names import (
     BEARING_FIGURE_FILES,
+    DUTY_FIGURE,
     MEASURED_FIGURE,
     SENSITIVITY_FIGURE,
     SPEED_FIGURE_FILES,
@@ -307,12 +308,14 @@ def _no_figure(result: AnyResult, name: str) -> InputError:
     """Error of a name that is none of the figures of a result, with the nearest name and the cause."""
     names, (file,) = figure_names(result), in_formats([name])
     of_bearings = isinstance(result, BearingResult) and file in (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
-    cause = _lacking(result) if of_bearings else f"nearest is {nearest(_stem(name), names)}"
+    cause = _lacking(result, file) if of_bearings else f"nearest is {nearest(_stem(name), names)}"
     return InputError("figure", got=shown(name), takes=f"one of {', '.join(names)}; {cause}")
 
 
-def _lacking(result: Any) -> str:
-    """Why a bearing lacks figures that other bearings have."""
+def _lacking(result: Any, file: str) -> str:
+    """Why a bearing lacks a figure that other bearings have."""
+    if file == DUTY_FIGURE:
+        return "that of a duty cycle needs [duty], which the case does not have"
     if result.solution.conditions.ceramic:
         return "the others need elements that conduct, and those of this bearing are ceramic"
     if not result.case.discharge.has_strength:

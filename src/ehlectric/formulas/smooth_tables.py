@@ -29,8 +29,9 @@ Function = Callable[[Array], Array]
 _MOST_ALONG, _MOST = 60, 2500
 
 # Coefficient over the tolerance beyond which products are added, its part that is expected of the next
-# product, and points between the nodes at which a table is compared with its function.
-_LARGE, _NEXT, _CHECKED = 0.5, 0.1, 24
+# product, and points between the nodes at which a table is compared with its function. The coefficient is
+# lowered down to its least part of the tolerance.
+_LARGE, _NEXT, _CHECKED, _LEAST = 0.5, 0.1, 24, 1e-6
 
 # Points that are computed together: few enough for the processor's cache.
 _BLOCK = 512
@@ -166,7 +167,8 @@ def smooth_table(function: Function, low: Array, high: Array, tolerance: float) 
     draw[0] = np.repeat(draw[0, :3], _CHECKED // 3)
     draw[box[1] <= box[0]] = 0.0
     expected, large = known.at(draw), _LARGE * tolerance
-    while len(known.table.numbers) <= _MOST:
+    # With all products along the variables, smaller coefficients add none.
+    while len(known.table.numbers) <= _MOST and large > _LEAST * tolerance:
         if known.grow(large):
             continue
         error = float(np.max(np.abs(known.table(*draw) - expected)))

@@ -102,7 +102,7 @@ _CERAMIC = tuple(
 )
 _DISCHARGED = ("bearing.shaft_voltage", "bearing.film_voltage")
 _FILMS = (
-    *("bearing.lambda_ratio", "bearing.minimum_thickness"),
+    *("bearing.lambda_ratio", "bearing.minimum_thickness", "duty.stretches.lambda_ratio"),
     *("rings.inner.minimum_thickness", "rings.outer.minimum_thickness"),
     *("margin.touching_speed", "margin.capacitive_speed"),
 )

@@ -175,7 +175,8 @@ def _check_bearing(case: BearingCase) -> Meaning:
     if judged is None:
         reason = "the atlas and film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
         return _without_films(case, reason)
-    result = solve_bearing(judged, workers=1)
+    # The file of a duty cycle is checked; it is computed by ehlectric bearing.
+    result = solve_bearing(judged.model_copy(update={"duty": None}), workers=1)
     summary = {**result.summary(), "films": judged.contacts}
     heat = (
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""

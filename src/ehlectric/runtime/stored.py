@@ -181,12 +181,23 @@ def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> d
 
     A number that may be null may also be missing.
     """
+    found: dict[str, Any] = json_of(attributes, name, _is_object_of(kind))
+    return found
+
+
+def read_many_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> list[dict[str, Any]]:
+    """Numbers of objects of a class in an attribute of a file, a list; raises an UnfitError."""
+    found: list[dict[str, Any]] = json_of(attributes, name, partial(is_list, right=_is_object_of(kind)))
+    return found
+
+
+def _is_object_of(kind: type[Any]) -> Callable[[Any], bool]:
+    """Whether a value of JSON has the numbers of an object of a class."""
     rules = _rules_of_numbers(kind)
     checks: dict[str, Callable[[Any], bool]] = {key: partial(_fits, rule=rule) for key, rule in rules.items()}
     optional = {key: check for key, check in checks.items() if check(None)}
     needed = {key: check for key, check in checks.items() if key not in optional}
-    found: dict[str, Any] = json_of(attributes, name, partial(is_table, columns=needed, others=optional))
-    return found
+    return partial(is_table, columns=needed, others=optional)
 
 
 def warnings_as_attributes(warnings: Iterable[ResultWarning]) -> dict[str, str]:
@@ -200,13 +211,13 @@ def warnings_in(attributes: Mapping[Any, Any]) -> tuple[ResultWarning, ...]:
     return _warnings({name: json_of(attributes, name, texts) for name in (TEXTS, CODES_OF_TEXTS)})
 
 
-def warnings_in_tables(attributes: Mapping[Any, Any], depth: int = 1) -> Any:
+def warnings_in_tables(attributes: Mapping[Any, Any], depth: int = 1, name: str = TEXTS) -> Any:
     """Lists of warnings, nested to some depth, in one attribute of a file; raises an UnfitError."""
     texts = partial(is_list, right=is_text)
     right: Callable[[Any], bool] = partial(is_table, columns={TEXTS: texts, CODES_OF_TEXTS: texts})
     for _ in range(depth):
         right = partial(is_list, right=right)
-    return _mapped(json_of(attributes, TEXTS, right), _warnings)
+    return _mapped(json_of(attributes, name, right), _warnings)
 
 
 def _warnings(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:

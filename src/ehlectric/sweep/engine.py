@@ -89,6 +89,8 @@ def case_key(case: SweptCase) -> str:
     """
     table = case.to_dict()
     del table["title"]
+    # Points of a sweep are single bearings, without their duty cycle.
+    table.pop("duty", None)
     # Rough surfaces, and the measured voltage of a drive.
     for holder in (*table.get("roughness", ()), table.get("source", {})):
         if "file" in holder:

@@ -352,6 +352,24 @@ def _left_out(summary: Summary) -> Iterator[Row]:
         yield Row("not computed", note=text, key="margin.left_out")
 
 
+def _stretches(summary: Summary) -> Iterator[Row]:
+    """Rows of the worst stretches of a duty cycle, the worst first."""
+    bounds = bearing_bounds(BEARING_BOOK, summary)
+    for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
+        name = "lambda_ratio" if one["least_margin"] is None else "least_margin"
+        about = BEARING_BOOK[key := f"duty.stretches.{name}"]
+        span = f"{about.label}, {one['start']:.6g} to {one['end']:.6g} s"
+        at = f", {one['why']}" if one["why"] else f", at {rpm_text(one['speed'])} rpm"
+        yield Row(
+            span,
+            one[name],
+            note=at,
+            digits=about.digits,
+            bound=bounds.get(key, ""),
+            key=f"duty.stretches.{place}.{name}",
+        )
+
+
 def input_range(effect: Mapping[str, Any]) -> str:
     """Range of the input of an effect as text, in the unit that is printed.
 
@@ -427,6 +445,7 @@ _WORDS = Words(
         "bearing.first_break": _first_break,
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
+        "duty.left_out_share": lambda s: value_at(s, "duty.left_out_share") or None,
         "margin.critical_speed": _critical_speed,
         **{
             f"margin.{name}": _speed(name)
@@ -439,12 +458,14 @@ _WORDS = Words(
         "bearing.first_break": lambda s: bool(_state(s) == "conducting"),
         "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
+        "duty.low_margin_share": lambda s: bool(s["duty"]["low_margin_share"]),
     },
     rows={
         "margin.effects": _effects,
         "margin.left_out": _left_out,
         "uncertainty.indices": _shares,
         "uncertainty.left_out": _left_out_of_probability,
+        "duty.stretches": _stretches,
     },
     holds={
         "radial load": lambda s: bool(_bearing(s)["radial_load"]),

@@ -51,6 +51,11 @@ def test_no_table_of_a_function_with_a_kink():
     assert kink is None
 
 
+def test_no_table_of_a_kink_along_the_only_variable_that_varies():
+    kink = smooth_table(lambda at: np.abs(at[1] - 0.6), np.zeros(2), np.array([0.0, 1.0]), 1e-9)
+    assert kink is None
+
+
 def test_leja_points_are_apart():
     points = np.sort(leja_points())
     assert points[0] == -1.0

@@ -37,7 +37,7 @@ from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.titles import title_of
 
-LOADS, CIRCUIT, PITCH, IMPEDANCE, MARGIN = BEARING_FIGURE_FILES
+LOADS, CIRCUIT, PITCH, IMPEDANCE, MARGIN, _ = BEARING_FIGURE_FILES
 
 TABLE = {
     "title": "By hand",

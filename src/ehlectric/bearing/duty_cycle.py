@@ -1,0 +1,368 @@
+"""Duty cycle of a bearing: states of lubrication and margins over time, their shares, and the worst times."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.duty_points import NAMES, PointValues, values_at
+from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case_oil import viscosity_over_temperature
+from ehlectric.cases.defaults import QUICK
+from ehlectric.cases.duty_inputs import Cycle, read_cycle
+from ehlectric.cases.measurements import CYCLE
+from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.formats import scale_of
+from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.units import RPM, rpm_text
+from ehlectric.runtime.files import Content, column_head, csv_of
+from ehlectric.runtime.stored import number, stored
+from ehlectric.runtime.values import Values
+
+# States of a bearing by their numbers.
+STATES = ("standstill", "touching", "partial film", "full film", "not computed")
+STANDSTILL, TOUCHING, PARTIAL_FILM, FULL_FILM, LEFT_OUT = range(len(STATES))
+
+# Speed below which a shaft stands still: sensors and their filters read such speeds at rest [rad/s].
+LEAST_SPEED = 0.1 * RPM
+
+# Largest number of stretches that are listed, the worst first.
+_MOST_STRETCHES = 10
+
+# Units in which inputs are written, by their SI units.
+_SHOWN = {"K": "°C", "N": "N", "V": "V"}
+
+DUTY_CSV = "duty.csv"
+
+_INPUTS = tuple(name for name in CYCLE.columns if name != "time")
+_VOLTAGE = "common_mode_voltage"
+
+# SI unit and meaning of the columns of duty.csv.
+COLUMNS: Mapping[str, Mapping[str, str]] = data_file("ehlectric.quantities", "measured_columns.toml")[
+    "duty_written"
+]
+
+_MAYBE = "not negative or NaN"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DutyRows(Values):
+    """Rows of a duty cycle with what the bearing is at each, SI units; NaN where a row has no value."""
+
+    time: Array = field(metadata=stored("duty_row", "s", "increasing"))
+    duration: Array = field(metadata=stored("duty_row", "s", "positive"))  # time for which a row stands
+    speed: Array = field(metadata=stored("duty_row", "rad/s"))
+    radial_load: Array = field(metadata=stored("duty_row", "N", "not negative"))
+    axial_load: Array = field(metadata=stored("duty_row", "N", "not negative"))
+    temperature: Array = field(metadata=stored("duty_row", "K", "positive"))
+    common_mode_voltage: Array = field(metadata=stored("duty_row", "V", _MAYBE))  # NaN without a motor
+    lambda_ratio: Array = field(metadata=stored("duty_row", "", _MAYBE))
+    capacitance: Array = field(metadata=stored("duty_row", "F", _MAYBE))
+    first_break: Array = field(metadata=stored("duty_row", "V", _MAYBE))
+    shaft_voltage: Array = field(metadata=stored("duty_row", "V", _MAYBE))
+    margin: Array = field(metadata=stored("duty_row", "", _MAYBE))
+    state: Array = field(metadata=stored("duty_row", "", "whole"))  # number of the state in ``STATES``
+
+    @property
+    def has_margin(self) -> bool:
+        """Whether any row has a margin."""
+        return bool(np.any(np.isfinite(self.margin)))
+
+    def share(self, within: Mask) -> float:
+        """Share of the time of some rows, from 0 to 1."""
+        return float(np.sum(self.duration[within]) / np.sum(self.duration))
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Stretch of a duty cycle with a margin below 1, or without margins with a lambda ratio below 3."""
+
+    start: float = field(metadata=number())  # [s]
+    end: float = field(metadata=number())  # [s]
+    time: float = field(metadata=number())  # of the least margin, or of the least lambda ratio [s]
+    least_margin: float | None = field(metadata=number())
+    lambda_ratio: float = field(metadata=number())  # at this time
+    speed: float = field(metadata=number())  # at this time [rad/s]
+    why: str = field(metadata=number("text"))  # input that makes it so, or that none alone does
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DutyResult(Values):
+    """Result of a duty cycle.
+
+    Attributes
+    ----------
+    rows : DutyRows
+        Inputs, lambda ratio, margin and state of each row.
+    stretches : tuple of Stretch
+        The worst stretches, at most ten, the worst first.
+    source : str
+        File of the duty cycle.
+    contacts : str
+        "atlas" or "formula": how the films of the cycle were computed.
+    points : int
+        Number of operating points that were solved.
+    interpolation_error : float or None
+        Largest relative error of lambda ratio and margin by interpolation; None where every point was solved.
+    warnings : tuple of ResultWarning
+        Warnings about the file and about rows that are not computed.
+    """
+
+    rows: DutyRows
+    stretches: tuple[Stretch, ...]
+    source: str = field(metadata=number("text"))
+    contacts: str = field(metadata=number(QUICK))
+    points: int = field(metadata=number("whole"))
+    interpolation_error: float | None = field(metadata=number())
+    warnings: tuple[ResultWarning, ...] = ()
+
+    @property
+    def low(self) -> Mask:
+        """Rows with a margin below 1, shape (n,)."""
+        return self.rows.margin < 1.0
+
+    def summary(self) -> dict[str, Any]:
+        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
+        rows = self.rows
+        worst = int(np.nanargmin(rows.margin)) if rows.has_margin else None
+        return {
+            "source": self.source,
+            "rows": rows.time.size,
+            "duration": float(np.sum(rows.duration)),
+            "contacts": self.contacts,
+            "points": self.points,
+            "interpolation_error": self.interpolation_error,
+            "standstill_share": rows.share(rows.state == STANDSTILL),
+            "touching_share": rows.share(rows.state == TOUCHING),
+            "partial_film_share": rows.share(rows.state == PARTIAL_FILM),
+            "full_film_share": rows.share(rows.state == FULL_FILM),
+            "left_out_share": rows.share(rows.state == LEFT_OUT),
+            "low_margin_share": rows.share(self.low) if rows.has_margin else None,
+            "least_margin": None if worst is None else float(rows.margin[worst]),
+            "least_margin_time": None if worst is None else float(rows.time[worst]),
+            "stretches": [asdict(one) for one in self.stretches],
+        }
+
+    def contents(self) -> dict[str, Content]:
+        """Content of duty.csv by its name; a column in which no row has a value is left out."""
+        columns = {each.name: getattr(self.rows, each.name) for each in fields(self.rows)}
+        columns["state"] = np.array(STATES, dtype=object)[self.rows.state.astype(int)]
+        known = {
+            name: values for name, values in columns.items() if name == "state" or np.any(np.isfinite(values))
+        }
+        heads = [_head(name, COLUMNS[name].get("unit", "")) for name in known]
+        cells = [["" if value != value else value for value in values.tolist()] for values in known.values()]
+        return {DUTY_CSV: csv_of(heads, zip(*cells, strict=True))}
+
+
+def _head(name: str, unit: str) -> str:
+    return column_head(name, unit.removeprefix("-")) if unit else name
+
+
+def run_duty(case: BearingCase) -> DutyResult | None:
+    """Result of the duty cycle of a bearing file; None without one.
+
+    Contacts are from the atlas, or by formula where the case says so. Each row of the cycle is a stationary
+    bearing, and stands for the time from halfway to the row before to halfway to the next. Raises InputError
+    where the file of the cycle cannot be used, or the bearing has no quick contacts.
+    """
+    if case.duty is None:
+        return None
+    cycle = read_cycle(case.duty.file)
+    quick, refused = quick_case(case)
+    if quick is None:
+        assert refused is not None
+        raise refused
+    _check_cycle(quick, cycle)
+    rows, found = _rows(quick, cycle)
+    return DutyResult(
+        rows=rows,
+        stretches=tuple(_stretches(quick, rows)),
+        source=cycle.source,
+        contacts=quick.contacts,
+        points=found.solved,
+        interpolation_error=found.error,
+        warnings=tuple(_warnings(quick, cycle, found, refused)),
+    )
+
+
+def check_duty(case: BearingCase) -> None:
+    """Refuse the duty cycle of a bearing file that cannot be used, without its computation."""
+    if case.duty is not None:
+        _check_cycle(case, read_cycle(case.duty.file))
+
+
+def _check_cycle(case: BearingCase, cycle: Cycle) -> None:
+    """Refuse a cycle that does not fit its bearing. Raises InputError for a voltage without a motor, and for
+    a speed without a load.
+    """
+    if _VOLTAGE in cycle.values and case.motor is None:
+        text = "has a common-mode voltage, and the bearing file has no [motor]"
+        raise InputError(cycle.source, text, takes="[motor], with the capacitances of the motor")
+    given = _given(case, cycle)
+    idle = (given["radial_load"] == 0.0) & (given["axial_load"] == 0.0) & _moves(given["speed"])
+    if np.any(idle):
+        line = cycle.lines[int(np.argmax(idle))]
+        raise InputError(cycle.source, f"line {line}: got a speed without a load", takes="a load above 0")
+
+
+def _moves(speed: Array) -> Mask:
+    return np.abs(speed) >= LEAST_SPEED
+
+
+def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
+    """Inputs of all rows by the names of their columns, SI units, shape (n,); those of the case without a
+    column.
+    """
+    bearing, motor = case.bearing, case.motor
+    own = {
+        "speed": bearing.inner_speed,
+        "radial_load": bearing.radial_load,
+        "axial_load": bearing.axial_load,
+        "temperature": bearing.oil_temperature,
+        _VOLTAGE: math.nan if motor is None else motor.common_mode_voltage,
+    }
+    return {name: cycle.values.get(name, np.full(cycle.time.size, own[name])) for name in _INPUTS}
+
+
+def _rows(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
+    """Rows of a cycle, and the values of those that are no standstill."""
+    given, time = _given(case, cycle), cycle.time
+    moves = _moves(given["speed"])
+    moving = {name: values[moves] for name, values in given.items()}
+    found = _at(case, moving) if np.any(moves) else None
+    values = {name: np.full(time.size, np.nan) for name in NAMES}
+    if found is not None:
+        for name in NAMES:
+            values[name][moves] = found.values[name]
+    ratio = values["lambda_ratio"]
+    state = np.select(
+        [~moves, np.isnan(ratio), ratio < CONDUCTING, ratio < PARTIAL],
+        [STANDSTILL, LEFT_OUT, TOUCHING, PARTIAL_FILM],
+        FULL_FILM,
+    )
+    edges = edges_of(time)
+    rows = DutyRows(time=time, duration=np.diff(edges), **given, **values, state=state)
+    if found is None:
+        return rows, PointValues({}, {}, 0)
+    places = np.flatnonzero(moves).tolist()
+    return rows, replace(found, reasons={places[k]: why for k, why in found.reasons.items()})
+
+
+def edges_of(time: Array) -> Array:
+    """Times between rows, halfway, with the first and the last time as ends, shape (n + 1,)."""
+    return np.concatenate([time[:1], 0.5 * (time[1:] + time[:-1]), time[-1:]])
+
+
+def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
+    """Quantities of rows from their inputs by column. Shaft voltage and margin follow the voltage of the
+    motor, on which films do not depend.
+    """
+    bearing = case.bearing
+    inputs = {CYCLE.columns["speed"].key: np.abs(given["speed"])}
+    for name in ("radial_load", "axial_load"):
+        if np.any(given[name] != getattr(bearing, name)):
+            inputs[CYCLE.columns[name].key] = given[name]
+    warmer = given["temperature"] - bearing.oil_temperature
+    if np.any(warmer):
+        # Rings and other parts that have their own temperature keep their difference from the oil.
+        inputs |= {f"bearing.{key}": own + warmer for key, own in bearing.all_temperatures().items()}
+    found = values_at(case, inputs)
+    if case.motor is None:
+        return found
+    factor = given[_VOLTAGE] / case.motor.common_mode_voltage
+    values = dict(found.values)
+    values["shaft_voltage"] = values["shaft_voltage"] * factor
+    values["margin"] = np.where(factor > 0.0, values["margin"] / np.where(factor > 0.0, factor, 1.0), np.nan)
+    return replace(found, values=values)
+
+
+def _stretches(case: BearingCase, rows: DutyRows) -> Iterator[Stretch]:
+    """Worst stretches of a cycle, with the least margins, or without margins with the least lambda ratios."""
+    name, limit = ("margin", 1.0) if rows.has_margin else ("lambda_ratio", PARTIAL)
+    measure, edges = getattr(rows, name), edges_of(rows.time)
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], measure < limit, [0]])))
+    spans = [
+        (first, after, first + int(np.argmin(measure[first:after]))) for first, after in ends.reshape(-1, 2)
+    ]
+    spans = sorted(spans, key=lambda span: measure[span[2]])[:_MOST_STRETCHES]
+    reasons = _reasons(case, rows, name, [worst for *_, worst in spans])
+    for (first, after, worst), why in zip(spans, reasons, strict=True):
+        yield Stretch(
+            start=float(edges[first]),
+            end=float(edges[after]),
+            time=float(rows.time[worst]),
+            least_margin=float(rows.margin[worst]) if rows.has_margin else None,
+            lambda_ratio=float(rows.lambda_ratio[worst]),
+            speed=float(rows.speed[worst]),
+            why=why,
+        )
+
+
+def _reasons(case: BearingCase, rows: DutyRows, name: str, places: list[int]) -> list[str]:
+    """Input that makes a margin or a lambda ratio low at each of some rows: the one whose mean over the cycle
+    would raise it most.
+    """
+    moves = _moves(rows.speed)
+    own = {column: getattr(rows, column) for column in _INPUTS}
+    means = {
+        column: float(np.average(np.abs(values[moves]), weights=rows.duration[moves]))
+        for column, values in own.items()
+        if places and np.ptp(values[moves]) > 0.0
+    }
+    if not means:
+        return [""] * len(places)
+    changed = {column: np.repeat(values[places], len(means)) for column, values in own.items()}
+    for k, (column, mean) in enumerate(means.items()):
+        changed[column][k :: len(means)] = mean
+    found = _at(case, changed).values[name].reshape(len(places), len(means))
+    texts = []
+    for place, row in zip(places, found, strict=True):
+        best = int(np.nanargmax(np.where(np.isnan(row), -1.0, row)))
+        column = list(means)[best]
+        texts.append(_reason(column, abs(float(own[column][place])), means[column], float(row[best])))
+    return texts
+
+
+def _reason(column: str, value: float, mean: float, raised: float) -> str:
+    """Text: input of a row, and the margin or the lambda ratio that it would have with the mean of the input.
+
+    >>> _reason("speed", 50.0 * RPM, 3000.0 * RPM, 1.7)
+    'speed 50 rpm; 1.70 at the mean of 3000 rpm'
+    """
+    name = column.replace("_", " ").replace("common mode", "common-mode")
+    return f"{name} {_text(column, value)}; {ratio_text(raised)} at the mean of {_text(column, mean)}"
+
+
+def _text(column: str, value: float) -> str:
+    """Input of a column with its unit."""
+    unit = CYCLE.columns[column].unit
+    if unit == "rad/s":
+        return f"{rpm_text(value)} rpm"
+    scale = scale_of(_SHOWN[unit])
+    return f"{scale.of(value):.4g} {scale.unit}"
+
+
+def _warnings(
+    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None
+) -> Iterator[ResultWarning]:
+    """Warnings about the file of a cycle and about what is not computed of it."""
+    if cycle.ignored:
+        yield ResultWarning.of("columns-ignored", file=cycle.source, columns=", ".join(cycle.ignored))
+    if "temperature" in cycle.values and viscosity_over_temperature(case.lubricant) is None:
+        yield ResultWarning.of("temperature-unused", "duty", file=cycle.source)
+    if refused is not None:
+        yield ResultWarning.of("duty-without-margin", reason=refused)
+    if found.reasons:
+        place, reason = next(iter(found.reasons.items()))
+        yield ResultWarning.of(
+            "duty-left-out", rows=len(found.reasons), line=cycle.lines[place], reason=reason
+        )

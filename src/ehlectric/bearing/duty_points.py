@@ -1,0 +1,157 @@
+"""Operating points of a duty cycle: each is solved once, and very many are interpolated between a design."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.bearing.bearing_discharges import shaft_voltage
+from ehlectric.bearing.many_points import solved_parts
+from ehlectric.bearing.solution import CONDUCTING, BearingSolution, capacitance, lambda_ratio
+from ehlectric.bearing.summary import breaks
+from ehlectric.cases.bearing_case import BearingCase
+
+# Quantities of a point: lambda ratio, capacitance [F], first breakdown and shaft voltage [V], and margin.
+NAMES = ("lambda_ratio", "capacitance", "first_break", "shaft_voltage", "margin")
+
+# Largest number of points that are solved, which take some seconds; more are interpolated.
+MOST_SOLVED = 4000
+
+# Quantities that touching surfaces do not have.
+_VOLTAGES = ("first_break", "shaft_voltage", "margin")
+
+# Interpolated lambda ratio, over that of touching surfaces, from which a point may have a voltage after all.
+_NEARLY = 0.95
+
+# Points at which the interpolation is compared with solved ones.
+_COMPARED = 256
+
+# Numbers of steps of a design along each input, the finest first.
+_STEPS = (64, 48, 40, 32, 28, 24, 20, 17, 14, 12, 10, 8, 6, 5, 4, 3, 2, 1)
+
+
+@dataclass(frozen=True)
+class PointValues:
+    """Quantities of n operating points."""
+
+    values: Mapping[str, Array]  # by the names in ``NAMES``, shape (n,); NaN where a point has none
+    reasons: Mapping[int, str]  # why a point has no result, by its place
+    solved: int  # number of solved bearings
+    error: float | None = None  # largest relative error by interpolation, of those compared; None without it
+
+
+def values_at(case: BearingCase, inputs: Mapping[str, Array]) -> PointValues:
+    """Quantities of a bearing with quick contacts at many points, equal ones computed once.
+
+    ``inputs``, numbers by dotted key, SI units, shape (n,). More than ``MOST_SOLVED`` different points are
+    interpolated.
+    """
+    table, place = np.unique(np.column_stack(list(inputs.values())), axis=0, return_inverse=True)
+    if len(table) <= MOST_SOLVED:
+        found = _solved(case, tuple(inputs), table)
+    else:
+        found = _interpolated(case, tuple(inputs), table)
+    place = place.reshape(-1)
+    reasons = {k: found.reasons[p] for k, p in enumerate(place.tolist()) if p in found.reasons}
+    values = {name: column[place] for name, column in found.values.items()}
+    return PointValues(values, reasons, found.solved, found.error)
+
+
+def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
+    """Quantities at the rows of a table with a column for each key, shape (n, keys)."""
+    values = {name: np.full(len(table), np.nan) for name in NAMES}
+    reasons: dict[int, str] = {}
+    many = case.with_arrays(dict(zip(keys, table.T, strict=True)))
+    for part in solved_parts(many, reasons=reasons):
+        for name, numbers in _numbers(part.solution):
+            values[name][part.points] = np.nan if numbers is None else numbers
+    return PointValues(values, reasons, len(table))
+
+
+def _numbers(solution: BearingSolution) -> Iterator[tuple[str, Numbers | None]]:
+    """Quantities of solved points by name; None for what no point has."""
+    broken = breaks(solution)
+    yield "lambda_ratio", lambda_ratio(solution)
+    yield "capacitance", capacitance(solution)
+    yield "first_break", broken["first_break"]
+    yield "shaft_voltage", shaft_voltage(solution)
+    yield "margin", broken["margin"]
+
+
+def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
+    """Quantities at the rows of a table between the nodes of a design, and the error at some of the rows."""
+    low, high = table.min(axis=0), table.max(axis=0)
+    varied = np.flatnonzero(high > low)
+    # Films follow powers of speed and load, which are straight lines in logarithms.
+    log = np.array([key != "bearing.temperature" and low[k] > 0.0 for k, key in enumerate(keys)])
+    ends = [_scaled(end, log)[varied] for end in (low, high)]
+    unit = (_scaled(table, log)[:, varied] - ends[0]) / (ends[1] - ends[0])
+    nodes, corners, weights = _design(unit)
+    points = np.repeat(low[np.newaxis], len(nodes), axis=0)
+    points[:, varied] = ends[0] + nodes * (ends[1] - ends[0])
+    points[:, varied] = np.where(log[varied], np.exp(points[:, varied]), points[:, varied])
+    design = _solved(case, keys, np.clip(points, low, high))
+    values = {name: _between(column, corners, weights) for name, column in design.values.items()}
+    # No voltage is computed where surfaces touch. Points next to those with touching surfaces are solved.
+    for name in _VOLTAGES:
+        values[name] = np.where(values["lambda_ratio"] >= CONDUCTING, values[name], np.nan)
+    edge = _next_to_touching(design.values, corners) & (values["lambda_ratio"] > _NEARLY * CONDUCTING)
+    places = np.flatnonzero(edge)[:MOST_SOLVED]
+    compared = np.setdiff1d(np.linspace(0, len(table) - 1, _COMPARED).astype(int), places)
+    exact = _solved(case, keys, table[np.concatenate([places, compared])])
+    error = _largest_error(values, {name: one[places.size :] for name, one in exact.values.items()}, compared)
+    for name, column in exact.values.items():
+        values[name][places] = column[: places.size]
+    reason = next(iter({**design.reasons, **exact.reasons}.values()), "")
+    unknown = np.flatnonzero(np.isnan(values["lambda_ratio"])).tolist()
+    return PointValues(values, dict.fromkeys(unknown, reason), design.solved + exact.solved, error)
+
+
+def _next_to_touching(design: Mapping[str, Array], corners: IntArray) -> Mask:
+    """Points some of whose corners have touching surfaces and no voltage, and some have one, shape (n,)."""
+    insulates = (design["lambda_ratio"] >= CONDUCTING)[corners]
+    mixed: Mask = np.any(insulates, axis=-1) & ~np.all(insulates, axis=-1)
+    return mixed
+
+
+def _scaled(table: Array, log: Array) -> Array:
+    """Numbers, or their logarithms in the columns that have one."""
+    return np.where(log, np.log(np.where(log, table, 1.0)), table)
+
+
+def _design(unit: Array) -> tuple[Array, IntArray, Array]:
+    """Finest regular design whose used nodes are few enough, for points within the unit cube, shape (n, d).
+
+    Returns the used nodes, shape (m, d), and the places and weights of the corners around each point, shape
+    (n, 2^d).
+    """
+    corner = np.array(list(product((0, 1), repeat=unit.shape[1])))
+    for steps in _STEPS:
+        cell = np.minimum((steps * unit).astype(int), steps - 1)
+        own, place = np.unique(cell, axis=0, return_inverse=True)
+        around = own[:, np.newaxis, :] + corner
+        nodes, corners = np.unique(around.reshape(-1, unit.shape[1]), axis=0, return_inverse=True)
+        if len(nodes) <= MOST_SOLVED - _COMPARED:
+            break
+    part = (steps * unit - cell)[:, np.newaxis, :]
+    weights = np.prod(np.where(corner == 1, part, 1.0 - part), axis=-1)
+    return nodes / steps, corners.reshape(len(own), -1)[place.reshape(-1)], weights
+
+
+def _between(column: Array, corners: IntArray, weights: Array) -> Array:
+    """Values between corners, by logarithms; corners without a value are left out."""
+    logs = np.log(np.where(column > 0.0, column, np.nan))[corners]
+    known = np.isfinite(logs)
+    total = np.sum(weights, axis=-1, where=known)
+    mean = np.sum(np.where(known, logs, 0.0) * weights, axis=-1) / np.where(total > 0.0, total, 1.0)
+    return np.where(total > 0.0, np.exp(mean), np.nan)
+
+
+def _largest_error(values: Mapping[str, Array], exact: Mapping[str, Array], places: IntArray) -> float:
+    """Largest relative error of lambda ratio and margin at the compared points."""
+    errors = [np.abs(values[name][places] / exact[name] - 1.0) for name in ("lambda_ratio", "margin")]
+    return float(np.nanmax(errors, initial=0.0))

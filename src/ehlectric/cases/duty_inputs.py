@@ -1,0 +1,60 @@
+"""Table ``duty`` of a bearing file, and the duty cycle in the file that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.measurements import CYCLE, read_measurement
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+
+
+class Duty(Table, book="duty"):
+    """Duty cycle of a bearing: speed, loads, temperature and common-mode voltage over time."""
+
+    file: str
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle:
+    """Rows of a duty cycle, SI units."""
+
+    source: str  # path of the file
+    lines: tuple[int, ...]  # line of each row in the file, from 1
+    time: Array  # increasing [s], shape (n,)
+    # Quantities of the rows besides the time by name, as ``CYCLE`` has them, shape (n,).
+    values: Mapping[str, Array]
+    ignored: tuple[str, ...]  # heads of columns that are not known, and were ignored
+
+
+def read_cycle(path: str | Path) -> Cycle:
+    """Read a duty cycle from a text file with units in its heads, such as ``time [s],speed [rpm]``.
+
+    Raises InputError if the file cannot be read or is too large; if it has no time, or nothing else; if it
+    has fewer than two rows, or a time that does not increase; and for a value as ``read_measurement`` does.
+    """
+    read = read_measurement(path, CYCLE)
+    values = dict(read.values)
+    if "time" not in values:
+        raise InputError.missing(f"{read.source}: time", "a column 'time [s]'")
+    time = values.pop("time")
+    if not values:
+        text = "has no column but the time"
+        raise InputError(read.source, text, takes=f"heads such as {CYCLE.examples}")
+    if time.size < 2:
+        raise InputError(read.source, "has one row", takes="at least two")
+    back = np.flatnonzero(np.diff(time) <= 0.0)
+    if back.size:
+        place = int(back[0])
+        raise InputError(
+            read.source,
+            f"line {read.lines[place + 1]}: got the time {time[place + 1]:.9g} s",
+            takes=f"more than {time[place]:.9g} s, as the time increases from row to row",
+        )
+    uncertain = tuple(f"uncertainty of {name}" for name in read.uncertainties)
+    return Cycle(read.source, read.lines, time, values, (*read.ignored, *uncertain))
