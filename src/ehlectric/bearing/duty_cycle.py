@@ -129,8 +129,24 @@ class DutyResult(Values):
         """Rows with a margin below 1, shape (n,)."""
         return self.rows.margin < 1.0
 
-    def summary(self) -> dict[str, Any]:
-        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
+    def breakdown_probability(self, spread: Array) -> float | None:
+        """Probability of a margin below 1 at a random time of the cycle; None where no row has a margin.
+
+        ``spread``, margins within what is uncertain over the margin of the bearing, at its own operating
+        point; they are taken for all rows. Rows without a margin do not count as breakdown.
+        """
+        rows = self.rows
+        if not rows.has_margin:
+            return None
+        known = np.isfinite(rows.margin)
+        part = np.searchsorted(np.sort(spread), 1.0 / rows.margin[known]) / spread.size
+        return float(np.sum(part * rows.duration[known]) / np.sum(rows.duration))
+
+    def summary(self, spread: Array | None = None) -> dict[str, Any]:
+        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known.
+
+        ``spread`` is that of ``breakdown_probability``, where it is known.
+        """
         rows = self.rows
         worst = int(np.nanargmin(rows.margin)) if rows.has_margin else None
         return {
@@ -146,6 +162,7 @@ class DutyResult(Values):
             "full_film_share": rows.share(rows.state == FULL_FILM),
             "left_out_share": rows.share(rows.state == LEFT_OUT),
             "low_margin_share": rows.share(self.low) if rows.has_margin else None,
+            "breakdown_probability": None if spread is None else self.breakdown_probability(spread),
             "least_margin": None if worst is None else float(rows.margin[worst]),
             "least_margin_time": None if worst is None else float(rows.time[worst]),
             "stretches": [asdict(one) for one in self.stretches],

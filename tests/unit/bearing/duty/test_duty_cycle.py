@@ -101,6 +101,17 @@ def test_shares_are_those_of_the_durations(duty):
     assert sum(found[f"{name}_share"] for name in names) == pytest.approx(1.0)
 
 
+def test_the_probability_is_the_mean_over_the_time(duty):
+    """Without spread it is the share of time below 1; with two equal parts, the mean of both shares."""
+    rows = duty.rows
+    shares = [rows.share(rows.margin * factor < 1.0) for factor in (0.5, 1.0, 3.0)]
+    assert duty.breakdown_probability(np.array([1.0])) == pytest.approx(shares[1], abs=1e-12)
+    both = duty.breakdown_probability(np.array([3.0, 0.5]))
+    assert both == pytest.approx(0.5 * (shares[0] + shares[2]), abs=1e-12)
+    assert shares[0] > shares[2]
+    assert duty.summary()["breakdown_probability"] is None
+
+
 def test_an_inverter_that_is_off_leaves_no_voltage(duty):
     assert duty.rows.shaft_voltage[5] == 0.0
     assert np.isnan(duty.rows.margin[5])
