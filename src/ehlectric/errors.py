@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, Self
@@ -409,7 +409,14 @@ def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
     A later version may give codes that this one does not know: they become "not-usable" where the text says
     "do not use", else "unclassified".
     """
-    pairs = zip(table.get(CODES_OF_TEXTS, ()), table.get(TEXTS, ()), strict=True)
+    return _warnings(tuple(table.get(CODES_OF_TEXTS, ())), tuple(table.get(TEXTS, ())))
+
+
+# Points of a sweep have the same warnings again and again.
+@lru_cache(maxsize=1000)
+def _warnings(codes: tuple[str, ...], texts: tuple[str, ...]) -> tuple[ResultWarning, ...]:
+    """Warnings of codes and texts, as many of each."""
+    pairs = zip(codes, texts, strict=True)
     return tuple(ResultWarning(code if code in CODES else _foreign(text), text) for code, text in pairs)
 
 

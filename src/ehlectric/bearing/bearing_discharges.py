@@ -110,7 +110,7 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     """Bearing and shaft voltages at which the films of a solved bearing break down.
 
     None for ceramic elements, where surfaces touch, and without a dielectric strength; of many points NaN
-    where surfaces touch.
+    and an empty name where surfaces touch.
     """
     circuits, path = solution.circuits(), shaft_path(solution)
     first = np.array([circuit.first_break for circuit in circuits])

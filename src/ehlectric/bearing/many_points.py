@@ -14,7 +14,7 @@ from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import POSITIONS, solution_of, solution_of_prepared
 from ehlectric.bearing.summary import numbers_of
-from ehlectric.bearing.warnings import contact_codes, flags_of
+from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.errors import ConvergenceError, InputError
@@ -68,8 +68,7 @@ class Columns:
         for key, value in flattened(numbers_of(part.solution)).items():
             if key in TEXTS or is_number(value) or np.ndim(value):
                 self._column(key)[part.points] = value
-        flags = ((flag.code, flag.where) for flag in flags_of(part.solution))
-        for code, where in (*flags, *contact_codes(part.solution)):
+        for code, where in codes_of(part.solution):
             if np.any(where):
                 self._mask(code)[part.points] |= where
 
@@ -103,9 +102,9 @@ def solved_parts(
 ) -> Iterator[SolvedPart]:
     """Solutions of a case with arrays and quick contacts, in parts of ``TOGETHER`` points.
 
-    Points without a solution are left out, and their errors are put into ``reasons`` by their places where
-    they are asked for. Raises InputError for a reason that all points share, as an oil that needs solved
-    contacts.
+    Points without a solution are left out. Their errors are put into ``reasons`` by their places, if it is
+    given; each error takes the time of a single bearing. Raises InputError where no point has a solution
+    for a reason that all share, as an oil that needs solved contacts.
     """
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         part = _solved(case, points, positions)
@@ -124,7 +123,9 @@ def _solved(case: BearingCase, points: IntArray, positions: int) -> SolvedPart |
         prepared = prepare_bearing(some, positions)
         refused = np.broadcast_to(prepared.refused, points.shape)
         if not refused.any():
-            solution = solution_of_prepared(some, prepared)
+            # Contacts beyond the model, whose points are then left out, have numbers without a logarithm.
+            with np.errstate(invalid="ignore"):
+                solution = solution_of_prepared(some, prepared)
             refused = np.broadcast_to(solution.refused, points.shape)
             if not refused.any():
                 return SolvedPart(points, solution)

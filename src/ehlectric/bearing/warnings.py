@@ -86,7 +86,13 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
     yield from edge_flags(solution.case.bearing, solution.positions)
 
 
-def contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
+def codes_of(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
+    """Codes of the warnings of many points with quick contacts, and which points have them, shape (...)."""
+    yield from ((flag.code, flag.where) for flag in flags_of(solution))
+    yield from _contact_codes(solution)
+
+
+def _contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
     """Codes of warnings of quick contacts of many points, and which points have them, shape (...): contacts
     outside the atlas, pressures that deform steel, and laws of the oil beyond their range.
 

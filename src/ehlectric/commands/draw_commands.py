@@ -44,6 +44,14 @@ def load_and_draw(
         return _load_and_draw(path, folder, formats, style)
 
 
+def draw_sweep(
+    results: SweepResults, folder: Path, formats: Sequence[str] = ("png",), style: str = "screen"
+) -> Files:
+    """Draw the figures of a sweep into its folder, as ``load_and_draw`` does and with its errors."""
+    with alone_in(folder, locks=[FIGURE_LOCK]) as target:
+        return _draw_sweep(results, target, folder, formats, style)
+
+
 def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Files:
     """Draw the figures of a result from its NetCDF file or database."""
     from ehlectric.bearing.result import BearingResult

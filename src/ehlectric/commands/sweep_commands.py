@@ -78,7 +78,7 @@ def sweep(
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
             outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
         wanted = (plots or bool(formats)) and outcome.converged
-        drawn, told = _drawn(output, look) if wanted else ((), ())
+        drawn, told = _drawn(outcome.result, output, look) if wanted else ((), ())
     if not quiet:
         from ehlectric.sweep.sweep_verdict import sweep_verdict
         from ehlectric.tables.sweep_summary import sweep_rows
@@ -104,12 +104,14 @@ def _tell_what_lacks(sweep: Sweep) -> None:
         warn([f"{lacking}; points like it will fail"])
 
 
-def _drawn(folder: Path, look: Look) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:
+def _drawn(
+    results: SweepResults, folder: Path, look: Look
+) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:
     """Figures of a sweep and their warnings; without figures, the reason as a warning."""
-    from ehlectric.commands.draw_commands import load_and_draw
+    from ehlectric.commands.draw_commands import draw_sweep
 
     try:
-        return load_and_draw(folder, folder, **look)
+        return draw_sweep(results, folder, **look)
     except WriteError:
         raise
     except InputError as error:

@@ -261,20 +261,21 @@ def _strip(selection: Slice, ax: Axes, lines: list[SeriesLine], along: Array) ->
     ax.autoscale_view(scaley=False)
     columns = _columns(ax, along)
     ranks: Counter[int] = Counter()
-    placed = []
+    # Numbers of points and their ranks in the column, by what their marks look like.
+    placed: dict[tuple[str, Any], list[tuple[int, int]]] = {}
     for line in lines:
         for number in line.numbers:
             for kind, mask in missing.items():
                 if mask[number]:
                     column = int(columns[number])
                     ranks[column] += 1
-                    placed.append((kind, number, ranks[column], line.colour))
+                    placed.setdefault((kind, line.colour), []).append((number, ranks[column]))
     rows = max(ranks.values()) + 1
     part = min(max(_STRIP, _ROW * rows), _MOST)
-    for kind, number, rank, colour in placed:
+    for (kind, colour), some in placed.items():
         own = {"path_effects": []} | ({} if selection.y is None else {"color": colour})
-        place = (along[[number]], np.array([part * rank / rows]))
-        mark(ax, kind, *place, transform=ax.get_xaxis_transform(), **own)
+        numbers, height = np.array(some).T
+        mark(ax, kind, along[numbers], part * height / rows, transform=ax.get_xaxis_transform(), **own)
     low, high = ax.get_ylim()
     ticks = [tick for tick in ax.get_yticks() if low <= tick <= high]
     if ax.get_yscale() == "log":

@@ -18,6 +18,7 @@ from matplotlib.contour import ContourSet
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.tri import Triangulation
+from scipy.spatial import cKDTree
 from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, Mask
@@ -65,9 +66,10 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
         if not places.size:
             continue
         places = _between(_on_page(ax, places))
-        around = _on_page(ax, taken)
-        apart = (places[:, np.newaxis] - around) * (_WIDER, 1.0)
-        free = np.min(np.hypot(*np.moveaxis(apart, -1, 0)), axis=1, initial=1.0)
+        free = np.ones(len(places))
+        if len(taken):
+            around = cKDTree(_on_page(ax, taken) * (_WIDER, 1.0))
+            free = np.minimum(around.query(places * (_WIDER, 1.0))[0], 1.0)
         edge = np.min(np.hstack([places, 1.0 - places]) * (_WIDER, 1.0, _WIDER, 1.0), axis=1)
         free = np.minimum(free, edge)
         best = int(np.argmax(free))

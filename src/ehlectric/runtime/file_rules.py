@@ -28,7 +28,7 @@ C = TypeVar("C")
 _DIGITS = 6
 
 # No quantity in SI units is larger, and no positive one smaller; squares of such numbers are finite.
-_LARGEST, _SMALLEST = 1e30, 1e-60
+LARGEST, _SMALLEST = 1e30, 1e-60
 
 
 class UnfitError(ValueError):
@@ -36,7 +36,7 @@ class UnfitError(ValueError):
 
 
 def _finite(values: Array) -> bool:
-    return bool(np.all(np.abs(values) < _LARGEST))  # a comparison with NaN is false
+    return bool(np.all(np.abs(values) < LARGEST))  # a comparison with NaN is false
 
 
 def _whole(values: Array) -> bool:
@@ -203,7 +203,7 @@ def case_of(attributes: Mapping[Any, Any], read: Callable[[dict[str, Any]], C]) 
 
 def is_number(value: Any, values: str = "finite") -> bool:
     """Whether a value of JSON is a number, as the words in ``values`` say; true and false are none."""
-    if not is_python_number(value) or not abs(value) < _LARGEST:
+    if not is_python_number(value) or not abs(value) < LARGEST:
         return False
     return values == "finite" or VALUES[values](np.asarray(value, dtype=float))
 

@@ -74,6 +74,21 @@ def crew_of(executor: Executor) -> Crew:
     )
 
 
+def this_process() -> Crew:
+    """Crew that runs each task at once in this process."""
+    from concurrent.futures import Future
+
+    def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        future: Future[T] = Future()
+        try:
+            future.set_result(call(*values))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    return Crew(submit, lambda: 1)
+
+
 def packed_submit(executor: Executor) -> Callable[..., Future[Any]]:
     """Submit function of an executor of Dask, whose workers need no package to receive a task.
 

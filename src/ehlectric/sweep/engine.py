@@ -88,9 +88,6 @@ def case_key(case: SweptCase) -> str:
     True
     """
     table = case.to_dict()
-    del table["title"]
-    # Points of a sweep are single bearings, without their duty cycle.
-    table.pop("duty", None)
     # Rough surfaces, and the measured voltage of a drive.
     for holder in (*table.get("roughness", ()), table.get("source", {})):
         if "file" in holder:
@@ -98,7 +95,19 @@ def case_key(case: SweptCase) -> str:
             with regular(path) as file:
                 status = os.fstat(file.fileno())
             holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
-    text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hash_of(text_of(table))
+
+
+def text_of(table: Mapping[str, Any]) -> str:
+    """JSON text of the tables of a case without its title and its duty cycle, which no point of a sweep
+    depends on; ``case_key`` is the hash of such a text.
+    """
+    known = {key: value for key, value in table.items() if key not in ("title", "duty")}
+    return json.dumps(known, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def hash_of(text: str) -> str:
+    """SHA-256 hash of a text, hexadecimal."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -112,12 +121,17 @@ def _contents(path: Path, _changed: int, _size: int) -> str:
 def plan(sweep: Sweep) -> Iterator[Planned]:
     """Points of a sweep, each with the key of its case, or with the reason why it is no valid case."""
     for number, inputs in enumerate(sweep.points()):
-        try:
-            case = sweep.case.replace(inputs)
-            table = case.to_dict() if number < _TABLES_KEPT else None
-            yield Planned(number, inputs, case_key(case), table=table)
-        except InputError as error:
-            yield Planned(number, inputs, None, str(error))
+        yield planned_point(sweep, number, inputs)
+
+
+def planned_point(sweep: Sweep, number: int, inputs: Mapping[str, Any]) -> Planned:
+    """Point of a sweep with the key of its case, or with the reason why it is no valid case."""
+    try:
+        case = sweep.case.replace(inputs)
+        table = case.to_dict() if number < _TABLES_KEPT else None
+        return Planned(number, inputs, case_key(case), table=table)
+    except InputError as error:
+        return Planned(number, inputs, None, str(error))
 
 
 _SPEEDS = ("drive.speed", "bearing.inner_speed")

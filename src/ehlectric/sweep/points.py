@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 
 from ehlectric.arrays import Mask
 from ehlectric.cases.drive_case import SweptCase
-from ehlectric.errors import ResultWarning, warnings_of
-from ehlectric.runtime.values import Values
+from ehlectric.errors import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
+from ehlectric.runtime.values import Values, is_number
+
+# Codes of warnings with which numbers may be used.
+_HARMLESS = frozenset(code for code, cause in CODES.items() if cause.severity != "severe")
 
 # "solved": converged; "not converged": the summary must not be used; "failed": no summary; "open": not tried
 # yet.
@@ -63,7 +67,13 @@ class Point:
         >>> Point(0, {}, "solved", summary=warned).doubtful
         True
         """
-        return self.solved and any(warning.severity == "severe" for warning in self.warnings)
+        # A text may tell that a code of a later version is severe.
+        codes = (self.summary or {}).get(CODES_OF_TEXTS, ())
+        return (
+            self.solved
+            and not all(map(_HARMLESS.__contains__, codes))
+            and any(warning.severity == "severe" for warning in self.warnings)
+        )
 
     @property
     def usable(self) -> Mapping[str, Any]:
@@ -110,12 +120,32 @@ class SweepPoints(Values):
         """Dotted keys of the case that vary, in the order of the input."""
         return tuple(self.ranges if self.design == "sobol" else self.axes)
 
-    @property
-    def rows(self) -> list[dict[str, Any]]:
-        """Values of the summary of each point by dotted key; empty for a point that is not solved."""
-        return [flat(point.summary) if point.solved and point.summary else {} for point in self.points]
+    @cached_property
+    def columns(self) -> dict[str, list[Any]]:
+        """Values of the summaries by dotted key, each a list over the points.
 
-    @property
+        A value is None where a point is not solved, or its summary has no such value.
+        """
+        columns: dict[str, list[Any]] = {}
+        for place, point in enumerate(self.points):
+            for key, value in flat(point.summary).items() if point.solved and point.summary else ():
+                if key not in columns:
+                    columns[key] = [None] * len(self.points)
+                columns[key][place] = value
+        return columns
+
+    @cached_property
+    def numbers(self) -> dict[str, list[int | float | None]]:
+        """Columns with a number at some point; None where a point has none."""
+        numbers = {}
+        for key, column in self.columns.items():
+            kinds = kinds_of(column)
+            if kinds & {int, float}:
+                mixed = kinds - {int, float, type(None)}
+                numbers[key] = [value if is_number(value) else None for value in column] if mixed else column
+        return numbers
+
+    @cached_property
     def doubtful(self) -> Mask:
         """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points], dtype=bool)
@@ -130,14 +160,36 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     {'film.minimum_thickness': 1e-07, 'film.minimum_position.0': 0.0, 'film.minimum_position.1': 0.0002}
     """
     values: dict[str, Any] = {}
+    _add_flat(values, table, prefix)
+    return values
+
+
+def _add_flat(values: dict[str, Any], table: Mapping[str, Any], prefix: str) -> None:
+    """Add the values of nested tables by dotted key."""
     for name, value in table.items():
-        if isinstance(value, Mapping):
-            values |= flat(value, f"{prefix}{name}.")
+        # Most values are numbers and texts, for which the question whether they are mappings takes long.
+        if value is None or type(value) in _PLAIN:
+            values[prefix + name] = value
+        elif isinstance(value, Mapping):
+            _add_flat(values, value, f"{prefix}{name}.")
         elif isinstance(value, list | tuple) and value:
-            values |= flat({str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
+            _add_flat(values, {str(k): item for k, item in enumerate(value)}, f"{prefix}{name}.")
         else:
             values[prefix + name] = value
-    return values
+
+
+_PLAIN = frozenset({float, int, str, bool})
+
+
+def kinds_of(column: Sequence[Any]) -> set[type]:
+    """Types of the values of a column; that of NumPy's floats is float.
+
+    Examples
+    --------
+    >>> kinds_of([1.0, np.float64(2.0)]) == {float}, kinds_of([1, "a"]) == {int, str}
+    (True, True)
+    """
+    return {float if issubclass(kind, float) else kind for kind in set(map(type, column))}
 
 
 def as_number(value: Any) -> float:

@@ -25,7 +25,7 @@ from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.values import Shown, headline, is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
-from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat
+from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
 from ehlectric.sweep.sweep_verdict import sweep_verdict
 from ehlectric.version import __version__
 
@@ -63,8 +63,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
     """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
-    rows = results.rows
-    return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
+    return {key: results.columns[key] for key in _TEXTS if key in results.columns}
 
 
 def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
@@ -73,13 +72,10 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
     An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
     example is a viscosity that follows from a varied temperature.
     """
-    rows = [{key: value for key, value in row.items() if is_number(value)} for row in results.rows]
-    keys = dict.fromkeys(key for row in rows for key in row)
-    columns = {key: [row.get(key) for row in rows] for key in keys}
     varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
     return {
         key: values
-        for key, values in columns.items()
+        for key, values in results.numbers.items()
         if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
     }
 
@@ -109,7 +105,11 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
         for key, values in inputs.items()
     }
     summaries = {
-        key: (*laid_out(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
+        key: (
+            dimensions,
+            (_array(values) if key in _TEXTS else np.array(values, dtype=float)).reshape(shape),
+            _attributes(key, results),
+        )
         for key, values in columns.items()
     }
     return xr.Dataset(
@@ -129,10 +129,12 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     )
 
 
+_NUMBERS = frozenset({int, float})
+
+
 def _array(values: list[Any]) -> Any:
     """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
-    numeric = [is_number(value) for value in values]
-    if all(numeric):
+    if kinds_of(values) <= _NUMBERS:
         return np.array(values)
     return np.array([cell(value) for value in values], dtype=object)
 
@@ -211,7 +213,8 @@ class SweepResults(Shown, SweepPoints):
         if key in self.varied:
             return np.array([as_number(point.inputs.get(key)) for point in self.points])
         self._check(key)
-        return np.array([as_number(row.get(key)) for row in self.rows])
+        # None becomes NaN.
+        return np.array(self.numbers.get(key, [None] * len(self.points)), dtype=float)
 
     @cached_property
     def verdict(self) -> Verdict | None:
@@ -220,7 +223,7 @@ class SweepResults(Shown, SweepPoints):
 
     def _check(self, key: str) -> None:
         """Raise an InputError for a key that no summary has and that is not documented."""
-        if any(key in row for row in self.rows) or key_of(result_keys(self.case), key) is not None:
+        if key in self.columns or key_of(result_keys(self.case), key) is not None:
             return
         known = list(numbers_of(self)) or list(result_keys(self.case))
         table = key.partition(".")[0] + "."
@@ -297,7 +300,7 @@ def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
     be written to, its disk is full, or another command writes into it.
     """
     columns = columns_of(results)
-    rows = zip(*(map(_cell, column) for column in columns.values()), strict=True)
+    rows = zip(*map(_cells, columns.values()), strict=True)
     contents: dict[str, Content] = {
         CSV: csv_of(_heads(results, columns), rows, ending="\n"),
         NETCDF: content_of(results.to_xarray()),
@@ -319,6 +322,11 @@ def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
     file.write(sink.getvalue())
 
 
+def _cells(column: list[Any]) -> Iterable[Any]:
+    """Values of a column for the cells of sweep.csv."""
+    return column if kinds_of(column) <= _NUMBERS else map(_cell, column)
+
+
 def _cell(value: Any) -> Any:
     """Value for a cell of sweep.csv."""
     # The writer of Python quotes no carriage return where lines end in line feeds; no title has one.
@@ -335,8 +343,9 @@ def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
 
 def _plain(column: list[Any]) -> list[Any]:
     """Column with values of a single type, as Parquet needs."""
-    if any(isinstance(value, str | list | bool) for value in column):
+    kinds = kinds_of(column) - {type(None)}
+    if not kinds <= _NUMBERS:
         return [None if value is None else cell(value) for value in column]
-    if any(isinstance(value, float) for value in column):
+    if kinds == _NUMBERS:
         return [None if value is None else float(value) for value in column]
     return column

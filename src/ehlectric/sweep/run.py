@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, ExitStack, nullcontext
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +15,18 @@ from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent, told_to
-from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes
-from ehlectric.sweep.engine import Outcome, Planned, Task, plan, run_points
+from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes, this_process
+from ehlectric.sweep.batches import batches_of, run_batches, weight_of
+from ehlectric.sweep.engine import Outcome, Planned, Task, run_points
+from ehlectric.sweep.point_groups import Inputs, plan_together
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
 from ehlectric.sweep.sweep_inputs import Sweep
 from ehlectric.sweep.sweep_verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
+
+# Weight of batches below which they are solved in this process, in the time that others take to begin.
+_HERE = 5000
 
 
 def run_sweep(
@@ -126,7 +132,7 @@ def run(
 
 def planned_points(sweep: Sweep) -> list[Planned]:
     """Points of a sweep with the keys of their cases. Raises InputError where no point is a valid case."""
-    planned = list(plan(sweep))
+    planned = list(plan_together(sweep))
     if all(point.key is None for point in planned):
         raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
     return planned
@@ -147,9 +153,13 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
         texts += filter(None, [solvers.waiting()])
         progress(len(planned) - counts["open"], len(planned), ", ".join(texts))
 
-    def tasks() -> Iterator[Task]:
-        for key, inputs in store.open_points():
+    def tasks(some: Iterable[tuple[str, Inputs]]) -> Iterator[Task]:
+        for key, inputs in some:
             yield key, tables.get(key) or sweep.case.replace(inputs).to_dict()
 
     done(())
-    run_points(tasks(), solvers, done)
+    batches, others = batches_of(sweep, store.open_points())
+    here = solvers.one_machine and weight_of(batches) < _HERE
+    left = run_batches(batches, this_process() if here else solvers, done)
+    alone = chain.from_iterable(batch.tasks() for batch in left)
+    run_points(chain(alone, tasks(others)), solvers, done)

@@ -316,12 +316,12 @@ class Slice:
         ``points`` of its points by increasing ``x``; numbers are sorted; texts are in the order of the
         design. If ``y`` is None, there is a single group, of value None.
         """
-        values: list[Any] = list(dict.fromkeys(self.across)) if self.across else [None]
-        values = sorted(values) if self.numeric else values
+        groups: dict[Any, list[int]] = {}
+        for k, value in enumerate(self.across or [None] * len(self.points)):
+            groups.setdefault(value, []).append(k)
         series = []
-        for value in values:
-            group = [k for k, other in enumerate(self.across) if other == value]
-            numbers = np.array(group if self.across else range(len(self.points)), dtype=np.intp)
+        for value in sorted(groups) if self.numeric else groups:
+            numbers = np.array(groups[value], dtype=np.intp)
             series.append((value, numbers[np.argsort(self.along[numbers], kind="stable")]))
         return series
 
@@ -401,7 +401,7 @@ def _drawn(points: Sequence[Point]) -> str:
 
 def known_values(results: SweepResults) -> list[str]:
     """Dotted keys of the summaries that have a number at some solved point, in their order."""
-    return list(dict.fromkeys(key for row in results.rows for key, value in row.items() if is_number(value)))
+    return list(results.numbers)
 
 
 def numbers_of(results: SweepResults, value: str) -> Array:

@@ -19,7 +19,16 @@ from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field
 from ehlectric.cases.table import number_of
 from ehlectric.errors import CODES_OF_TEXTS, TEXTS, DamagedError, InputError, WriteError
-from ehlectric.runtime.file_rules import UnfitError, case_of, is_list, is_number, is_table, is_text, refusing
+from ehlectric.runtime.file_rules import (
+    LARGEST,
+    UnfitError,
+    case_of,
+    is_list,
+    is_number,
+    is_table,
+    is_text,
+    refusing,
+)
 from ehlectric.runtime.files import ADVICE, now, refuse_special
 from ehlectric.runtime.folders import locked
 from ehlectric.runtime.reading import regular
@@ -272,7 +281,7 @@ def _check_outcome(name: str, status: Any, reason: Any, seconds: Any, version: A
     """Check the outcome of a point that was tried."""
     if status not in get_args(Status) or status == "open":
         raise UnfitError(f"the status of {name} is none of a point")
-    _check(name, right=is_text(reason) and is_text(version) and is_number(seconds, "not negative"))
+    _check(name, right=is_text(reason) and is_text(version) and is_number(seconds) and seconds >= 0)
     if summary is not None:
         usable = isinstance(summary, dict) and _is_summary(summary) and _has_warnings(summary)
         _check(f"the summary of {name}", right=usable)
@@ -281,13 +290,21 @@ def _check_outcome(name: str, status: Any, reason: Any, seconds: Any, version: A
 
 
 def _is_summary(value: Any, levels: int = _DEEPEST) -> bool:
-    """Whether a value of JSON holds finite numbers, and no more levels than a summary."""
-    if isinstance(value, dict | list):
-        items = value.values() if isinstance(value, dict) else value
-        return levels > 0 and all(
-            item is None or isinstance(item, str | bool) or _is_summary(item, levels - 1) for item in items
-        )
-    return value is None or isinstance(value, str | bool) or is_number(value)
+    """Whether an object or list of JSON holds finite numbers, and no more levels than a summary."""
+    if levels == 0:
+        return False
+    for item in value.values() if isinstance(value, dict) else value:
+        kind = type(item)
+        if kind is float or kind is int:
+            right = abs(item) < LARGEST
+        else:
+            right = kind in _OTHERS or _is_summary(item, levels - 1)
+        if not right:
+            return False
+    return True
+
+
+_OTHERS = frozenset({str, bool, type(None)})
 
 
 def _has_warnings(summary: Mapping[str, Any]) -> bool:

@@ -49,7 +49,8 @@ from ehlectric.quantities.units import in_unit, rpm, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
-from ehlectric.sweep.engine import case_key, solve_point
+from ehlectric.sweep.batches import seconds_of
+from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.run import planned_points
@@ -134,8 +135,8 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     axes = [_axis(results, key) for key in results.varied[:2]]
     about, label = breakdown_of(results.case, shown), label_of(shown, results.case)
     name = named(shown, results.case)
-    rows = results.rows
-    values = [row[shown] if is_number(row.get(shown)) else None for row in rows]
+    values = results.numbers.get(shown, [None] * len(results.points))
+    rows = _rows(results, (about.margin, about.value, about.voltage))
     usable = [
         value
         for point, value in zip(results.points, values, strict=True)
@@ -159,6 +160,13 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     second = axes[1] if len(axes) > 1 else None
     limit = critical if shown == about.margin else about.voltage_name
     return Chart(axes[0], second, _titled(name, scale), critical if some else "", limit, points)
+
+
+def _rows(results: SweepResults, keys: Sequence[str]) -> list[dict[str, Any]]:
+    """Values of some keys of the summary of each point, None where it has none."""
+    none = [None] * len(results.points)
+    columns = [results.columns.get(key, none) for key in keys]
+    return [dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
 def _axis(results: SweepResults, key: str) -> Axis:
@@ -434,7 +442,7 @@ def _in_si(value: float, key: str) -> tuple[float, str]:
 def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     """Size of a sweep, refused corners of its ranges, and its time where the contacts are not solved.
 
-    The time is that of one of the corners, which is solved here.
+    The time follows from that of some points, which are solved here.
 
     Raises InputError if the tables are no valid sweep, or no corner of the ranges is a valid case.
     """
@@ -444,22 +452,9 @@ def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     refused = [point.refused for point in corners if point.key is None]
     seconds = None
     if is_quick(sweep.case):
-        inputs = next(point.inputs for point in corners if point.key is not None)
-        seconds = _seconds(sweep.case.replace(inputs)) * sweep.size / workers
+        alone = seconds_of(sweep)
+        seconds = None if alone is None else alone / workers
     return SweepPlan(sweep.size, seconds, workers, len(refused), len(corners), next(iter(refused), ""))
-
-
-def _seconds(case: SweptCase) -> float:
-    """Time of a point that is not solved [s]: the shortest of a few, as the first one takes longer."""
-    table = case.to_dict()
-    found = [solve_point(table).seconds]
-    while len(found) < _TRIES and sum(found) < _LONGEST_TRIES:
-        found.append(solve_point(table).seconds)
-    return min(found)
-
-
-# Most solutions that are timed for an estimate, and the time after which no other is begun [s].
-_TRIES, _LONGEST_TRIES = 3, 1.0
 
 
 def solved(

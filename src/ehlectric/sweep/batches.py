@@ -1,0 +1,217 @@
+"""Batches of the points of a sweep: bearings with quick contacts, which are solved together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, Numbers
+from ehlectric.bearing.many_points import TOGETHER, SolvedPart, solved_parts
+from ehlectric.bearing.quick_contacts import is_quick
+from ehlectric.bearing.summary import SCHEMA, numbers_of
+from ehlectric.bearing.warnings import codes_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import CODES, CODES_OF_TEXTS, TEXTS
+from ehlectric.runtime.files import now, plain
+from ehlectric.runtime.tasks import finished_tasks
+from ehlectric.runtime.worker_processes import Crew
+from ehlectric.sweep.engine import Outcome, Task, planned_point, solve_point
+from ehlectric.sweep.point_groups import Inputs, groups_of
+from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.version import __version__
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Points that differ in quantities only, as plain data that any process takes."""
+
+    keys: tuple[str, ...]  # keys of their cases, from ``case_key``
+    table: Mapping[str, Any]  # tables of the case of one of the points
+    values: Mapping[str, Array]  # numbers of the quantities, by dotted key, in SI units, shape (n,)
+
+    def table_of(self, place: int) -> dict[str, Any]:
+        """Tables of the case of a point."""
+        return _with_values(self.table, {key: float(column[place]) for key, column in self.values.items()})
+
+    def tasks(self) -> Iterator[Task]:
+        """Points one by one, each with its key and the tables of its case."""
+        for place, key in enumerate(self.keys):
+            yield key, self.table_of(place)
+
+
+def _with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Nested tables with values of dotted keys; tables that do not change are those that were given."""
+    changed = dict(table)
+    own: dict[str, dict[str, Any]] = {}
+    for key, value in values.items():
+        first, _, rest = key.partition(".")
+        if rest:
+            own.setdefault(first, {})[rest] = value
+        else:
+            changed[first] = value
+    return changed | {name: _with_values(table.get(name, {}), inner) for name, inner in own.items()}
+
+
+def batches_of(
+    sweep: Sweep, points: Sequence[tuple[str, Inputs]]
+) -> tuple[list[Batch], list[tuple[str, Inputs]]]:
+    """Batches of points, given with the keys of their cases and their inputs, and the points in no batch.
+
+    Only bearings with quick contacts are solved in batches. Each batch has points from the whole range of its
+    group, in random order: the same interpolation tables of the gaps around the films then serve all batches.
+    """
+    batches, others = [], list[tuple[str, Inputs]]()
+    if not isinstance(sweep.case, BearingCase):
+        return [], list(points)
+    for group in groups_of(sweep, (inputs for _, inputs in points)):
+        case = sweep.case.replace(group.inputs[0])
+        count = len(group.places)
+        if count < 2 or not group.quantities or not is_quick(case):
+            others += [points[place] for place in group.places]
+            continue
+        columns = {key: np.array([inputs[key] for inputs in group.inputs]) for key in group.quantities}
+        order = np.random.default_rng(0).permutation(count)
+        for some in np.array_split(order, -(-count // TOGETHER)):
+            keys = tuple(points[group.places[k]][0] for k in some)
+            batches.append(
+                Batch(keys, case.to_dict(), {key: column[some] for key, column in columns.items()})
+            )
+    return batches, others
+
+
+def run_batches(
+    batches: Iterable[Batch], crew: Crew, done: Callable[[Sequence[tuple[str, Outcome]]], None]
+) -> list[Batch]:
+    """Solve batches with a crew. Returns batches whose points have to be solved one by one. Raises LostError
+    if the crew cannot be reached any more.
+    """
+    left: list[Batch] = []
+    with closing(finished_tasks(((each, each) for each in batches), crew, solve_batch, _lost)) as finished:
+        for some in finished:
+            outcomes: list[tuple[str, Outcome]] = []
+            for batch, found in some:
+                if found is None:
+                    left.append(batch)
+                else:
+                    outcomes += zip(batch.keys, found, strict=True)
+            done(outcomes)
+    return left
+
+
+def _lost(_reason: str) -> None:
+    """Outcome of a batch whose process died: one of its points may be the cause, which is then found."""
+
+
+def weight_of(batches: Sequence[Batch]) -> int:
+    """Number of points in large batches that take as long as these batches."""
+    return sum(len(batch.keys) + _BEGINNING for batch in batches)
+
+
+# Points that take as long as the part of the time of a batch that does not depend on their number.
+_BEGINNING = 150
+
+
+def solve_batch(batch: Batch) -> list[Outcome] | None:
+    """Outcomes of the points of a batch, in any process; None where they have to be solved one by one.
+
+    Points without a result are solved one by one here, for the reason.
+    """
+    started = time.perf_counter()
+    try:
+        case = BearingCase.from_dict(batch.table).with_arrays(batch.values)
+        summaries: dict[int, dict[str, Any]] = {}
+        for part in solved_parts(case):
+            summaries |= zip(part.points.tolist(), _summaries(batch, part), strict=True)
+    except Exception:
+        # Alone, each point has its own reason.
+        return None
+    each = (time.perf_counter() - started) / len(batch.keys)
+    date = now()
+    return [
+        Outcome(
+            "solved",
+            "",
+            summary=summaries[place] | {"seconds": each},
+            seconds=each,
+            version=__version__,
+            date=date,
+        )
+        if place in summaries
+        else solve_point(batch.table_of(place))
+        for place in range(len(batch.keys))
+    ]
+
+
+def seconds_of(sweep: Sweep) -> float | None:
+    """Time of a sweep of bearings with quick contacts on one core [s], from that of some of its points.
+
+    None where these points are no valid cases.
+    """
+    every = max(1, sweep.size // _TRIED)
+    some = islice(enumerate(sweep.points()), 0, _TRIED * every, every)
+    points = [point for point in (planned_point(sweep, *each) for each in some) if point.key is not None]
+    if not points:
+        return None
+    places = groups_of(sweep, (point.inputs for point in points))[0].places
+    batches, others = batches_of(sweep, [(str(place), points[place].inputs) for place in places])
+    tables = [sweep.case.replace(inputs).to_dict() for _, inputs in others]
+    # The first time, interpolation tables are made that later batches use.
+    for _ in range(2):
+        begun = time.perf_counter()
+        for batch in batches:
+            solve_batch(batch)
+        for table in tables:
+            solve_point(table)
+        seconds = time.perf_counter() - begun
+    return seconds / len(places) * sweep.size
+
+
+# Most points that are tried for an estimate.
+_TRIED = 256
+
+
+def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
+    """Summaries of points that were solved together, nested as in summary.json, without their time.
+
+    The text of a warning is the meaning of its code: that of a single bearing names numbers and contacts.
+    """
+    count, solution = part.points.size, part.solution
+    tables = {name: _rows(table, count) for name, table in numbers_of(solution).items()}
+    codes: list[dict[str, str]] = [{} for _ in range(count)]
+    for code, where in codes_of(solution):
+        for place in np.flatnonzero(np.broadcast_to(where, count)).tolist():
+            codes[place][code] = CODES[code].meaning
+    for place, point in enumerate(part.points.tolist()):
+        yield {
+            "schema": SCHEMA,
+            "version": solution.version,
+            "title": solution.case.title,
+            "converged": True,
+            TEXTS: list(codes[place].values()),
+            CODES_OF_TEXTS: list(codes[place]),
+            "inputs": batch.table_of(point),
+            **{name: rows[place] for name, rows in tables.items()},
+        }
+
+
+def _rows(table: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
+    """Table of a summary of each of so many points, from a table with arrays of shape (points,)."""
+    columns = [_column(value, count) for value in table.values()]
+    return [dict(zip(table, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+def _column(value: Numbers, count: int) -> list[Any]:
+    """Values of so many points as Python has them: None for NaN and an empty text."""
+    if not np.ndim(value):
+        return [plain(value)] * count
+    if value.dtype.kind == "f":
+        numbers = value.astype(object)
+        numbers[~np.isfinite(value)] = None
+        return list(numbers)
+    return [None if each == "" else each for each in value.tolist()]
