@@ -23,6 +23,7 @@ radial_load = "3 kN"
 inner_speed = "3000 rpm"
 temperature = "70 degC"
 composite_rq = "0.03 um"
+film_factor = "none"
 [lubricant]
 base = "paper"
 [lubricant.temperature]

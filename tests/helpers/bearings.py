@@ -26,6 +26,7 @@ DUTY = {
     "inner_speed": "3000 rpm",
     "temperature": "70 degC",
     "composite_rq": "0.03 um",
+    "film_factor": "none",
 }
 OTHERS = {
     "lubricant": OIL,

@@ -23,7 +23,7 @@ from ehlectric.bearing.ring_contacts import Contact, RingContacts, check_contact
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
-from ehlectric.cases.case_oil import Lubricant, temperature_coefficient
+from ehlectric.cases.case_oil import Lubricant, temperature_coefficient, viscosity_follows
 from ehlectric.cases.contact_inputs import Body as BodyTable
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.cases.grid_inputs import Grid
@@ -36,6 +36,7 @@ from ehlectric.film.hot_oil import Body, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.formulas.inlet_supply import (
+    LOADING_EXPONENT,
     decay_rate,
     film_half_time,
     inlet_shear_factor,
@@ -43,6 +44,7 @@ from ehlectric.formulas.inlet_supply import (
     point_rolling_force,
     replenishment_factor,
 )
+from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.progress import LOGGER
@@ -268,8 +270,10 @@ def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: N
         contact_angle=geometry.free_angle,
     )
     slope = temperature_coefficient(case.lubricant, temperature)
-    assert slope is not None and oil.thermal_conductivity is not None
-    return inlet_shear_factor(oil.viscosity, slope, speeds.inner_entrainment, oil.thermal_conductivity)
+    assert slope is not None
+    known = oil.thermal_conductivity
+    conductivity = ASSUMED_CONDUCTIVITY if known is None else known
+    return inlet_shear_factor(oil.viscosity, slope, speeds.inner_entrainment, conductivity)
 
 
 def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
@@ -373,16 +377,43 @@ _SPARSE = ("grease", "oil-air")
 
 
 def film_note(solution: BearingSolution) -> Iterator[Flag]:
-    """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
-    factor, whole = solution.case.bearing.film_factor, solution.conditions.film_factor == 1.0
+    """Note about the effects that the films neglect, and whether they are bounds or best estimates."""
+    bearing, whole = solution.case.bearing, solution.conditions.film_factor == 1.0
+    factor = bearing.film_factor
     name = factor if isinstance(factor, str) else f"{factor:g}"
-    yield Flag.of(whole, "isothermal-film", factor=name)
+    unknown = factor == "none" and not viscosity_follows(solution.case.lubricant)
+    yield Flag.of(whole, "isothermal-film", "viscosity" if unknown else "given", factor=name)
     yield Flag.of(
         np.logical_not(whole),
         "smooth-film",
+        "bound" if bearing.isothermal else "estimate",
         factor=lambda: _film_words(solution)[0],
         neglected=lambda: _film_words(solution)[1],
     )
+
+
+def conductivity_flag(solution: BearingSolution) -> Flag:
+    """Note about a thermal conductivity that is assumed for the heat of the inlet."""
+    heated = solution.case.bearing.film_factor == "inlet-shear"
+    low, high = USUAL_CONDUCTIVITY
+    return Flag.of(
+        heated and solution.conditions.oil.thermal_conductivity is None,
+        "conductivity-assumed",
+        value=ASSUMED_CONDUCTIVITY,
+        low=low,
+        high=high,
+        least=lambda: _with_conductivity(solution, low),
+        most=lambda: _with_conductivity(solution, high),
+    )
+
+
+def _with_conductivity(solution: BearingSolution, conductivity: float) -> float:
+    """Factor of the heat in the inlet of one bearing if its oil had a thermal conductivity [W/(m K)]."""
+    factor = solution.conditions.part_of_film_factor("inlet_shear_factor")
+    assert isinstance(factor, float)
+    # The thermal loading is inversely proportional to the conductivity.
+    share = (1.0 / factor - 1.0) * (ASSUMED_CONDUCTIVITY / conductivity) ** LOADING_EXPONENT
+    return float(1.0 / (1.0 + share))
 
 
 def _film_words(solution: BearingSolution) -> tuple[str, str]:

@@ -674,4 +674,4 @@ def _assumptions(solution: BearingSolution) -> str:
         films = "fully flooded, smooth film with the solved heat of pure rolling"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
-    return f"Upper bound: {films}; {clause}."
+    return f"{'Upper bound' if case.bearing.isothermal else 'Best estimate'}: {films}; {clause}."

@@ -265,13 +265,15 @@ class BearingResult(Shown):
         capacitance = amount(self.capacitance(), "F")
         if capacitance_is_bound(self.solution):
             capacitance = BEARING_KEYS["bearing.capacitance"].with_sign(capacitance)
-        first = BEARING_KEYS["bearing.first_break"]
+        breaks = None if voltage is None else f"{voltage:.4g} V"
+        if breaks and (self.case.bearing.isothermal or "partial-film" in {one.code for one in self.warnings}):
+            breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return headline(
             self.case.title,
             self.case.bearing.base or self.case.bearing.kind,
             f"{rpm(self.case.bearing.inner_speed):.4g} rpm",
             f"capacitance {capacitance}",
-            None if voltage is None else f"first breakdown {first.with_sign(f'{voltage:.4g} V')}",
+            None if breaks is None else f"first breakdown {breaks}",
             None if shaft is None else f"shaft voltage {shaft:.4g} V",
             "converged" if self.converged else "NOT CONVERGED",
         )

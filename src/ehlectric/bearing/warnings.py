@@ -19,7 +19,7 @@ from ehlectric.bearing.bearing_discharges import (
     strength_per_volt,
 )
 from ehlectric.bearing.bearing_touching import duty_of, time_text
-from ehlectric.bearing.film_factor import film_note, supply_flags
+from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
@@ -115,6 +115,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield Flag.of(case.contacts == "formula", "formula-contacts", "bearing", error=error)
     yield Flag.of(case.contacts == "atlas", "atlas-contacts", "bearing", error=error)
     yield from film_note(solution)
+    yield conductivity_flag(solution)
     yield from supply_flags(solution)
     base = library_viscosity(case.lubricant)
     yield Flag.of(

@@ -10,23 +10,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, Unpack
 
 import numpy as np
-from pydantic import (
-    ModelWrapValidatorHandler,
-    ValidationError,
-    field_serializer,
-    field_validator,
-    model_validator,
-)
+from pydantic import field_serializer, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_heat, missing_conductivity
-from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_heat
+from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
-from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.defaults import DEFAULT_FILM, Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
@@ -46,7 +40,6 @@ from ehlectric.cases.table import (
     parser_of,
     read_toml,
     table_of,
-    with_further,
 )
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
@@ -286,19 +279,6 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
         return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _with_heat(cls, tables: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Name what the film factor needs of the oil together with what else the oil lacks."""
-        try:
-            return handler(tables)
-        except ValidationError as error:
-            lacks = any(detail["loc"][:1] == ("lubricant",) for detail in error.errors())
-            further = missing_conductivity(tables) if lacks else None
-            if further is None:
-                raise
-            raise with_further(error, ("lubricant",), further) from None
-
     @field_validator("ranges", mode="plain")
     @classmethod
     def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
@@ -315,6 +295,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             if getattr(self.discharge, key) is not None:
                 raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
         self._check_connected()
+        self._set_default_film()
         check_heat(self.bearing, self.lubricant)
         if (
             self.bearing.by_supply_rule
@@ -327,6 +308,15 @@ class BearingCase(CaseFile, book="bearing_file"):
             )
         self._check_ranges()
         return self
+
+    def _set_default_film(self) -> None:
+        """Set a film factor that is not given: the best estimate that the oil allows."""
+        if "film_factor" in self.bearing.model_fields_set:
+            return
+        # It is not among the given keys, so that ``replace`` sets it anew for another oil.
+        bearing = self.bearing.model_copy()
+        bearing.__dict__["film_factor"] = DEFAULT_FILM if viscosity_follows(self.lubricant) else "none"
+        self.__dict__["bearing"] = bearing
 
     def _check_ranges(self) -> None:
         """Check that each range is one of a number of the file, and contains it."""
@@ -488,7 +478,7 @@ class BearingCase(CaseFile, book="bearing_file"):
         """
         refuse_deep({**tables, "changes": changes})
         changes = _with_class(_flat_changes(tables) | dict(changes or {}))
-        table = self.to_dict()
+        table = open_tables(self)
         if "lubricant.base" in changes:
             table["lubricant"] = {}
         if changes.get("bearing.base") is not None:
@@ -508,6 +498,14 @@ class BearingCase(CaseFile, book="bearing_file"):
             # It follows from the class, and anew where the class or the bore changes.
             table["bearing"].pop("radial_clearance", None)
         return self.from_dict(table)
+
+
+def open_tables(case: BearingCase) -> dict[str, Any]:
+    """Tables of a case to be changed, in which a film factor that follows from the oil is left open."""
+    table = case.to_dict()
+    if "film_factor" not in case.bearing.model_fields_set:
+        del table["bearing"]["film_factor"]
+    return table
 
 
 def _check_together(case: BearingCase, arrays: Mapping[str, Array]) -> None:

@@ -14,9 +14,9 @@ from pydantic import BeforeValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import amount_at
-from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
+from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.coating_inputs import Coating
-from ehlectric.cases.defaults import FILM_FACTORS
+from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS, ISOTHERMAL
 from ehlectric.cases.film_inputs import check_thermal_oil
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.library.bearing_catalogue import (
@@ -25,7 +25,7 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_class,
     with_clearance,
 )
-from ehlectric.cases.oil_inputs import Properties, library_choice, library_name
+from ehlectric.cases.oil_inputs import library_choice, library_name
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.inlet_supply import SUPPLY_CONSTANTS
@@ -203,7 +203,7 @@ class Bearing(Table, book="bearing"):
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
     parallel_capacitance: float | None = None
     coating: Coating | None = None
-    film_factor: Annotated[float | str, BeforeValidator(partial(_word_or_part, FILM_FACTORS))] = "none"
+    film_factor: Annotated[float | str, BeforeValidator(partial(_word_or_part, FILM_FACTORS))] = DEFAULT_FILM
     supply: Annotated[float | str, BeforeValidator(partial(_word_or_part, SUPPLY_CONSTANTS))] = "flooded"
     fits: Fits | None = None
 
@@ -259,6 +259,11 @@ class Bearing(Table, book="bearing"):
     def heated(self) -> bool:
         """Whether the heat in the films is computed, by a formula or solved."""
         return self.film_factor in FILM_FACTORS[1:]
+
+    @property
+    def isothermal(self) -> bool:
+        """Whether the films have no heat, neither computed nor in a given factor: they are upper bounds."""
+        return self.film_factor in ISOTHERMAL
 
     @property
     def by_supply_rule(self) -> bool:
@@ -427,41 +432,13 @@ def check_heat(bearing: Bearing, oil: Lubricant) -> None:
         _check_solved(bearing, oil)
 
 
-def missing_conductivity(tables: Any) -> InputError | None:
-    """Error of a thermal conductivity that is missing in a bearing file whose oil lacks other values, too.
-    Its key is that in the table of the oil. It is None if nothing is missing for the film factor.
-    """
-    if not isinstance(tables, Mapping):
-        return None
-    bearing, oil = tables.get("bearing"), tables.get("lubricant")
-    if not (isinstance(bearing, Mapping) and isinstance(oil, Mapping)):
-        return None
-    if bearing.get("film_factor") != "inlet-shear":
-        return None
-    try:
-        _check_conductivity(Properties.from_dict(oil))
-    except InputError as error:
-        key = str(error.key).removeprefix("lubricant.")
-        return error.retold(key, error.text) if "thermal_conductivity" in key else None
-    return None
-
-
 def _check_inlet(oil: Lubricant) -> None:
-    """Check that the heating by shear in the inlet is known: viscosity over temperature, conductivity."""
-    if viscosity_over_temperature(oil) is None:
+    """Check that the viscosity follows the temperature, without which shear heats no inlet."""
+    if not viscosity_follows(oil):
         needs = "film_factor 'inlet-shear' needs a viscosity that follows the temperature"
         raise InputError.worded(
             "lubricant.viscosity", f"is one for all temperatures; {needs}", takes="a data sheet or a law"
         )
-    _check_conductivity(oil)
-
-
-def _check_conductivity(oil: Properties) -> None:
-    """Check that an oil has a thermal conductivity, of its data sheet or by a law."""
-    sheet = oil.temperature
-    if oil.law("thermal_conductivity_law") is None and (sheet is None or sheet.thermal_conductivity is None):
-        key = "thermal_conductivity" if sheet is None else "temperature.thermal_conductivity"
-        raise InputError.worded(f"lubricant.{key}", "missing; film_factor 'inlet-shear' needs it")
 
 
 def _check_solved(bearing: Bearing, oil: Lubricant) -> None:

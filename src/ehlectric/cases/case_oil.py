@@ -229,6 +229,11 @@ def viscosity_over_temperature(oil: Properties) -> Callable[[Numbers], Numbers] 
     return None
 
 
+def viscosity_follows(oil: Properties) -> bool:
+    """Whether the viscosity of an oil at zero pressure follows from its temperature."""
+    return oil.over_temperature or VISCOSITY_LAWS[oil.viscosity_law].atmospheric is not None
+
+
 def depends_on_temperature(oil: Properties) -> bool:
     """Whether viscosity, density or permittivity of an oil change with its temperature.
 

@@ -28,6 +28,11 @@ OF_CONTACTS = {
 # Values of ``film_factor`` that are words; all but the first compute the heat.
 FILM_FACTORS = ("none", "inlet-shear", "solved")
 
+# The best estimate, which is the default where the viscosity of the oil follows its temperature, and the
+# film factors without heat, whose films are upper bounds.
+DEFAULT_FILM = "inlet-shear"
+ISOTHERMAL = ("none", 1.0)
+
 
 def quick_way(contacts: object) -> str:
     """Quick way of a bearing with contacts as its file has them: its own one, or the atlas.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field, model_validator
 
-from ehlectric.cases.bearing_case import BearingCase, bearing_key
+from ehlectric.cases.bearing_case import BearingCase, bearing_key, open_tables
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import displace, flattened, set_keys
 from ehlectric.cases.defaults import Contacts
@@ -183,7 +183,7 @@ def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
     if bearing.duty is not None:
         bearing = bearing.model_copy(update={"duty": None})
     if bearing.motor is not None:
-        table = {key: part for key, part in bearing.to_dict().items() if key not in ("motor", "ranges")}
+        table = {key: part for key, part in open_tables(bearing).items() if key not in ("motor", "ranges")}
         table["discharge"].pop("pit", None)
         bearing = BearingCase.from_dict(table)
     return bearing.replace(changes) if changes else bearing

@@ -355,12 +355,6 @@ def first_error(error: ValidationError, model: type[Table]) -> InputError:
     return InputError.together([_error(detail, model) for detail in details])
 
 
-def with_further(error: ValidationError, loc: tuple[str, ...], further: InputError) -> ValidationError:
-    """Validation error with a further error of the table at a location."""
-    added = InitErrorDetails(type="value_error", loc=loc, input=None, ctx={"error": further})
-    return ValidationError.from_exception_data(error.title, [*details_of(error), added])
-
-
 def details_of(error: ValidationError) -> list[InitErrorDetails]:
     """Errors in a validation error, from which another one can be made."""
     return [

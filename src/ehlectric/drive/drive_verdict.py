@@ -62,7 +62,7 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
         sentences = [f"{LEADS[level]}: {_none(summary, part)}."]
     sentences += [*_touching(ends), *_harm(case, ends), *([] if arcs else doubts)]
     if any(end["breakdown_voltage"] is not None for end in ends):
-        sentences += [*([] if events or arcs else [_bound(codes)]), _assumption(case)]
+        sentences += [*([] if events or arcs else [_bound(case, codes)]), _assumption(case)]
     return Verdict(level, " ".join(filter(None, sentences)))
 
 
@@ -197,9 +197,10 @@ def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
         yield f"Asperities close the films for {100.0 * share:.3g} % of the time: {_OPENING}."
 
 
-def _bound(codes: set[str]) -> str:
+def _bound(case: DriveCase, codes: set[str]) -> str:
     films = "isothermal, fully flooded, smooth films" if "isothermal-film" in codes else "smooth films"
-    return f"Upper bound: the voltages at which films break down are those of {films}."
+    kind = "Upper bound" if any(one.bearing.isothermal for one in case.bearings) else "Best estimate"
+    return f"{kind}: the voltages at which films break down are those of {films}."
 
 
 def _assumption(case: DriveCase) -> str:

@@ -124,7 +124,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
         for end, one, ratio, result in zip(ENDS, ready.elements, ready.divider, ready.bearings, strict=True)
     }
     drive = {"duration": ready.duration, "remedies": len(case.remedies)}
-    return _tables(case, highest, drive, ends)
+    return {**_tables(case, highest, drive, ends), "inputs": case.to_dict()}
 
 
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:

@@ -231,7 +231,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
         return text + ": surfaces touch"
-    return text + (": voltages are upper bounds" if voltages else "")
+    return text + (": voltages are upper bounds" if voltages and solution.case.bearing.isothermal else "")
 
 
 def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:

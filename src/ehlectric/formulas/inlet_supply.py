@@ -26,6 +26,9 @@ from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz import dry_contact
 
+# Exponent of the thermal loading parameter in the reduction factor of Wilson and Sheu.
+LOADING_EXPONENT = 0.64
+
 
 def inlet_shear_factor(viscosity: Numbers, slope: Numbers, speed: Numbers, conductivity: Numbers) -> Numbers:
     """Reduction factor of the central film thickness due to shear heating in the inlet, in pure rolling.
@@ -48,7 +51,7 @@ def inlet_shear_factor(viscosity: Numbers, slope: Numbers, speed: Numbers, condu
     0.848
     """
     loading = viscosity * slope * speed**2 / conductivity
-    return as_float(1.0 / (1.0 + 0.241 * loading**0.64))
+    return as_float(1.0 / (1.0 + 0.241 * loading**LOADING_EXPONENT))
 
 
 # Constant K_rs of SKF's factor, by the way in which the oil is supplied. A flooded bearing has no reduction.

@@ -21,6 +21,13 @@ from ehlectric.lubricant.law import Law, parameters_of, required
 # Largest pressure [Pa] and temperature [K] of the measurements behind the laws of Larsson et al.
 LARSSON_PRESSURE, LARSSON_TEMPERATURE = 1.1e9, 380.15
 
+# Thermal conductivity of an oil that gives none, and the usual range of mineral oils and synthetic
+# hydrocarbons at 40 to 100 degC and ambient pressure [W/(m K)]. Larsson et al., as later programs quote them,
+# have 0.137 of a paraffinic mineral oil, the value here, and 0.154 of a polyalphaolefin; Wingertszahn et al.,
+# doi:10.3390/lubricants11090369, have 0.134 of the mineral oil FVA 3. The range contains them; its ends are
+# a judgement.
+ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY = 0.137, (0.12, 0.16)
+
 
 def volume(pressure: ArrayLike, temperature: Array, state: TaitState) -> tuple[Array, Array]:
     """Volume over that at zero pressure and the reference temperature, and its derivative by pressure."""

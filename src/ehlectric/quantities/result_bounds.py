@@ -2,12 +2,13 @@
 
 The book says what an ideal film makes of each quantity. Whether that holds for a result follows from what its
 film leaves out: starvation, heat, or roughness. A real film is thinner, so that its field is higher, and it
-breaks down at a lower voltage.
+breaks down at a lower voltage. The films of a bearing with heat are best estimates, and no bounds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from ehlectric.quantities.quantity import Bound, Keys
 from ehlectric.quantities.rows import Summary, value_at
@@ -54,12 +55,20 @@ def contact_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     return _holding(book, lambda key: key not in never and (ideal or key in always))
 
 
-def ideal_bounds(book: Keys) -> dict[str, Bound]:
-    """Bounds of the numbers of a drive or of a contact over time, by dotted key.
-
-    Their films are ideal in any case: those of a drive are smooth, those of moving roughness isothermal.
-    """
+def moving_bounds(book: Keys) -> dict[str, Bound]:
+    """Bounds of the numbers of a contact over time, by dotted key; its films are isothermal in any case."""
     return _holding(book, lambda _: True)
+
+
+def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
+    """Bounds of the numbers of a drive, by dotted key, where the films of a bearing are upper bounds.
+
+    The numbers of a remedy, whose summary has no inputs, have none.
+    """
+    inputs = summary.get("inputs", {})
+    ends = (inputs[end]["bearing"] for end in ("drive_end", "non_drive_end") if end in inputs)
+    ideal = any(_isothermal(end) for end in ends) or _parting(summary)
+    return _holding(book, lambda _: ideal)
 
 
 def _holding(book: Keys, holds: Callable[[str], bool]) -> dict[str, Bound]:
@@ -67,32 +76,33 @@ def _holding(book: Keys, holds: Callable[[str], bool]) -> dict[str, Bound]:
     return {key: about.bound for key, about in book.items() if about.bound and holds(key)}
 
 
-def ideal_bearing(summary: Summary) -> bool:
-    """Whether real films are thinner than those of a bearing: fully flooded, and smooth.
-
-    A film factor that is given stands for starvation and heat as well, and so does a supply for starvation.
-    """
-    bearing = summary["inputs"]["bearing"]
-    heated = (
-        bearing.get("film_factor") in ("inlet-shear", "solved")
-        and bearing.get("supply", "flooded") == "flooded"
-    )
-    return bool(summary["bearing"]["film_factor"] == 1.0) or heated
+def _isothermal(bearing: Mapping[str, Any]) -> bool:
+    """Whether the films of a table ``bearing`` are upper bounds: they have no heat, not even by a number."""
+    return bearing.get("film_factor") in ("none", 1.0)
 
 
-def bearing_bound_words(summary: Summary) -> str:
-    """Why the breakdown voltages of a bearing are upper bounds; its smooth films always make them so.
+def _parting(summary: Summary) -> bool:
+    """Whether surfaces may touch, and break down below the voltage of their smooth films as they part."""
+    return "partial-film" in summary.get("warning_codes", ())
+
+
+def breakdown_words(summary: Summary) -> str:
+    """Films of the breakdown voltages of a bearing, and whether these are upper bounds or best estimates.
 
     Examples
     --------
-    >>> bearing_bound_words({"warning_codes": ["partial-film"]})
+    >>> inputs = {"bearing": {"film_factor": "inlet-shear"}}
+    >>> breakdown_words({"inputs": inputs, "warning_codes": ["smooth-film"]})
+    'best estimate: smooth film'
+    >>> breakdown_words({"inputs": inputs, "warning_codes": ["partial-film"]})
     'upper bound: smooth film, whose surfaces may touch'
     """
-    codes = summary["warning_codes"]
+    codes, parting = summary["warning_codes"], _parting(summary)
     films = "isothermal, fully flooded, smooth film" if "isothermal-film" in codes else "smooth film"
-    touch = ", whose surfaces may touch" if "partial-film" in codes else ""
+    touch = ", whose surfaces may touch" if parting else ""
     scatter = ", at a probability of 63.2 %" if "weibull-voltage" in codes else ""
-    return f"upper bound: {films}{touch}{scatter}"
+    bound = parting or _isothermal(summary["inputs"]["bearing"])
+    return f"{'upper bound' if bound else 'best estimate'}: {films}{touch}{scatter}"
 
 
 # Numbers of a bearing that are bounds only where a condition holds: capacitances of ceramic elements whose
@@ -116,21 +126,23 @@ _OF_SHAFT = (
 def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a bearing, by dotted key.
 
-    Its films are smooth, and mostly isothermal and fully flooded: real films are thinner, break down at lower
-    voltages and higher speeds, and have higher fields. The shaft voltage falls with the film, but less than
-    it. The energy of a breakdown voltage that is an upper bound is one too, although a thinner film has a
-    higher capacitance: it grows as 1/h at most, and the square of the voltage falls as h^2.
+    Isothermal films are bounds: real films are thinner, break down at lower voltages and higher speeds, and
+    have higher fields. So are smooth films whose surfaces may touch. All others are best estimates. The shaft
+    voltage falls with the film, but less than it. The energy of a breakdown voltage that is an upper bound is
+    one too, although a thinner film has a higher capacitance: it grows as 1/h at most, and the square of the
+    voltage falls as h^2.
     """
     codes = summary["warning_codes"]
-    leaks = "shaft-leaks" in codes
+    leaks, isothermal = "shaft-leaks" in codes, _isothermal(summary["inputs"]["bearing"])
+    ideal = isothermal or _parting(summary)
     holds = {
         **dict.fromkeys(_CERAMIC, "capacitance-bound" in codes),
         **dict.fromkeys(_DISCHARGED, leaks),
-        **dict.fromkeys(_FILMS, ideal_bearing(summary)),
-        **dict.fromkeys(_OF_SHAFT, not leaks),
+        **dict.fromkeys(_FILMS, isothermal and summary["bearing"]["film_factor"] == 1.0),
+        **dict.fromkeys(_OF_SHAFT, ideal and not leaks),
     }
     # Words in place of a number are no bound.
     worded = [
         key for key in ("bearing.first_break", "margin.critical_speed") if value_at(summary, key) is None
     ]
-    return _holding(book, lambda key: holds.get(key, True) and key not in worded)
+    return _holding(book, lambda key: holds.get(key, ideal) and key not in worded)

@@ -23,6 +23,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
+from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
@@ -151,8 +152,9 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
         yield Table(caption, heads, cells, (1, 2), shares=(0.44, 0.22, 0.22, 0.12))
-    bounds = TEXTS["bounds"][DRIVE_BOOK["end.breakdown_voltage"].bound]
-    yield Text(f"{bounds} {SENTENCES['drive_numbers'].format(limits=_LIMITS)}")
+    bound = drive_bounds(DRIVE_BOOK, summary).get("end.breakdown_voltage")
+    sentences = [SENTENCES["drive_numbers"].format(limits=_LIMITS)]
+    yield Text(" ".join([TEXTS["bounds"][bound], *sentences] if bound else sentences))
 
 
 AS_IT_IS = "as it is"

@@ -41,11 +41,22 @@ def label_of(key: str, case: SweptCase) -> Label:
     result, entry = key_of(result_keys(case), key), input_of(own)
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(own) is None)):
-        return Label(result.label or key, result.symbol, result.unit, result.bound)
+        return Label(result.label or key, result.symbol, result.unit, result.bound if _bounds(case) else "")
     end = NAMES_OF_ENDS.get(end_and_key(own)[0], "")
     if entry is None:
         return Label(key, "", "" if own == key else unit_of(own))
     return Label(f"{entry.label}, {end}" if end else entry.label, entry.symbol, entry.unit)
+
+
+def _bounds(case: SweptCase) -> bool:
+    """Whether the films of a case are upper bounds; those of a bearing with heat are best estimates."""
+    match case:
+        case BearingCase():
+            return case.bearing.isothermal
+        case DriveCase():
+            return any(one.bearing.isothermal for one in case.bearings)
+        case _:
+            return True
 
 
 def _counted_from_one(key: str) -> str:

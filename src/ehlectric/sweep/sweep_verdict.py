@@ -13,7 +13,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.defaults import QUICK
+from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.discharge.film_verdict import (
     DOUBTS,
@@ -145,15 +145,20 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     case = results.case
     if isinstance(case, DriveCase) or case.discharge is None or not case.discharge.has_strength:
         return
+    kind = "Upper bound"
     if isinstance(case, BearingCase):
         factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
         kinds = ["isothermal", "fully flooded", "smooth"] if factors & {1.0} else ["smooth"]
+        taken = (
+            point.inputs.get("bearing.film_factor", case.bearing.film_factor) for point in results.points
+        )
+        kind = "Upper bound" if any(factor in ISOTHERMAL for factor in taken) else "Best estimate"
     else:
         supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
         heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied
         neglected = {"isothermal": not heated, "fully flooded": not supplied}
         kinds = [kind for kind, holds in neglected.items() if holds]
-    bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
+    bound = f"{kind}: {', '.join(kinds)} film; " if kinds else ""
     strength = assumption_of(case.discharge)
     if _strength_varies(results):
         strength = "the dielectric strength is an assumption"

@@ -14,7 +14,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
-from ehlectric.quantities.result_bounds import bearing_bound_words, bearing_bounds
+from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, shown_unit, value_at
 from ehlectric.quantities.sheets import (
@@ -283,7 +283,7 @@ def _first_break(summary: Summary) -> Noted:
             "not computed", ", lambda below 1: contacts open and close and discharge at a low voltage"
         )
     found = summary["bearing"]
-    return Noted(found["first_break"], f", {found['first_break_at']}; {bearing_bound_words(summary)}")
+    return Noted(found["first_break"], f", {found['first_break_at']}; {breakdown_words(summary)}")
 
 
 def _period(summary: Summary) -> str:
@@ -316,7 +316,7 @@ def _between(low: float, high: float) -> str:
 
 def _effects(summary: Summary) -> Iterator[Row]:
     """Rows of the margins if one input changes, the largest effect first."""
-    bound = bearing_bounds(BEARING_BOOK, summary)["margin.effects"]
+    bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     for effect in (summary.get("margin") or {}).get("effects", ()):
         margins = _between(effect["low_margin"], effect["high_margin"])
         name, _, beside = effect["label"].partition(" (")

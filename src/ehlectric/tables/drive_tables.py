@@ -13,7 +13,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
 from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.result_bounds import ideal_bounds
+from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
@@ -50,13 +50,15 @@ def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
 
 def whole_rows(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[Row]:
     """Rows of a sheet that are not those of a bearing."""
-    return sheet_rows(_part(sheet, ends=False), DRIVE_BOOK, summary, _WORDS, ideal_bounds(DRIVE_BOOK))
+    return sheet_rows(
+        _part(sheet, ends=False), DRIVE_BOOK, summary, _WORDS, drive_bounds(DRIVE_BOOK, summary)
+    )
 
 
 def end_rows(summary: Summary, end: str, sheet: Sheet = DRIVE) -> Iterator[Row]:
     """Rows of the bearing at one end, with keys that begin with "end."."""
     own = {**summary, "end": summary[end]}
-    return sheet_rows(_part(sheet, ends=True), DRIVE_BOOK, own, _WORDS, ideal_bounds(DRIVE_BOOK))
+    return sheet_rows(_part(sheet, ends=True), DRIVE_BOOK, own, _WORDS, drive_bounds(DRIVE_BOOK, summary))
 
 
 def _part(sheet: Sheet, *, ends: bool) -> Sheet:

@@ -8,7 +8,7 @@ from functools import partial
 from ehlectric.cases.case import Case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.touching import share_text
-from ehlectric.quantities.result_bounds import ideal_bounds
+from ehlectric.quantities.result_bounds import moving_bounds
 from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
@@ -28,7 +28,7 @@ def run_rows(summary: Summary) -> list[Row]:
     book = MOTION_BOOK[case.contact.geometry]
     meniscus = partial(_meniscus, conditions.half_width)
     words = _WORDS | Words(values={"film.meniscus_before": meniscus})
-    rows = sheet_rows(MOTION, book, summary, words, ideal_bounds(book))
+    rows = sheet_rows(MOTION, book, summary, words, moving_bounds(book))
     return [*condition_rows(case, conditions), *rows]
 
 

@@ -28,7 +28,8 @@ from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
 
-TEXT = example_text("bearing_6208")
+# The example with isothermal films, whose numbers are bounds.
+TEXT = example_text("bearing_6208").replace("# film_factor", "film_factor")
 
 # Coating of an outer ring.
 COATING = {"base": "schaeffler-j20aa", "relative_permittivity": 9.0, "area": "45 cm^2"}
@@ -109,6 +110,17 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     assert amount(totals["capacitance_air"], "F") in note
     assert amount(totals["capacitance_oil"], "F") in note
     assert "upper bound: isothermal" in quick.number("bearing.first_break").note
+
+
+def test_the_best_estimate_has_no_bounds(quick):
+    """Films of the example with heat in the inlet: thinner than the isothermal ones, and no upper bounds."""
+    best = quick_answer(tomllib.loads(example_text("bearing_6208")))
+    assert {number.bound for number in best.shown} == {""}
+    assert (best.judged.bound, best.judged.assumptions[:14]) == ("", "Best estimate:")
+    assert "ideal" not in best.judged.lead
+    assert best.numbers["inlet_shear_factor"] == best.numbers["film_factor"]
+    ratios = best.numbers["first_break"] / quick.numbers["first_break"], best.numbers["film_factor"]
+    assert ratios[0] == pytest.approx(ratios[1], rel=5e-3)
 
 
 @pytest.mark.slow

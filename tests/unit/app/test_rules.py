@@ -79,7 +79,7 @@ def test_oils_and_data_sheets_take_turns(name):
 
 def test_heat_needs_a_thermal_conductivity():
     heated = changed(EXAMPLE, {"bearing.film_factor": "inlet-shear"})
-    assert heated.value("lubricant.temperature.thermal_conductivity") == "0.14 W/m/K"
+    assert heated.value("lubricant.temperature.thermal_conductivity") == "0.137 W/m/K"
     case(heated)
 
 

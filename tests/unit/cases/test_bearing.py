@@ -13,11 +13,13 @@ from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import check_bearing, solve_bearing
 from ehlectric.bearing.solution import lambda_ratio
+from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.formulas.film_point import hamrock_dowson
 from ehlectric.formulas.inlet_supply import inlet_shear_factor
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
+from tests.helpers.bearings import BALLS, OIL, ROLLERS, bearing_case, changed, contact_of, ring_of
 from tests.helpers.each import each
 
 
@@ -152,6 +154,66 @@ def test_inlet_shear_factor_of_a_bearing():
     factor = inlet_shear_factor(duty.oil.viscosity, math.log(eta[0] / eta[1]) / 0.1, speed, 0.14)
     assert 0.9 < factor < 1.0
     assert duty.film_factor == pytest.approx(factor, rel=2e-4, abs=0.0)
+
+
+def test_heat_in_the_inlet_is_the_default_where_the_viscosity_follows_the_temperature():
+    """The default follows the oil of a changed case; an oil with one viscosity has no heat in the inlet."""
+    case = bearing_case(BALLS, bearing__film_factor=None)
+    assert case.bearing.film_factor == "inlet-shear"
+    constant = case.replace({"lubricant.base": "paper"})
+    assert constant.bearing.film_factor == "none"
+    assert constant.replace({"lubricant": OIL}).bearing.film_factor == "inlet-shear"
+    assert BearingCase.from_dict(case.to_dict()) == case
+    # A given factor stays, whatever the oil.
+    given = case.replace({"bearing.film_factor": "none"}).replace({"lubricant.base": "fva-3"})
+    assert given.bearing.film_factor == "none"
+    with pytest.raises(InputError, match=r"lubricant\.viscosity: is one for all temperatures"):
+        constant.replace({"bearing.film_factor": "inlet-shear"})
+
+
+def test_films_say_what_they_are_worth():
+    """Best estimates with heat; bounds without, by choice or because the oil says too little."""
+    told = {}
+    for name, changes in {
+        "best": {"bearing__film_factor": None},
+        "chosen": {},
+        "unknown": {"bearing__film_factor": None, "lubricant": {"base": "paper"}},
+        "starved": {"bearing__supply": 0.8},
+    }.items():
+        solution = solve_bearing(bearing_case(BALLS, contacts="formula", motor=None, **changes)).solution
+        (told[name],) = [one for one in bearing_warnings(solution) if one.code.endswith("-film")]
+    assert [one.code for one in told.values()] == ["smooth-film", *["isothermal-film"] * 2, "smooth-film"]
+    bounds = {name for name, one in told.items() if "upper bound" in one.text}
+    assert bounds == {"chosen", "unknown", "starved"}
+    assert "best estimate" in told["best"].text
+    assert "viscosity of the oil at other temperatures is not known" in told["unknown"].text
+
+
+def test_a_thermal_conductivity_that_is_not_known_is_assumed():
+    """0.137 W/(m K), with the factors 1/(1 + 0.241 L^0.64) at 0.12 and 0.16 W/(m K) in the note."""
+    case = bearing_case(BALLS, contacts="formula", motor=None, bearing__film_factor=None)
+    solution = solve_bearing(case).solution
+    factors = [
+        resolve_bearing(case.replace({"lubricant.temperature.thermal_conductivity": value})).film_factor
+        for value in (0.137, 0.12, 0.16)
+    ]
+    assert solution.conditions.film_factor == pytest.approx(factors[0], rel=1e-12)
+    (note,) = [one for one in bearing_warnings(solution) if one.code == "conductivity-assumed"]
+    assert note.severity == "note"
+    assert note.text.endswith(f"{factors[1]:.3g} to {factors[2]:.3g}")
+    # A tenth of the conductivity changes the factor by less than 1 %.
+    assert factors[2] / factors[1] == pytest.approx(1.0, abs=0.01)
+
+
+@each("changes", [
+    {"temperature": OIL["temperature"]},
+    {"atmospheric_law": "vogel", "vogel_viscosity": "0.1 mPa s", "vogel_b": "800 K", "vogel_c": "170 K",
+     "pressure_viscosity_coefficient": "15 1/GPa", "roelands_z": 0.6},
+])  # fmt: skip
+def test_an_own_viscosity_keeps_the_conductivity_of_the_base(changes):
+    """Public models have 0.154 W/(m K) of a polyalphaolefin, which is that of the library's fluid."""
+    oil = Lubricant.from_dict({"base": "e-axle-fluid", **changes})
+    assert oil.at(343.15).thermal_conductivity == pytest.approx(0.154)
 
 
 @each("kind", ["solid", "bearing", "coating"])

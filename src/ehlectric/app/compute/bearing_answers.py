@@ -53,6 +53,7 @@ from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
@@ -76,11 +77,11 @@ def effects_table(summary: Mapping[str, Any], level: str) -> Table | None:
     if not effects:
         return None
     caption = _CAPTION.format("likely" if level == "yellow" else "expected")
-    return Table(caption, EFFECT_HEADS, tuple(tuple(_cells(effect)) for effect in effects))
+    bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
+    return Table(caption, EFFECT_HEADS, tuple(tuple(_cells(effect, bound)) for effect in effects))
 
 
-def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
-    bound = BEARING_BOOK["margin.effects"].bound
+def _cells(effect: Mapping[str, Any], bound: str) -> Iterator[str]:
     # Both values with the unit that the range has.
     low, _, rest = input_range(effect).partition(" to ")
     high, _, unit = rest.partition(" ")
@@ -90,7 +91,7 @@ def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
     ]
     yield effect["label"]
     for margin, value in sorted(ends, key=lambda end: end[0]):
-        yield f"{bound} {ratio_text(margin)}" if margin > 0.0 else "surfaces touch"
+        yield f"{bound} {ratio_text(margin)}".strip() if margin > 0.0 else "surfaces touch"
         yield value
 
 
@@ -209,7 +210,7 @@ def judged(verdict: Verdict) -> Judged:
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
-    parts, light = judged_of(verdict, ("Upper bound",)), light_of(verdict.level, verdict.text)
+    parts, light = judged_of(verdict, ("Upper bound", "Best estimate")), light_of(verdict.level, verdict.text)
     meaning = TEXTS["meanings"]["bearing"].get(parts.lead, _NO_VERDICT)
     return replace(parts, lead=light.words, meaning=meaning)
 
@@ -411,13 +412,14 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     found = {}
     if drawn:
         breaks = "first breakdown" in drawn
+        ideal = "bearing.first_break" in bearing_bounds(BEARING_BOOK, over.own[1])
         label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
         found["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
             f"{label[0].upper()}{label[1:]} over the speed of the inner ring",
             breakdown_figure(over),
             table,
-            f"{'Breakdown voltages are upper bounds, with' if breaks else 'With'} "
+            f"{'Breakdown voltages are upper bounds, with' if breaks and ideal else 'With'} "
             f"{over.contacts}{_scaled(over, drawn)}.",
         )
     found["capacitance"] = Figure(

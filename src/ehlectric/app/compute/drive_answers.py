@@ -122,7 +122,13 @@ def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
 
 # Beginnings of sentences on what is assumed.
-_ASSUMED = ("Upper bound", "Dielectric strength", "The table of dielectric", "The Weibull law of")
+_ASSUMED = (
+    "Upper bound",
+    "Best estimate",
+    "Dielectric strength",
+    "The table of dielectric",
+    "The Weibull law of",
+)
 
 
 def judged_before(verdict: Verdict) -> Judged:

@@ -15,7 +15,7 @@ from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to
 from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind, form_data
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.defaults import FILM_FACTORS
+from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
 from ehlectric.quantities.alternatives import (
     CONTACT_ALTERNATIVES,
@@ -155,8 +155,9 @@ def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
 
 def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
     """First values of the thermal properties of a data sheet, which the heat of the films needs."""
-    factor = inputs.value("bearing.film_factor")
-    if inputs.value("lubricant.temperature") is None or factor not in FILM_FACTORS:
+    factor = inputs.value("bearing.film_factor") or DEFAULT_FILM
+    sheet, bearing = (inputs.value(table) is not None for table in ("lubricant.temperature", "bearing"))
+    if not (sheet and bearing) or factor not in FILM_FACTORS:
         return {}
     needed = list(form_data("first_values")["needed_by_heat"].items())[: FILM_FACTORS.index(factor)]
     return {key: value for key, value in needed if inputs.value(key) is None}

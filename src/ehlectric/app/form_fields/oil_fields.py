@@ -18,7 +18,8 @@ EXPANSION = "6.5e-4 1/K"
 
 
 _sheet = given(_SHEET)
-_heated = both(_sheet, equal("bearing.film_factor", *FILM_FACTORS[1:]))
+_heat_of_films = both(given("bearing"), equal("bearing.film_factor", None, *FILM_FACTORS[1:]))
+_heated = both(_sheet, _heat_of_films)
 _solved_heat = both(_sheet, equal("bearing.film_factor", "solved"))
 
 
