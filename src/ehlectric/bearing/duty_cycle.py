@@ -24,6 +24,7 @@ from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import RPM, rpm_text
 from ehlectric.runtime.files import Content, column_head, csv_of
+from ehlectric.runtime.result_names import DUTY
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
 
@@ -39,8 +40,6 @@ _MOST_STRETCHES = 10
 
 # Units in which inputs are written, by their SI units.
 _SHOWN = {"K": "°C", "N": "N", "V": "V"}
-
-DUTY_CSV = "duty.csv"
 
 _INPUTS = tuple(name for name in CYCLE.columns if name != "time")
 _VOLTAGE = "common_mode_voltage"
@@ -177,7 +176,7 @@ class DutyResult(Values):
         }
         heads = [_head(name, COLUMNS[name].get("unit", "")) for name in known]
         cells = [["" if value != value else value for value in values.tolist()] for values in known.values()]
-        return {DUTY_CSV: csv_of(heads, zip(*cells, strict=True))}
+        return {DUTY: csv_of(heads, zip(*cells, strict=True))}
 
 
 def _head(name: str, unit: str) -> str:

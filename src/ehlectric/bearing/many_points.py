@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.solution import BearingSolution
-from ehlectric.bearing.solving import POSITIONS, solution_of, solution_of_prepared
+from ehlectric.bearing.solving import POSITIONS, Detail, solution_of, solution_of_prepared
 from ehlectric.bearing.summary import numbers_of
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
@@ -98,16 +98,20 @@ def columns_of(case: BearingCase, *, positions: int = POSITIONS) -> Columns:
 
 
 def solved_parts(
-    case: BearingCase, *, reasons: dict[int, str] | None = None, positions: int = POSITIONS
+    case: BearingCase,
+    *,
+    reasons: dict[int, str] | None = None,
+    positions: int = POSITIONS,
+    detail: Detail = "whole",
 ) -> Iterator[SolvedPart]:
-    """Solutions of a case with arrays and quick contacts, in parts of ``TOGETHER`` points.
+    """Solutions of a case with arrays and quick contacts of some detail, in parts of ``TOGETHER`` points.
 
     Points without a solution are left out. Their errors are put into ``reasons`` by their places, if it is
     given; each error takes the time of a single bearing. Raises InputError where no point has a solution
     for a reason that all share, as an oil that needs solved contacts.
     """
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
-        part = _solved(case, points, positions)
+        part = _solved(case, points, positions, detail)
         if part is not None:
             yield part
         if reasons is not None:
@@ -116,16 +120,21 @@ def solved_parts(
                 reasons[place] = _reason(case.single(place))
 
 
-def _solved(case: BearingCase, points: IntArray, positions: int) -> SolvedPart | None:
+def some_points(case: BearingCase, points: IntArray) -> BearingCase:
+    """Case with some of the points of a case with arrays."""
+    return case.with_values({key: array[points] for key, array in case.arrays().items()})
+
+
+def _solved(case: BearingCase, points: IntArray, positions: int, detail: Detail) -> SolvedPart | None:
     """Solution of those of some points that have one; None where none has."""
     while points.size:
-        some = case.with_values({key: array[points] for key, array in case.arrays().items()})
+        some = some_points(case, points)
         prepared = prepare_bearing(some, positions)
         refused = np.broadcast_to(prepared.refused, points.shape)
         if not refused.any():
             # Contacts beyond the model, whose points are then left out, have numbers without a logarithm.
             with np.errstate(invalid="ignore"):
-                solution = solution_of_prepared(some, prepared)
+                solution = solution_of_prepared(some, prepared, detail=detail)
             refused = np.broadcast_to(solution.refused, points.shape)
             if not refused.any():
                 return SolvedPart(points, solution)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import (
     Breakdown,
     breakdown_of,
@@ -20,6 +19,17 @@ from ehlectric.bearing.bearing_discharges import (
     shaft_voltage,
 )
 from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.changed_bearings import (
+    OWN,
+    PARTS,
+    Sampled,
+    Several,
+    alike,
+    at_speeds,
+    log_of,
+    over_parts,
+    solve_several,
+)
 from ehlectric.bearing.film_factor import supply_words
 from ehlectric.bearing.impedance import film_share, shaft_path
 from ehlectric.bearing.input_changes import (
@@ -40,7 +50,7 @@ from ehlectric.bearing.solution import (
     lambda_text,
     lubrication,
 )
-from ehlectric.bearing.solving import quick_solution
+from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
@@ -62,21 +72,6 @@ from ehlectric.discharge.film_verdict import (
 from ehlectric.errors import InputError, raised
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm, rpm_text
-
-# Tables and keys on which neither films nor breakdown voltages of contacts depend.
-_NOT_IN_FILMS = (
-    "motor.",
-    "discharge.conductivity",
-    "bearing.composite_rq",
-    "bearing.summits",
-    "bearing.contact_resistance",
-    "bearing.fill",
-    "bearing.parallel_capacitance",
-    "bearing.coating",
-)
-
-# Tables and keys that no solution uses.
-_UNUSED = ("title", "ranges")
 
 # Inputs of strength laws that contacts without a solved field replace by a constant strength.
 _NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -100,24 +95,29 @@ class QuickMargins:
 
     case: BearingCase
     own: MarginPoint  # margin and lambda ratio of the solution
-    # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of quick
-    # contacts, dimensionless.
+    # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of bearings
+    # that are solved together, dimensionless.
     margin_factor: float
     lambda_factor: float
     quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
+    quick_margin: float  # its margin, dimensionless
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
         """Margins by quick contacts, scaled to those of a solution. Raises InputError where the solution has
         no margin, or the formulas have none for the same inputs.
         """
-        own, quick = MarginPoint(_margin_of(solution), lambda_ratio(solution)), _solved(solution.case)
-        point = _point(quick)
-        if point.margin == 0.0:
+        own = MarginPoint(_margin_of(solution), lambda_ratio(solution))
+        quick = solution if is_quick(solution.case) else quick_solution(_quick(solution.case))
+        _, several = over_parts(_quick(solution.case))
+        if OWN in several.reasons:
+            raise InputError.worded(None, several.reasons[OWN])
+        margin, ratio = several.columns(_numbers)[:, OWN].tolist()
+        whole = float(_numbers(quick)[0])
+        if not margin * whole:
             text = "without solved contacts the surfaces touch already in the case itself"
             raise InputError.worded(None, text)
-        ratios = own.margin / point.margin, own.lambda_ratio / point.lambda_ratio
-        return cls(solution.case, own, *ratios, quick)
+        return cls(solution.case, own, own.margin / margin, own.lambda_ratio / ratio, quick, whole)
 
     @staticmethod
     def is_quick(key: str) -> bool:
@@ -129,47 +129,101 @@ class QuickMargins:
         margin is 0 where the surfaces touch. Raises InputError where the changed inputs make no valid case,
         or one that needs solved contacts.
         """
+        (found,) = self.at_all([changes])
+        if isinstance(found, InputError):
+            raise found
+        return found
+
+    def at_all(self, changes: Sequence[Mapping[str, Any]]) -> list[MarginPoint | InputError]:
+        """Margins and lambda ratios at several changes of the inputs, which are solved together.
+
+        Returns for each change what ``at`` returns, or the error that it raises.
+        """
+        found: dict[int, MarginPoint | InputError] = {}
+        films: dict[int, BearingCase] = {}
+        others: dict[int, BearingCase] = {}
+        for place, one in enumerate(changes):
+            try:
+                case = self._changed(one)
+                if all(key.startswith(NOT_IN_FILMS) for key in one):
+                    others[place] = case
+                else:
+                    films[place] = _quick(case)
+            except InputError as error:
+                found[place] = error
+        for known, solve in ((others, self._beside_films), (films, self._with_films)):
+            for places, case in alike(list(known.values())):
+                own = np.array(list(known))[places].tolist()
+                try:
+                    found |= zip(own, solve(case), strict=True)
+                except InputError as error:
+                    found |= dict.fromkeys(own, error)
+        return [found[place] for place in range(len(changes))]
+
+    def _beside_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
+        """Points of a case with arrays on which the films do not depend."""
+        margin, _ = _numbers(replace(self.quick, case=case))
+        ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
+        columns = self.own.margin / self.quick_margin * margin, ratio, np.ones(case.shape)
+        return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
+
+    def _with_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
+        """Points of a case with arrays, whose films are solved."""
+        several = solve_several(case)
+        points = [MarginPoint(*one) for one in self._scaled(several).T.tolist()]
+        return [
+            InputError.worded(None, several.reasons[k]) if k in several.reasons else point
+            for k, point in enumerate(points)
+        ]
+
+    def _changed(self, changes: Mapping[str, Any]) -> BearingCase:
+        """Case with changed inputs."""
         for key in changes:
             if not self.is_quick(key):
                 raise InputError.worded(key, "has an effect that only solved contacts have")
-        case = self.case.replace(changes)
-        same_films = all(key.startswith(_NOT_IN_FILMS) for key in changes)
-        point = _point(replace(self.quick, case=case) if same_films else _solved(case))
-        ratio = self.lambda_factor * point.lambda_ratio
-        return MarginPoint(self.margin_factor * point.margin, ratio)
+        return self.case.replace(changes)
+
+    def over_parts(self) -> tuple[Array, Array, dict[int, str]]:
+        """Speeds of ``PARTS`` [rad/s], shape (n,), margins and lambda ratios at them, shape (2, n), and the
+        reasons of speeds without a solution, whose numbers are NaN, by their places.
+        """
+        speeds, several = over_parts(_quick(self.case))
+        return speeds, self._scaled(several), several.reasons
+
+    def at_speeds(self, speeds: Array) -> Array:
+        """Margins and lambda ratios at speeds [rad/s], shape (n,) -> (2, n); NaN without a solution."""
+        return self._scaled(at_speeds(_quick(self.case), speeds))
+
+    def _scaled(self, several: Several) -> Array:
+        """Margins and lambda ratios, scaled to the solution, shape (2, n); NaN without a solution."""
+        found: Array = np.array([[self.margin_factor], [self.lambda_factor]]) * several.columns(_numbers)
+        return found
 
 
-def _solved(case: BearingCase) -> BearingSolution:
-    """Solution of a case with quick contacts, with a constant strength where they need one."""
+def _quick(case: BearingCase) -> BearingCase:
+    """Case with quick contacts, with a constant strength where they need one."""
     quick, refused = quick_case(case, constant=True)
     if quick is None:
         assert refused is not None
         raise refused
-    return quick_solution(quick, without_effect=(*_NOT_IN_FILMS, *_UNUSED))
+    return quick
 
 
-def _point(solution: BearingSolution) -> MarginPoint:
-    """Margin and lambda ratio of a solution with quick contacts."""
-    return MarginPoint(_margin_of(solution) if insulating(solution) else 0.0, lambda_ratio(solution))
+def _numbers(solution: BearingSolution) -> tuple[Numbers, Numbers]:
+    """Margin and lambda ratio of a solution with quick contacts, shape (...); a margin of 0 where surfaces
+    touch.
+    """
+    films, ratio = insulating(solution), lambda_ratio(solution)
+    margin = _margin_of(solution) if np.any(films) else 0.0
+    return np.where(films, margin, 0.0), ratio
 
 
-def _margin_of(solution: BearingSolution) -> float:
-    """Margin of a solution; raises an InputError where it has none."""
-    found: float | None = first_margin(solution)
+def _margin_of(solution: BearingSolution) -> Numbers:
+    """Margin of a solution, shape (...); raises an InputError where it has none."""
+    found: Numbers | None = first_margin(solution)
     if found is None:
         raise InputError.worded(None, "the bearing has no margin")
     return found
-
-
-# Smallest and largest speed that are looked at, divided by the speed of the case.
-LEAST, MOST = 0.1, 4.0
-
-# Speeds beside that of the case at which margins are computed, divided by it, and the tolerance of the
-# logarithm of the critical speed: 0.2 % of the speed.
-_PARTS, _TOLERANCE = (LEAST, 0.3, 2.0, MOST), 2e-3
-
-# The same where the margin is not monotonic: heating by shear in the inlet makes films thinner at high speed.
-_FINE_PARTS = tuple(float(part) for part in np.geomspace(LEAST, MOST, 14))
 
 
 # Intervals of speed [rad/s]; None in place of an end of the range of speeds.
@@ -218,49 +272,60 @@ class SpeedRange:
         return self.crossings[-1] if self.crossings and not self.above else None
 
 
+# Quantities that cross 0 over the speed: logarithm of the margin, and those of the lambda ratio over the
+# values below which surfaces touch at times, and below which they touch.
+_MARGIN, _PARTED, _TOUCHING = range(3)
+
+
 def speed_range(margins: QuickMargins) -> SpeedRange:
     """Speeds at which the margin of a bearing crosses 1, from a tenth of the speed of the case to four times
     it.
 
-    The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet shear
-    heating or a supply by rule it falls again at high speed; more speeds are computed then.
+    The temperature is that of the case at all speeds. The margin is computed at a series of speeds, and at
+    more near each crossing, until it lies between two speeds that are 0.2 % apart.
     """
-    own = math.log(margins.case.bearing.inner_speed)
-    known = {own: margins.own}
-    left_out = []
+    own = margins.case.bearing.inner_speed
+    speeds, points, reasons = margins.over_parts()
+    left_out = tuple(
+        f"speed {rpm(own * PARTS[place]):.4g} rpm: {reason}" for place, reason in sorted(reasons.items())
+    )
+    known = np.isfinite(points[1])
+    # The bearing itself has a result, which is exact.
+    known[OWN] = True
+    points[:, OWN] = margins.own.margin, margins.own.lambda_ratio
+    sampled = Sampled(
+        lambda log: _logarithms(margins.at_speeds(np.exp(log))),
+        np.log(speeds[known]),
+        _logarithms(points[:, known]),
+        last=frozenset({_TOUCHING}),
+    )
+    sampled.refine()
+    return _range_of(sampled, left_out)
 
-    def at(log: float) -> MarginPoint:
-        if log not in known:
-            known[log] = margins.at({"bearing.inner_speed": math.exp(log)})
-        return known[log]
 
-    bearing = margins.case.bearing
-    falls = bearing.heated or bearing.by_supply_rule
-    for part in _FINE_PARTS if falls else _PARTS:
-        try:
-            at(own + math.log(part))
-        except InputError as error:
-            left_out.append(f"speed {rpm(math.exp(own) * part):.4g} rpm: {error}")
-    logs = sorted(known)
-    lowest, highest = logs[0], logs[-1]
-    touching = _last_rise(logs, lambda log: at(log).lambda_ratio - CONDUCTING)
-    parted = _crossings(logs, lambda log: math.log(at(log).lambda_ratio / PARTIAL))
-    separated = at(highest).lambda_ratio >= PARTIAL
-    if touching is not None:
-        # At the crossing itself the surfaces may touch by rounding.
-        logs = [touching + _TOLERANCE, *(log for log in logs if log > touching + _TOLERANCE)]
-    # The surfaces may still touch with contacts from the atlas where the scaled lambda ratio is above 1.
-    logs = [log for log in logs if at(log).margin > 0.0]
-    crossings = _crossings(logs, lambda log: math.log(at(log).margin))
+def _logarithms(points: Array) -> Array:
+    """Quantities that cross 0, shape (3, n), from margins and lambda ratios, shape (2, n)."""
+    margin, ratio = points
+    return np.stack([log_of(margin), log_of(ratio / PARTIAL), log_of(ratio / CONDUCTING)])
+
+
+def _range_of(sampled: Sampled, left_out: tuple[str, ...]) -> SpeedRange:
+    """Range of speeds from the quantities at many of them."""
+    lowest, highest = sampled.log[0], sampled.log[-1]
+    margin, ratio = sampled.values[_MARGIN], sampled.values[_PARTED]
+    touching = max(sampled.crossings(_TOUCHING), default=None)
+    within = np.isfinite(margin) & (sampled.log > (-math.inf if touching is None else touching))
+    crossings = [log for log in sampled.crossings(_MARGIN) if touching is None or log > touching]
+    parted = [math.exp(log) for log in sampled.crossings(_PARTED)]
     return SpeedRange(
         math.exp(lowest),
         math.exp(highest),
         tuple(math.exp(log) for log in crossings),
         None if touching is None else math.exp(touching),
-        _below([math.exp(log) for log in parted], above=separated),
-        at(highest).margin >= 1.0,
-        min((at(log).margin for log in logs), default=None),
-        tuple(left_out),
+        _below(parted, above=bool(ratio[-1] >= 0.0)),
+        bool(margin[-1] >= 0.0),
+        math.exp(np.min(margin[within])) if np.any(within) else None,
+        left_out,
     )
 
 
@@ -272,21 +337,6 @@ def _below(crossings: Sequence[float], *, above: bool) -> Intervals:
     if len(ends) % 2:
         ends.insert(0, None)
     return tuple(zip(ends[::2], ends[1::2], strict=True))
-
-
-def _last_rise(logs: list[float], value: Callable[[float], float]) -> float | None:
-    """Highest logarithm of a speed at which a value rises through 0; None where there is none."""
-    rises = [(low, high) for low, high in pairwise(logs) if value(low) < 0.0 <= value(high)]
-    return _crossings(list(rises[-1]), value)[0] if rises else None
-
-
-def _crossings(logs: list[float], value: Callable[[float], float]) -> list[float]:
-    """Logarithms of the speeds at which a value changes its sign, in increasing order."""
-    return [
-        float(brentq(value, low, high, xtol=_TOLERANCE))
-        for low, high in pairwise(logs)
-        if (value(low) < 0.0) != (value(high) < 0.0)
-    ]
 
 
 @dataclass(frozen=True)
@@ -318,22 +368,29 @@ def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...]
     effects, left_out = [], []
     if temperature_is_unused(margins.case):
         left_out.append("temperature: without effect, because lubricant.viscosity is given")
-    for change in changes_of(margins.case):
-        try:
-            low, high = (_margin(margins, margin, change, end) for end in change.ends)
-        except InputError as error:
-            left_out.append(f"{change.label}: {error}")
-        else:
+    ends = [(change, end) for change in changes_of(margins.case) for end in change.ends]
+    found = iter(_margins(margins, margin, ends))
+    for change, low, high in zip(changes_of(margins.case), found, found, strict=True):
+        error = next((one for one in (low, high) if isinstance(one, InputError)), None)
+        if error is None:
             effects.append(Effect(change.key, change.label, *change.ends, low, high))
+        else:
+            left_out.append(f"{change.label}: {error}")
     effects.sort(key=lambda effect: -effect.size)
     return tuple(effects), tuple(left_out)
 
 
-def _margin(margins: QuickMargins, margin: float, change: Change, end: float) -> float:
-    """Margin with one changed input."""
-    if proportional_to_strength(change.key):
-        return margin * end / change.value(margins.case)
-    return margins.at(change.changes(margins.case, end)).margin
+def _margins(margins: QuickMargins, margin: float, ends: Sequence[tuple[Change, float]]) -> list[Any]:
+    """Margins at the ends of changed inputs, each or the error of why it has none."""
+    found: list[Any] = [
+        margin * end / change.value(margins.case) if proportional_to_strength(change.key) else None
+        for change, end in ends
+    ]
+    others = [k for k, value in enumerate(found) if value is None]
+    points = margins.at_all([ends[k][0].changes(margins.case, ends[k][1]) for k in others])
+    for k, point in zip(others, points, strict=True):
+        found[k] = point if isinstance(point, InputError) else point.margin
+    return found
 
 
 def margin_range(
@@ -364,7 +421,11 @@ def margin_range(
             worst[one.key] = low
         if ends[high] > margin:
             best[one.key] = high
-    lowest, highest = (margins.at(changes).margin if changes else margin for changes in (worst, best))
+    points = margins.at_all([worst, best])
+    for point in points:
+        if isinstance(point, InputError):
+            raise point
+    lowest, highest = (point.margin for point in points if isinstance(point, MarginPoint))
     return min(lowest, margin), max(highest, margin)
 
 
@@ -405,7 +466,7 @@ class MarginAnalysis:
 
 
 def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
-    """Analyse the margin of a solved bearing, by some twenty bearings with quick contacts, in a few seconds.
+    """Analyse the margin of a solved bearing, by some thirty bearings with quick contacts, in half a second.
 
     The analysis has no values where the bearing has no margin, or its films must not be used.
     """

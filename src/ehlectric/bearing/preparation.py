@@ -144,18 +144,22 @@ def check_film(contact: Contact) -> None:
         )
 
 
-# Least load over the largest of those that are not the loads of light elements, and number of loads down to
-# it whose contacts come from the atlas or by formula: they take milliseconds.
-_LEAST, _QUICK_LOADS = 0.02, 16
+# Least load over the largest of those that are not the loads of light elements.
+_LEAST = 0.02
+
+# Number of loads down to it whose contacts come from the atlas or by formula, and number of light loads below
+# the others. They are fewer in a coarse bearing, whose ratios of margins are within 1e-4.
+_QUICK_LOADS, _COARSE_LOADS = 16, 6
+_MOST_BETWEEN, _COARSE_BETWEEN = 6, 3
 
 # Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
 # bearing.
 _LIGHTEST = 0.002
 
-# Light loads that are solved below the others: about one for each of these ratios, up to six. Their
-# distances, a power of their number, are shortest at the light end. There the film of rigid bodies, which is
-# proportional to 1/Q for a roller and to 1/Q^2 for a ball, turns into the film of bodies that deform.
-_BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
+# Light loads that are solved below the others: about one for each of these ratios. Their distances, a power
+# of their number, are shortest at the light end. There the film of rigid bodies, which is proportional to 1/Q
+# for a roller and to 1/Q^2 for a ball, turns into the film of bodies that deform.
+_BETWEEN, _CROWDED = 1.5, 1.5
 
 # Exponents of ten between which the least load is searched [N], and their distance at which the search ends.
 _EXPONENTS, _CLOSE = (-6.0, 6.0), 1e-7
@@ -390,11 +394,13 @@ def least_load(ring: RingContacts[Any]) -> Numbers:
     return as_float(np.where(never, np.inf, 10.0**found))
 
 
-def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> tuple[Array, Mask]:
+def loads_to_solve(
+    prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool, coarse: bool = False
+) -> tuple[Array, Mask]:
     """Loads of a ring's contacts to solve [N], by increasing load, and which of them are in use.
 
-    The loads of the kind, or more for quick contacts, are evenly spaced in their logarithm. Lighter loads
-    come before them where elements carry hardly more than their centrifugal force.
+    The loads of the kind, or more for quick contacts unless they are ``coarse``, are evenly spaced in their
+    logarithm. Lighter loads come before them where elements carry hardly more than their centrifugal force.
 
     Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with
     fewer loads than others have the least one of them in the places before, which are not in use.
@@ -403,12 +409,13 @@ def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick:
     largest = np.max(all_loads, axis=-1)
     is_light = all_loads < _LEAST * largest[..., np.newaxis]
     least = np.min(np.where(is_light, np.inf, all_loads), axis=-1)
-    number = _QUICK_LOADS if quick else kind_of(ring).loads
+    most, between = (_COARSE_LOADS, _COARSE_BETWEEN) if coarse else (_QUICK_LOADS, _MOST_BETWEEN)
+    number = most if quick else kind_of(ring).loads
     alike = ~(largest / least > _ALIKE)
     least = np.where(alike, largest, least)
     loads = np.geomspace(least, largest, number, axis=-1)
     heavy = ~alike[..., np.newaxis] | (np.arange(number) == number - 1)
-    lighter, light = _lighter(_light_load(ring, all_loads, is_light, largest), least)
+    lighter, light = _lighter(_light_load(ring, all_loads, is_light, largest), least, between)
     loads, used = np.concatenate([lighter, loads], axis=-1), np.concatenate([light, heavy], axis=-1)
     # Places in use last, as few as the point with the most loads has.
     most = int(np.max(np.count_nonzero(used, axis=-1)))
@@ -429,16 +436,17 @@ def _light_load(ring: RingContacts[Any], loads: Array, is_light: Mask, largest: 
     return np.where(some, least, np.inf)
 
 
-def _lighter(own: Array, least: Array) -> tuple[Array, Mask]:
+def _lighter(own: Array, least: Array, between: int) -> tuple[Array, Mask]:
     """Loads [N] from that of light elements, ``own``, up to below ``least``, and which of them are in use.
 
-    None are in use where both are close. Shape (..., k), with those in use last.
+    At most so many are ``between`` both; none are in use where both are close. Shape (..., k), with those in
+    use last.
     """
-    most = 1 + _MOST_BETWEEN
+    most = 1 + between
     some = own < 0.5 * least
     own = np.where(some, own, least)
     ratio = np.log(least / own)
-    number = np.where(some, 1 + np.minimum(_MOST_BETWEEN, np.floor(ratio / math.log(_BETWEEN))), 1.0)
+    number = np.where(some, 1 + np.minimum(between, np.floor(ratio / math.log(_BETWEEN))), 1.0)
     place = np.arange(most) - (most - number[..., np.newaxis])
     part = np.maximum(place, 0.0) / number[..., np.newaxis]
     loads = own[..., np.newaxis] * np.exp(ratio[..., np.newaxis] * part**_CROWDED)

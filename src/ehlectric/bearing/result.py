@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
-from ehlectric.bearing.bearing_touching import capacitive_speed
 from ehlectric.bearing.duty_cycle import DutyResult, check_duty, run_duty
 from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin, bearing_verdict
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
@@ -17,6 +16,7 @@ from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance_is_bound
 from ehlectric.bearing.solving import solution_of
+from ehlectric.bearing.speed_curves import capacitive_speed
 from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.uncertainty import MarginBand, Uncertainty, margin_band, uncertainty_of_result
@@ -152,8 +152,8 @@ class BearingResult(Shown):
     def margin_analysis(self) -> MarginAnalysis:
         """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
 
-        It solves some twenty bearings with contacts from the atlas when it is first asked for: a few
-        seconds at most, beside a minute for a bearing with solved contacts.
+        It solves some thirty bearings with contacts from the atlas when it is first asked for: half a
+        second, beside a minute for a bearing with solved contacts.
         """
         return analyse_margin(self.solution)
 
@@ -187,7 +187,7 @@ class BearingResult(Shown):
         """Speed of the inner ring from which the bearing is capacitive at its temperature [rad/s].
 
         None where it is so at all speeds that are looked at, or at none, and for insulated bearings. It
-        solves some ten bearings with contacts from the atlas when it is first asked for.
+        solves some bearings with contacts from the atlas when it is first asked for.
         """
         return capacitive_speed(self.solution)
 

@@ -6,22 +6,21 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ehlectric.bearing.duty_cycle import DUTY_CSV
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, check_bearing, contact_units, solve_bearing
-from ehlectric.bearing.stored import SCHEMA, duty_of, solution_of
+from ehlectric.bearing.stored import SCHEMA, duty_of, layout_of, solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.result_names import BEARING_NETCDF as NETCDF
+from ehlectric.runtime.result_names import CONTACTS, IMPEDANCE, SUMMARY
+from ehlectric.runtime.result_names import OF_BEARINGS as FILES
 
 if TYPE_CHECKING:
     import xarray as xr
-
-SUMMARY, CONTACTS, IMPEDANCE, NETCDF = "summary.json", "contacts.csv", "impedance.csv", "bearing.nc"
-FILES = (SUMMARY, CONTACTS, IMPEDANCE, DUTY_CSV, NETCDF)
 
 
 def run(
@@ -96,7 +95,7 @@ def save(
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
     if result.duty is not None:
         contents |= result.duty.contents()
-    contents[NETCDF] = content_of(result.to_xarray())
+    contents[NETCDF] = content_of(layout_of(result.solution, result.duty))
     contents |= further or {}
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         return write_together(folder, contents, (*FILES, *replaced))

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -21,6 +21,10 @@ from ehlectric.cases.changes import flattened
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all
 from ehlectric.runtime.worker_processes import cores
+
+# Detail of quick contacts: whole, or with fewer loads where only ratios of results are used ("coarse"), or
+# with these and without the capacitance around the films ("films").
+Detail = Literal["whole", "coarse", "films"]
 
 # Number of positions of the cage over one pitch of the elements.
 POSITIONS = 8
@@ -52,13 +56,14 @@ def solution_of_prepared(
     *,
     progress: Progress | None = None,
     workers: int | None = None,
+    detail: Detail = "whole",
 ) -> BearingSolution:
     """Solve the contacts of a prepared bearing, and join them to its circuit; errors are those of
-    ``solution_of``.
+    ``solution_of``. ``detail`` is that of quick contacts.
     """
     started = time.perf_counter()
     if is_quick(case):
-        curves = _quick_curves(case, prepared, progress or silent)
+        curves = _quick_curves(case, prepared, progress or silent, detail)
     else:
         curves = _solved_curves(case, prepared, progress or silent, workers or cores())
     return BearingSolution(
@@ -74,16 +79,17 @@ def solution_of_prepared(
 
 
 def _quick_curves(
-    case: BearingCase, prepared: PreparedBearing, progress: Progress
+    case: BearingCase, prepared: PreparedBearing, progress: Progress, detail: Detail
 ) -> tuple[ContactCurve, ContactCurve]:
     """Curves of the contacts with both rings, from the atlas or by formula."""
     progress(0, len(prepared.rings), "contacts")
 
     def curve(number: int, ring: RingContacts[Any]) -> ContactCurve:
-        loads, used = loads_to_solve(prepared, ring, quick=True)
+        loads, used = loads_to_solve(prepared, ring, quick=True, coarse=detail != "whole")
         found = QUICK_METHODS[case.contacts](kind_of(ring).contact(ring, np.moveaxis(loads, -1, 0)))
         progress(number, len(prepared.rings), f"contacts with the {ring.name} ring")
-        return quick_curve(found, used)
+        unknown = np.full(found.inside.shape, np.nan)
+        return quick_curve(found, used, (unknown, unknown) if detail == "films" else None)
 
     # The outer ring comes first, so that its contacts are refused before those of the inner ring.
     outer = curve(1, prepared.rings[1])
@@ -145,33 +151,49 @@ def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int
     return [solutions[k] for k in range(len(tasks))]
 
 
-# Positions of the cage: fewer than in a solution, because only ratios to a quick solution are used.
-REMEMBERED_POSITIONS = 2
+# Tables and keys on which neither films nor breakdown voltages of contacts depend.
+NOT_IN_FILMS = (
+    "motor.",
+    "discharge.conductivity",
+    "bearing.composite_rq",
+    "bearing.summits",
+    "bearing.contact_resistance",
+    "bearing.fill",
+    "bearing.parallel_capacitance",
+    "bearing.coating",
+)
 
-# Solutions that are kept: those of the analyses of three or four bearings. Each takes some 0.1 MB.
-_KEPT = 100
+# Tables and keys that no solution uses.
+UNUSED = ("title", "ranges")
+
+# Solutions that are kept: those of the analyses of some bearings. Each takes some 0.1 MB.
+_KEPT = 30
 
 
 @dataclass(frozen=True)
-class _Key:
-    """Case that is found again by all of its values."""
+class CaseKey:
+    """Case that is found again by all of its values that have an effect."""
 
     text: str
     case: BearingCase = field(compare=False)
 
 
-def quick_solution(case: BearingCase, *, without_effect: tuple[str, ...] = ()) -> BearingSolution:
-    """Solution of a bearing with quick contacts, at two positions of the cage, computed once for equal cases.
-
-    Keys that begin with one of ``without_effect`` do not matter. Errors are those of
-    ``solution_of``.
-    """
+def key_of(case: BearingCase, *, without_effect: tuple[str, ...]) -> CaseKey:
+    """Key of a case, in which the keys that begin with one of ``without_effect`` do not matter."""
     inputs = flattened(case.to_dict())
     text = repr({key: value for key, value in inputs.items() if not key.startswith(without_effect)})
-    return replace(_once(_Key(text, case)), case=case)
+    return CaseKey(text, case)
+
+
+def quick_solution(case: BearingCase) -> BearingSolution:
+    """Solution of a bearing with quick contacts, which have few loads, computed once for cases with equal
+    films. Errors are those of ``solution_of``.
+    """
+    return replace(_once(key_of(case, without_effect=(*NOT_IN_FILMS, *UNUSED))), case=case)
 
 
 @lru_cache(maxsize=_KEPT)
-def _once(key: _Key) -> BearingSolution:
+def _once(key: CaseKey) -> BearingSolution:
     """Solution of the case of a key."""
-    return solution_of(key.case, positions=REMEMBERED_POSITIONS)
+    prepared = prepare_bearing(key.case, POSITIONS)
+    return solution_of_prepared(key.case, prepared, detail="coarse")

@@ -10,29 +10,37 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
-from ehlectric.bearing.margin import LEAST, MOST
+from ehlectric.arrays import Array, Numbers
+from ehlectric.bearing.bearing_touching import CAPACITIVE, duty_of
+from ehlectric.bearing.changed_bearings import (
+    LEAST,
+    MOST,
+    OWN,
+    Sampled,
+    Several,
+    at_speeds,
+    over_parts,
+)
 from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.solution import CONDUCTING
-from ehlectric.bearing.solving import solution_of
-from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio
+from ehlectric.bearing.summary import numbers_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import ResultWarning
 from ehlectric.quantities.units import rpm
-
-# Number of speeds in a geometric series.
-COUNT = 9
+from ehlectric.runtime.files import plain
 
 # Logarithm of the lambda ratio that is looked for where surfaces part, and how often it is.
 _ABOVE, _TRIES = 1e-3, 4
 
 
-def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
-    """Summaries of a bearing at speeds around that of its case, with contacts from the atlas.
+def over_speed(case: BearingCase, count: int | None = None) -> tuple[list[Speed], list[ResultWarning]]:
+    """Numbers of a bearing at speeds around that of its case, with contacts from the atlas.
 
-    ``case``, case of the bearing, whose contacts stay by formula where they are. Returns ``points``, speeds
-    of the inner ring [rad/s] with their summaries, in increasing order; ``left_out``, warnings of what could
-    not be computed, and why: single speeds, breakdown voltages, or everything.
+    ``case``, case of the bearing, whose contacts stay by formula where they are; ``count``, number of speeds
+    in a geometric series, by default that of ``PARTS``. Returns ``points``, speeds of the inner ring [rad/s]
+    with summaries of numbers and inputs, in increasing order; ``left_out``, warnings of what could not be
+    computed, and why: single speeds, breakdown voltages, or everything. Contacts have fewer loads than those
+    of ``solve_bearing``: numbers are within 1e-3 of its.
 
     Examples
     --------
@@ -59,13 +67,15 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
         left_out.append(ResultWarning.of("speed-left-out", "incomplete", reason=refused))
     if changed is None:
         return [], left_out
-    points = []
-    for part in np.geomspace(LEAST, MOST, count):
-        speed = case.bearing.inner_speed * float(part)
-        try:
-            points.append(_point(changed, speed))
-        except InputError as error:
-            left_out.append(ResultWarning.of("speed-left-out", "one_speed", speed=rpm(speed), reason=error))
+    if count is None:
+        speeds, several = over_parts(changed)
+    else:
+        speeds = case.bearing.inner_speed * np.geomspace(LEAST, MOST, count)
+        several = at_speeds(changed, speeds)
+    for place, reason in sorted(several.reasons.items()):
+        warning = ResultWarning.of("speed-left-out", "one_speed", speed=rpm(speeds[place]), reason=reason)
+        left_out.append(warning)
+    points = _points(changed, several)
     touch = [k for k, (_, summary) in enumerate(points) if _is_conducting(summary)]
     if touch and touch[-1] + 1 < len(points):
         low, high = points[touch[-1] : touch[-1] + 2]
@@ -74,9 +84,25 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
     return points, left_out
 
 
-def _point(case: BearingCase, speed: float) -> Speed:
-    """Speed [rad/s] with the summary of a bearing at it."""
-    return speed, summary_of(solution_of(case.replace({"bearing.inner_speed": speed})))
+def _points(case: BearingCase, several: Several) -> list[Speed]:
+    """Speeds [rad/s] with the numbers, texts and inputs of a bearing, as in its summary."""
+    inputs, points = case.to_dict(), []
+    for part in several.parts:
+        numbers = numbers_of(part.solution)
+        for k, speed in enumerate(np.asarray(part.solution.case.bearing.inner_speed).tolist()):
+            bearing = {**inputs["bearing"], "inner_speed": speed}
+            summary = {
+                table: {key: _at(one, k) for key, one in own.items()} for table, own in numbers.items()
+            }
+            known = {"converged": True, "inputs": {**inputs, "bearing": bearing}}
+            points.append((speed, plain(known | summary)))
+    return sorted(points, key=lambda point: point[0])
+
+
+def _at(values: Any, k: int) -> Any:
+    """Number or text of a point; None in place of an empty text."""
+    value = values[k] if isinstance(values, np.ndarray) and values.ndim else values
+    return None if isinstance(value, str) and not value else value
 
 
 def _is_conducting(summary: dict[str, Any]) -> bool:
@@ -92,10 +118,10 @@ def _parted(case: BearingCase, low: Speed, high: Speed) -> Speed | None:
     for _ in range(_TRIES):
         ratios = [math.log(summary["bearing"]["lambda_ratio"] / CONDUCTING) for _, summary in (low, high)]
         part = (_ABOVE - ratios[0]) / (ratios[1] - ratios[0])
-        found = _point(case, low[0] * (high[0] / low[0]) ** part)
-        if not _is_conducting(found[1]):
-            return found
-        low = found
+        found = _points(case, at_speeds(case, np.array([low[0] * (high[0] / low[0]) ** part])))
+        if not found or not _is_conducting(found[0][1]):
+            return found[0] if found else None
+        low = found[0]
     return None
 
 
@@ -257,3 +283,78 @@ def nearly_equal(one: Array, other: Array) -> bool:
 def breaks_anywhere(points: Speeds) -> bool:
     """Whether there is a breakdown voltage at any speed."""
     return any(summary["bearing"]["first_break"] is not None for _, summary in points)
+
+
+# Farthest speeds at which a bearing may become capacitive, over that of its case, and number of speeds beyond
+# those of ``PARTS`` that are looked at before.
+_FARTHEST, _BEYOND = 27.0, 3
+
+# Least share of time whose logarithm is taken.
+_SHARE = 1e-15
+
+
+def capacitive_speed(solution: BearingSolution) -> float | None:
+    """Speed of the inner ring from which a bearing is capacitive at its temperature.
+
+    Returns speed [rad/s] at which the bearing becomes capacitive, to 0.2 %: it conducts ``CAPACITIVE`` of the
+    time, or its least lambda ratio is 1 if that speed is higher; of a bearing that is capacitive it is the
+    next lower one, of another the next higher one. None where there is none from a 27th to 27 times the speed
+    of the case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick
+    contact describes; and where a film of the solution is not converged.
+
+    Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
+    scaled to the least lambda ratio of the solution at its own speed. The temperature is that of the case at
+    all speeds.
+    """
+    case = solution.case
+    if solution.conditions.ceramic or case.bearing.coating is not None or not solution.converged:
+        return None
+    quick, _ = quick_case(case, constant=True)
+    if quick is None:
+        return None
+    speeds, several = over_parts(quick)
+    if OWN in several.reasons:
+        return None
+    scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),))[0, OWN]
+
+    def excess(at: BearingSolution) -> tuple[Numbers]:
+        """How far a bearing is beyond both limits; negative where it is not capacitive.
+
+        The logarithm of a share of time is nearly a power of the speed.
+        """
+        share = np.clip(duty_of(at, film_scale=scale).contact_time_share, _SHARE, 1.0 - _SHARE)
+        room = np.log(scale * lambda_ratio(at) / CONDUCTING)
+        return (np.minimum(np.log(np.log(share) / math.log(CAPACITIVE)), room),)
+
+    def beyond(log: Array) -> Array:
+        """The same at logarithms of speeds, shape (n,) -> (1, n); NaN without a solution."""
+        return at_speeds(quick, np.exp(log), "films").columns(excess)
+
+    values = several.columns(excess)[0]
+    # From the speed of the case towards higher speeds, or from a capacitive bearing towards lower ones.
+    way = 1 if values[OWN] < 0.0 else -1
+    log, values = np.log(speeds)[OWN::way], values[OWN::way]
+    last = _first_change(values)
+    if last is None and np.all(np.isfinite(values)):
+        further = np.linspace(log[-1], log[0] + way * math.log(_FARTHEST), _BEYOND + 1)[1:]
+        log = np.concatenate([log, further])
+        values = np.concatenate([values, beyond(further)[0]])
+        last = _first_change(values)
+    if last is None:
+        return None
+    log, values = log[: last + 1][::way], values[: last + 1][::way]
+    sampled = Sampled(beyond, log, values[np.newaxis])
+    sampled.refine()
+    return math.exp(sampled.crossings(0)[::way][0])
+
+
+def _first_change(values: Array) -> int | None:
+    """Place of the first value of another sign than those before it; None without one, or after a NaN.
+
+    Examples
+    --------
+    >>> _first_change(np.array([-2.0, -1.0, 1.0])), _first_change(np.array([-1.0, np.nan, 1.0]))
+    (2, None)
+    """
+    changed = np.flatnonzero(~np.isfinite(values) | ((values < 0.0) != (values[0] < 0.0)))
+    return int(changed[0]) if changed.size and np.isfinite(values[changed[0]]) else None

@@ -22,6 +22,7 @@ from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.runtime.file_rules import VALUES, Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
@@ -77,8 +78,11 @@ def dataset_of(solution: BearingSolution, duty: DutyResult | None = None) -> xr.
     Its attributes hold the case, so that ``solution_of`` returns an equal solution, and ``duty_of`` an equal
     duty cycle.
     """
-    import xarray as xr
+    return layout_of(solution, duty).dataset()
 
+
+def layout_of(solution: BearingSolution, duty: DutyResult | None = None) -> Layout:
+    """Variables and attributes of the dataset of a solved bearing and its duty cycle."""
     variables: dict[str, Any] = {}
     for numbers, quantities, curve in zip(_CURVES, _CURVE_VALUES, solution.curves, strict=True):
         variables |= numbers.written(curve.solutions)
@@ -90,10 +94,9 @@ def dataset_of(solution: BearingSolution, duty: DutyResult | None = None) -> xr.
     if duty is not None:
         variables |= _DUTY.written(duty.rows)
     rings, shape = (solution.inner, solution.outer), solution.positions[0].shape
-    return xr.Dataset(
-        variables,
-        coords={"ring": list(RINGS)},
-        attrs={
+    return Layout(
+        variables | {"ring": ("ring", list(RINGS))},
+        {
             "schema": SCHEMA,
             "version": solution.version,
             "case": solution.case.to_toml(),

@@ -12,12 +12,12 @@ from scipy.stats import qmc
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_discharges import first_margin
+from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
 from ehlectric.bearing.many_points import solved_parts
-from ehlectric.bearing.margin import LEAST, MOST, QuickMargins
+from ehlectric.bearing.margin import QuickMargins
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.solution import BearingSolution, film_error, insulating
-from ehlectric.bearing.solving import REMEMBERED_POSITIONS
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
@@ -284,7 +284,7 @@ def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[A
         arrays = {"bearing.inner_speed": np.full(len(at), design.case.bearing.inner_speed)}
     many = design.margins.quick.case.with_arrays(arrays)
     margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
-    for part in solved_parts(many, positions=REMEMBERED_POSITIONS):
+    for part in solved_parts(many, detail="coarse"):
         found = first_margin(part.solution)
         # There is none where the surfaces touch at all of the points.
         if found is not None:

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import viscosity_over_temperature
@@ -17,6 +17,7 @@ from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
+from ehlectric.runtime.result_names import MEASURED, MEASURED_ROWS
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
 
@@ -105,7 +106,7 @@ def _interval(
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide, normal = (float(student.ppf(at, one)) for one in (degrees, _KNOWN))
+    wide, normal = (float(stdtrit(one, at)) for one in (degrees, _KNOWN))
     half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 
@@ -186,8 +187,6 @@ def _some(texts: Sequence[str]) -> str:
     return ", ".join(texts[:_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
-SUMMARY, ROWS = "measured.json", "measured.csv"
-FILES = (SUMMARY, ROWS)
 SCHEMA = "ehlectric.measured/1"
 
 # SI unit and meaning of the columns of measured.csv.
@@ -309,7 +308,7 @@ class FilmFactors(Shown):
             for name, values in self.columns.items()
         ]
         rows = zip(*columns, self.reasons, strict=True)
-        return {SUMMARY: json_of(self.summary()), ROWS: csv_of([*heads, "reason"], rows)}
+        return {MEASURED: json_of(self.summary()), MEASURED_ROWS: csv_of([*heads, "reason"], rows)}
 
     def _headline(self) -> str:
         """Title, mean film factor with its interval, and number of rows on one line."""

@@ -56,8 +56,9 @@ def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str)
     """Draw the figures of a result from its NetCDF file or database."""
     from ehlectric.bearing.result import BearingResult
     from ehlectric.drive.result import DriveResult
-    from ehlectric.motion.stored_run import MOTION, read_motion
+    from ehlectric.motion.stored_run import read_motion
     from ehlectric.runs.solve import load
+    from ehlectric.runtime.result_names import MOTION
     from ehlectric.runtime.stored import warnings_in
     from ehlectric.sweep.store import NAME, read_sweep
 

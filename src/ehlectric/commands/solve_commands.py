@@ -81,7 +81,8 @@ def _tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
         yield progress
     except (KeyboardInterrupt, SystemExit):
         if steps:
-            from ehlectric.motion.stored_run import MOTION, saved_steps
+            from ehlectric.motion.stored_run import saved_steps
+            from ehlectric.runtime.result_names import MOTION
 
             # Read from the file: the progress may not have been called for the last instant yet.
             saved = saved_steps(folder / MOTION)

@@ -17,22 +17,20 @@ from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.result import RESULTS, PointResult, Result, film_columns
 from ehlectric.contact.solver import OWN, Solvers, solve_prepared
-from ehlectric.contact.stored import SCHEMA, parts_of, stored_case
+from ehlectric.contact.stored import SCHEMA, layout_of, parts_of, stored_case
 from ehlectric.errors import InputError
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.result_names import CONTACT_NETCDF as NETCDF
+from ehlectric.runtime.result_names import FILM, SUMMARY
+from ehlectric.runtime.result_names import OF_CONTACTS as FILES
 
 if TYPE_CHECKING:
     import xarray as xr
 
-
-NETCDF = "result.nc"
-SUMMARY = "summary.json"
-FILM = "film.csv"
-FILES = (SUMMARY, NETCDF, FILM)
 
 # Heads of film.csv that differ from the name of the attribute.
 _CSV = {"density": "density ratio"}
@@ -52,9 +50,10 @@ def save(
     """
     if not isinstance(result.case, Case):
         raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
+    summary = result.summary()
     contents: dict[str, Content] = {
-        SUMMARY: json_of(result.summary()),
-        NETCDF: content_of(result.to_xarray()),
+        SUMMARY: json_of(summary),
+        NETCDF: content_of(layout_of(result, summary)),
         FILM: partial(_write_film, result),
         **(further or {}),
     }

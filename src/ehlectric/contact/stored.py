@@ -24,6 +24,7 @@ from ehlectric.film.problem import Scales
 from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, is_list, is_number, json_of, text_of
 from ehlectric.runtime.files import plain
+from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
@@ -92,8 +93,11 @@ def dataset_of(solution: Solution[Any, Any, Any], summary: Mapping[str, Any]) ->
 
     A contact that was solved without a case has no attribute ``case``, and its file cannot be loaded.
     """
-    import xarray as xr
+    return layout_of(solution, summary).dataset()
 
+
+def layout_of(solution: Solution[Any, Any, Any], summary: Mapping[str, Any]) -> Layout:
+    """Variables and attributes of the dataset of a solved contact."""
     film, case, made_by = solution.film, solution.case, f"ehlectric {solution.version}"
     form = _FORMS[solution.conditions.geometry]
     variables = form.film.written(film) | form.field.written(solution.field)
@@ -127,7 +131,7 @@ def dataset_of(solution: Solution[Any, Any, Any], summary: Mapping[str, Any]) ->
             attributes["laws"] = json.dumps(case.own_laws.stored())
     others = {"coarser": solution.coarser, "starvation": film.starvation, "heated": film.heated}
     attributes |= {name: numbers_of(thing) for name, thing in others.items() if thing is not None}
-    return xr.Dataset(variables, attrs=attributes).set_coords(form.heights).copy(deep=True)
+    return Layout(variables, attributes, (form.heights,))
 
 
 def stored_case(attributes: Mapping[Any, Any]) -> Case:

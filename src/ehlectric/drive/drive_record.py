@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy import stats
+from scipy.special import gammaincinv, stdtrit
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
@@ -98,10 +98,10 @@ def event_rate(counts: Array, duration: float) -> Rate:
     (0.0, 0.0, 1.84)
     """
     total, blocks, outside = float(np.sum(counts)), counts.size, 0.5 * (1.0 - CONFIDENCE)
-    low = float(stats.chi2.ppf(outside, 2.0 * total)) / 2.0 if total else 0.0
-    high = float(stats.chi2.ppf(1.0 - outside, 2.0 * total + 2.0)) / 2.0
+    low = float(gammaincinv(total, outside)) if total else 0.0
+    high = float(gammaincinv(total + 1.0, 1.0 - outside))
     error = float(np.std(counts, ddof=1)) / math.sqrt(blocks) if blocks > 1 else 0.0
-    student = float(stats.t.ppf(1.0 - outside, max(blocks - 1, 1))) * error * blocks
+    student = float(stdtrit(max(blocks - 1, 1), 1.0 - outside)) * error * blocks
     return Rate(
         mean=total / duration,
         low=max(min(low, total - student), 0.0) / duration,

@@ -14,14 +14,14 @@ from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.result_names import DRIVE_NETCDF as NETCDF
+from ehlectric.runtime.result_names import EVENTS, SPECTRUM, SUMMARY
+from ehlectric.runtime.result_names import OF_DRIVES as FILES
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ehlectric.drive.result import DriveResult
-
-SUMMARY, EVENTS, SPECTRUM, NETCDF = "summary.json", "events.csv", "spectrum.csv", "drive.nc"
-FILES = (SUMMARY, EVENTS, SPECTRUM, NETCDF)
 
 
 def run(

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.cases.case import Case
 from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.run import FILES, SUMMARY
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, warnings_of
 from ehlectric.motion.companion import Companion
@@ -19,13 +18,15 @@ from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.storage import MotionFile, Record, described, time_step
 from ehlectric.motion.stored import SCHEMA, Maps, TimeStep
-from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import motion_warnings
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from ehlectric.runtime.hdf5_soundness import seal
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.result_names import MOTION, SUMMARY
+from ehlectric.runtime.result_names import OF_CONTACTS as FILES
 from ehlectric.runtime.stored import warnings_as_attributes
 from ehlectric.version import __version__
 

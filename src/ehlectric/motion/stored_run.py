@@ -18,9 +18,9 @@ from ehlectric.contact.conditions import Conditions, PointConditions, surface_ra
 from ehlectric.errors import InputError
 from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
 from ehlectric.motion.stored import SCHEMA, solved_part
-from ehlectric.runtime.drafts import redo_file
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
+from ehlectric.runtime.result_names import MOTION
 from ehlectric.runtime.values import Values
 
 if TYPE_CHECKING:
@@ -120,10 +120,6 @@ def time_above(time: Array, values: Array, level: float) -> float:
     return float(np.sum(np.diff(intervals_above(time, values, level))) / np.ptp(time))
 
 
-MOTION = "motion.nc"
-
-# This file, and the list of its changes that a kill in the middle of a write leaves.
-MOTION_FILES = (MOTION, redo_file(Path(MOTION)).name)
 _NEEDED = (
     "time",
     "minimum_thickness",

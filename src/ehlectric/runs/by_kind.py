@@ -146,13 +146,18 @@ def run_contact(
     With a measurement, its film factors are written together with them.
     """
     from ehlectric.contact.run import run
-    from ehlectric.paper.paper_contacts import SOLVERS
+    from ehlectric.contact.solver import OWN
 
-    _check_solver(solver, tuple(SOLVERS))
+    solvers = OWN
+    if solver != OWN.name:
+        from ehlectric.paper.paper_contacts import SOLVERS
+
+        _check_solver(solver, tuple(SOLVERS))
+        solvers = SOLVERS[solver]
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(case, progress)
-        return _with_factors(partial(run, case, folder, progress, solvers=SOLVERS[solver]), folder, factors)
+        return _with_factors(partial(run, case, folder, progress, solvers=solvers), folder, factors)
 
 
 def run_motion(
@@ -165,8 +170,8 @@ def run_motion(
 ) -> RunOutcome[xr.Dataset]:
     """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
     from ehlectric.motion.run import run
-    from ehlectric.motion.stored_run import MOTION_FILES
     from ehlectric.paper.paper_contacts import SOLVERS
+    from ehlectric.runtime.result_names import OF_MOTION
 
     _check_solver(solver, tuple(SOLVERS))
     if measured is not None:
@@ -175,7 +180,7 @@ def run_motion(
         raise InputError("--solver", got=f"{shown(solver)} for a case with motion", takes="'ehlectric'")
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder, case)
-        return run(case, folder, progress, others=files_of_results(folder, keep=MOTION_FILES))
+        return run(case, folder, progress, others=files_of_results(folder, keep=OF_MOTION))
 
 
 def _check_solver(solver: str, known: tuple[str, ...]) -> None:

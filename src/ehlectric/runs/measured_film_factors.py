@@ -6,19 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing.measured_capacitance import bearing_factors
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import QUICK, Contacts
-from ehlectric.cases.film_factors import FilmFactors
-from ehlectric.cases.measurements import Measurement, read_measurement
-from ehlectric.contact.measured_film import contact_factors
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from ehlectric.cases.bearing_case import BearingCase
+    from ehlectric.cases.case import Case
+    from ehlectric.cases.film_factors import FilmFactors
+    from ehlectric.cases.measurements import Measurement
 
 _BACKGROUND = Amount("F", least=0.0, most=1e-3, reason="in parallel with the bearing")
 _UNCERTAINTY = Amount("", above=0.0, below=1.0, fraction=True, reason="relative, one standard deviation")
@@ -45,6 +44,9 @@ class MeasuredFile:
                 raise InputError.worded(option, "is used with --measured only")
         if path is None:
             return None
+
+        from ehlectric.cases.measurements import read_measurement
+
         if background is not None:
             _parsed(_BACKGROUND, "--background", background)
         if uncertainty is not None:
@@ -124,6 +126,11 @@ def film_factors(
     >>> round(found.mean.value, 2), found.mean.rows
     (0.9, 2)
     """
+    from ehlectric.bearing.measured_capacitance import bearing_factors
+    from ehlectric.cases.bearing_case import BearingCase
+    from ehlectric.cases.measurements import Measurement, read_measurement
+    from ehlectric.contact.measured_film import contact_factors
+
     if contacts not in (None, "atlas", "formula", "solved"):
         raise InputError("contacts", got=shown(contacts), takes="'atlas', 'formula' or 'solved'")
     options: dict[str, Any] = {"progress": progress}

@@ -25,6 +25,19 @@ from ehlectric.figures.figure_names import (
     in_formats,
 )
 from ehlectric.runtime.reading import refuse_unreadable
+from ehlectric.runtime.result_names import (
+    BEARING_NETCDF,
+    CONTACT_NETCDF,
+    DRIVE_NETCDF,
+    MOTION,
+    OF_BEARINGS,
+    OF_CONTACTS,
+    OF_DRIVES,
+    OF_MEASUREMENTS,
+    OF_MOTION,
+    OF_SWEEPS,
+    SWEEP,
+)
 
 if TYPE_CHECKING:
     from ehlectric.cases.case import Case
@@ -55,16 +68,9 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
     whether they exist or not, and of the maps of sweeps that exist; the database of a sweep is not among
     them.
     """
-    from ehlectric.bearing.run import FILES as OF_BEARINGS
-    from ehlectric.cases.film_factors import FILES as OF_MEASUREMENTS
-    from ehlectric.contact.run import FILES as OF_CONTACTS
-    from ehlectric.drive.run import FILES as OF_DRIVES
-    from ehlectric.motion.stored_run import MOTION_FILES
-    from ehlectric.sweep.result import FILES as OF_SWEEPS
-
     names = (
         *OF_CONTACTS,
-        *MOTION_FILES,
+        *OF_MOTION,
         *OF_BEARINGS,
         *OF_DRIVES,
         *OF_SWEEPS,
@@ -93,18 +99,19 @@ def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False
     """Refuse a folder with a result that may have taken hours and that a run would replace. Raises InputError
     if the folder has a sweep, or recorded steps of another case with moving roughness.
     """
-    from ehlectric.motion.stored_run import MOTION, saved_steps
-    from ehlectric.sweep.store import NAME
-
     folder = Path(folder)
-    if not sweep and (points := _points(folder / NAME)) is not None:
+    if not sweep and (points := _points(folder / SWEEP)) is not None:
         raise InputError(
             folder,
             f"has a sweep of {points[1]} points, of which {points[0]} are saved",
-            takes=f"another folder, as with -o; or remove {NAME} from this one",
+            takes=f"another folder, as with -o; or remove {SWEEP} from this one",
         )
     motion = folder / MOTION
-    steps = saved_steps(motion) if motion.is_file() else 0
+    steps = 0
+    if motion.is_file():
+        from ehlectric.motion.stored_run import saved_steps
+
+        steps = saved_steps(motion)
     if steps and not (case is not None and _case_of(motion) == case.to_toml()):
         raise InputError(
             folder,
@@ -115,10 +122,11 @@ def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False
 
 def _points(path: Path) -> tuple[int, int] | None:
     """Number of saved points and of all points of a sweep; None if the file is missing or is no sweep."""
-    from ehlectric.sweep.store import saved_points
-
     if not path.is_file():
         return None
+
+    from ehlectric.sweep.store import saved_points
+
     try:
         return saved_points(path.parent)
     except InputError:
@@ -139,13 +147,7 @@ def stored_result(path: str | Path) -> Path:
     NetCDF file, or the database of a sweep. Raises InputError if the file cannot be read, or if the folder
     has no result or several.
     """
-    from ehlectric.bearing.run import NETCDF as BEARING
-    from ehlectric.contact.run import NETCDF as CONTACT
-    from ehlectric.drive.run import NETCDF as DRIVE
-    from ehlectric.motion.stored_run import MOTION
-    from ehlectric.sweep.store import NAME as SWEEP
-
-    path, names = Path(path), (CONTACT, BEARING, DRIVE, MOTION, SWEEP)
+    path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, MOTION, SWEEP)
     if not path.is_dir():
         refuse_unreadable(path)
         beside = path.name in files_of_results(path.parent) and path.name not in names

@@ -33,13 +33,14 @@ from ehlectric.lubricant.python_laws import Laws
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored import SCHEMA as MOVING
-from ehlectric.motion.stored_run import MOTION, checked_motion, read_motion
+from ehlectric.motion.stored_run import checked_motion, read_motion
 from ehlectric.runs.file_kinds import kind_of_tables
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runtime.file_rules import format_of
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, silent, told_to
+from ehlectric.runtime.result_names import MOTION
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.worker_processes import cores, processes
 from ehlectric.sweep.store import NAME as SWEEP

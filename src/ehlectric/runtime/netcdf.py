@@ -7,13 +7,16 @@ import os
 import shutil
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
+from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+
+import numpy as np
 
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.runtime.drafts import Draft, finish, redo_file, write_down
@@ -67,14 +70,75 @@ def load_library() -> None:
     import_module("h5py")
 
 
-def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
-    """Function that writes a dataset as a NetCDF file with a seal to an open file, or raises an OSError."""
-    import xarray as xr
+@dataclass(frozen=True)
+class Layout:
+    """Variables and attributes of a NetCDF file.
 
+    It is written without xarray, which takes longer to load than many results take to be computed.
+    """
+
+    # Dimensions and values of each variable, and its attributes if it has any.
+    variables: Mapping[str, tuple[Any, ...]]
+    attributes: Mapping[str, Any]
+    # Variables that are coordinates, besides those with the name of a dimension.
+    coordinates: tuple[str, ...] = ()
+
+    def dataset(self) -> xr.Dataset:
+        """Dataset of xarray with copies of the values."""
+        import xarray as xr
+
+        whole = xr.Dataset(dict(self.variables), attrs=dict(self.attributes))
+        return whole.set_coords(self.coordinates).copy(deep=True)
+
+    def write(self, file: Any) -> None:
+        """Write to an ``h5netcdf.File`` what xarray writes of ``dataset``."""
+        arrays = {name: (_names(one[0]), np.asarray(one[1])) for name, one in self.variables.items()}
+        for dims, values in arrays.values():
+            for dim, size in zip(dims, values.shape, strict=True):
+                if dim not in file.dimensions:
+                    file.dimensions[dim] = size
+        for name, value in self.attributes.items():
+            file.attrs[name] = value if isinstance(value, str) else np.atleast_1d(value)
+        for name, (dims, values) in arrays.items():
+            self._write_variable(file, name, dims, values)
+
+    def _write_variable(self, file: Any, name: str, dims: tuple[str, ...], values: Any) -> None:
+        """Write one variable: NaN is the fill value of numbers, and truth is stored as 0 or 1."""
+        attributes = dict(self.variables[name][2]) if len(self.variables[name]) > 2 else {}
+        dtype, fill = values.dtype, None
+        if dtype.kind == "f":
+            fill = np.array(np.nan, dtype)[()]
+        elif dtype.kind == "b":
+            dtype = np.dtype("i1")
+            attributes["dtype"] = "bool"
+        elif dtype.kind in "UO":
+            dtype, values = import_module("h5py").string_dtype(), values.astype(object)
+        near = [one for one in sorted(self.coordinates) if {*_names(self.variables[one][0])} <= {*dims}]
+        if near and name not in self.coordinates:
+            attributes["coordinates"] = " ".join(near)
+        variable = file.create_variable(name, dims, dtype, fillvalue=fill)
+        for key, value in attributes.items():
+            variable.attrs[key] = value
+        if values.size:
+            variable[...] = values
+
+
+def _names(dims: Any) -> tuple[str, ...]:
+    """Names of dimensions; a text is the name of one."""
+    return (dims,) if isinstance(dims, str) else tuple(dims)
+
+
+def content_of(content: xr.Dataset | Layout) -> Callable[[BinaryIO], None]:
+    """Function that writes a dataset as a NetCDF file with a seal to an open file, or raises an OSError."""
     load_library()
 
     def fill(file: Any) -> None:
-        dataset.dump_to_store(xr.backends.H5NetCDFStore(file))
+        if isinstance(content, Layout):
+            content.write(file)
+            return
+        import xarray as xr
+
+        content.dump_to_store(xr.backends.H5NetCDFStore(file))
 
     return _created(fill, None, sealed=True)
 

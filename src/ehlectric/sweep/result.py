@@ -23,6 +23,7 @@ from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
+from ehlectric.runtime.result_names import OF_SWEEPS, SWEEP_CSV, SWEEP_NETCDF, SWEEP_PARQUET
 from ehlectric.runtime.values import Shown, headline, is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
@@ -288,10 +289,7 @@ class SweepResults(Shown, SweepPoints):
         return label_of(key, self.case).name
 
 
-CSV = "sweep.csv"
-PARQUET = "sweep.parquet"
-NETCDF = "sweep.nc"
-FILES = (CSV, PARQUET, NETCDF)
+CSV, PARQUET, NETCDF, FILES = SWEEP_CSV, SWEEP_PARQUET, SWEEP_NETCDF, OF_SWEEPS
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:

@@ -32,6 +32,7 @@ from ehlectric.runtime.file_rules import (
 from ehlectric.runtime.files import ADVICE, now, refuse_special
 from ehlectric.runtime.folders import locked
 from ehlectric.runtime.reading import regular
+from ehlectric.runtime.result_names import SWEEP
 from ehlectric.runtime.sizes import check_size
 from ehlectric.sweep import sweep_inputs as sweep_design
 from ehlectric.sweep.engine import Outcome, Planned
@@ -314,7 +315,7 @@ def _has_warnings(summary: Mapping[str, Any]) -> bool:
     return is_list(texts, is_text) and is_list(codes, is_text) and len(texts) == len(codes)
 
 
-NAME = "sweep.sqlite"
+NAME = SWEEP
 
 # File that is locked while the database is open for writing; it is removed afterwards.
 LOCK = ".ehlectric-sweep.lock"

@@ -22,9 +22,10 @@ from ehlectric.motion.moving_contact import LINE, TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.storage import MotionFile
-from ehlectric.motion.stored_run import MOTION, MotionRun, read_motion, saved_steps
+from ehlectric.motion.stored_run import MotionRun, read_motion, saved_steps
 from ehlectric.runtime import netcdf as netcdf_files
 from ehlectric.runtime.hdf5_soundness import remember_sound
+from ehlectric.runtime.result_names import MOTION
 from tests.helpers.each import each
 from tests.helpers.moving_cases import POINT, moving
 

@@ -8,7 +8,7 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run, run_motion
-from ehlectric.motion.stored_run import MOTION
+from ehlectric.runtime.result_names import MOTION
 from ehlectric.surfaces import rough_surfaces
 from tests.helpers.moving_cases import LINE, moving
 from tests.helpers.places import DEKTAK

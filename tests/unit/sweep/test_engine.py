@@ -55,7 +55,7 @@ def with_deaths(crew):
 
 
 def test_points_of_bearings_do_not_pay_for_the_analysis_of_the_margin(monkeypatch):
-    """It would solve some fourteen bearings more for each point; the warning of a margin below 1 stays."""
+    """It would solve some twenty bearings more for each point; the warning of a margin below 1 stays."""
 
     def refuse(_solution):
         raise AssertionError("the margin is analysed")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,7 @@ from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, error_text
+from ehlectric.bearing.solving import CaseKey, key_of
 from ehlectric.bearing.speed_curves import over_speed
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
@@ -294,8 +296,14 @@ def solved_quickly(case: BearingCase) -> BearingResult:
 
     Heat that would be solved, in many seconds, is that of a formula.
     """
-    changes = {"contacts": quick_way(case.contacts)}
-    return solve_bearing(heat_by_formula(case).replace(changes), workers=1)
+    changed = heat_by_formula(case).replace({"contacts": quick_way(case.contacts)})
+    return _solved(key_of(changed, without_effect=()))
+
+
+@lru_cache(maxsize=4)
+def _solved(key: CaseKey) -> BearingResult:
+    """Bearing of a case, which the whole answer has again after the first one."""
+    return solve_bearing(key.case, workers=1)
 
 
 def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:

@@ -16,9 +16,10 @@ from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, warnings_of
 from ehlectric.motion.result import MotionResult
-from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.runs.by_kind import run_motion
 from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.result_names import MOTION
 from ehlectric.tables.motion_tables import run_rows
 
 _PREFIX = "motion-"

@@ -24,12 +24,13 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
 from ehlectric.cases.table import tables_of_text
 from ehlectric.errors import InputError, shown
-from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.result_names import MOTION
 from ehlectric.runtime.worker_processes import cores
 
 # Folders in the folder of a session: of results and of what is made from them.

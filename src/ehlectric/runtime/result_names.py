@@ -1,0 +1,29 @@
+"""Names of the files of results, by the kind of the result.
+
+They stand apart from what writes the files, so that a folder is checked without the code of every kind.
+"""
+
+from __future__ import annotations
+
+SUMMARY = "summary.json"
+
+# Results of contacts, of bearings and of drives.
+CONTACT_NETCDF, FILM = "result.nc", "film.csv"
+OF_CONTACTS = (SUMMARY, CONTACT_NETCDF, FILM)
+BEARING_NETCDF, CONTACTS, IMPEDANCE, DUTY = "bearing.nc", "contacts.csv", "impedance.csv", "duty.csv"
+OF_BEARINGS = (SUMMARY, CONTACTS, IMPEDANCE, DUTY, BEARING_NETCDF)
+DRIVE_NETCDF, EVENTS, SPECTRUM = "drive.nc", "events.csv", "spectrum.csv"
+OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DRIVE_NETCDF)
+
+# Run with moving roughness, and the list of its changes that a kill in the middle of a write leaves.
+MOTION = "motion.nc"
+OF_MOTION = (MOTION, f".{MOTION}.redo")
+
+# Database of a sweep, and the files that are made from it.
+SWEEP = "sweep.sqlite"
+SWEEP_CSV, SWEEP_PARQUET, SWEEP_NETCDF = "sweep.csv", "sweep.parquet", "sweep.nc"
+OF_SWEEPS = (SWEEP_CSV, SWEEP_PARQUET, SWEEP_NETCDF)
+
+# Film factors that explain a measurement.
+MEASURED, MEASURED_ROWS = "measured.json", "measured.csv"
+OF_MEASUREMENTS = (MEASURED, MEASURED_ROWS)
