@@ -129,7 +129,7 @@ def chance_text(probability: float, error: float) -> str:
     Examples
     --------
     >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
-    ('16 % (sampling error 1.6 %)', 'below 0.1 %', 'above 99.9 %')
+    ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
     """
     if probability < error:
         return f"below {100.0 * (probability + error):.1g} %"
