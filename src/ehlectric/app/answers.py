@@ -484,6 +484,7 @@ class Number:
 # in the verdict and next to the margin.
 PENDING = "…"
 FOLLOWS = "Margin at once; its range follows."
+PROBABILITY_FOLLOWS = "The probability of breakdown follows."
 RANGE_FOLLOWS = "its range within the stated ranges follows"
 
 
@@ -564,10 +565,14 @@ class BearingAnswer(PageAnswer):
     level: str  # level of the verdict; "grey" without one
     text: str
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
-    margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``whole``
+    # Whether it has what takes half a second: critical speeds, effects of inputs and curves over the speed.
+    over_speed: bool
+    margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``over_speed``
     contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
     differences: tuple[Difference, ...] = ()
-    effects: Table | None = None  # margins if one input changes; None unless ``whole``, and without a margin
+    effects: Table | None = (
+        None  # margins if one input changes; None unless ``over_speed``, and without a margin
+    )
 
 
 @dataclass(frozen=True)

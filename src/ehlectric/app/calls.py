@@ -53,6 +53,7 @@ FIELD_HELP: Call[dict[str, str]] = Call("answer_parts.field_help")
 
 # A bearing.
 BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
+BEARING_OVER_SPEED: Call[BearingAnswer] = Call("bearing_answers.answer_over_speed")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
 

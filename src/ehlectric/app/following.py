@@ -1,9 +1,9 @@
-"""Answers that follow the inputs of a page: one at once, and a whole one when the inputs are quiet."""
+"""Answers that follow the inputs of a page: one at once, and fuller ones when the inputs are quiet."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, Generic, TypeVar
 
 from ehlectric.errors import ConvergenceError, InputError, LostError
@@ -11,7 +11,7 @@ from ehlectric.errors import ConvergenceError, InputError, LostError
 I = TypeVar("I")  # noqa: E741
 T = TypeVar("T")
 
-# Time without a change after which the whole answer is computed [s].
+# Time without a change after which fuller answers are computed [s].
 _QUIET = 0.3
 
 
@@ -44,7 +44,7 @@ class OnlyLast:
 class Following(Generic[I, T]):
     """Answers to the latest inputs; those to older inputs that have not begun are never computed.
 
-    ``quick`` computes an answer at once, and ``whole`` the whole one, unless the first is whole already.
+    ``quick`` computes an answer at once, and each of ``later`` a fuller one, in their order.
     ``show`` shows an answer to the latest inputs, ``passing`` one to inputs that have changed meanwhile, and
     ``refuse`` the error where the latest inputs have no answer.
     """
@@ -52,14 +52,14 @@ class Following(Generic[I, T]):
     def __init__(
         self,
         quick: Callable[[I], Awaitable[T]],
-        whole: Callable[[I], Awaitable[T]] | None,
+        later: Sequence[Callable[[I], Awaitable[T]]] = (),
         *,
         show: Callable[[I, T], None],
         passing: Callable[[I, T], None],
         refuse: Callable[[Exception], None],
         behind: asyncio.Semaphore,
     ) -> None:
-        self._quick, self._whole, self._refuse = quick, whole, refuse
+        self._quick, self._fuller, self._refuse = quick, tuple(later), refuse
         self._show, self._pass = show, passing
         self._behind = behind
         self._asked = 0
@@ -85,8 +85,8 @@ class Following(Generic[I, T]):
             (asked, inputs), self._wanted = self._wanted, None
             answer = await self._answer(asked, inputs, self._quick)
             if answer is not None and asked == self._asked:
-                if self._whole is not None:
-                    self._later = asyncio.create_task(self._when_quiet(asked, inputs, self._whole))
+                if self._fuller:
+                    self._later = asyncio.create_task(self._when_quiet(asked, inputs))
                 self._show(inputs, answer)
             elif answer is not None and self._waits():
                 self._pass(inputs, answer)
@@ -104,11 +104,13 @@ class Following(Generic[I, T]):
                 self._refuse(error)
             return None
 
-    async def _when_quiet(self, asked: int, inputs: I, whole: Callable[[I], Awaitable[T]]) -> None:
+    async def _when_quiet(self, asked: int, inputs: I) -> None:
         await asyncio.sleep(_QUIET)
-        async with self._behind:
-            if asked != self._asked:
+        for fuller in self._fuller:
+            async with self._behind:
+                if asked != self._asked:
+                    return
+                answer = await self._answer(asked, inputs, fuller)
+            if answer is None or asked != self._asked:
                 return
-            answer = await self._answer(asked, inputs, whole)
-        if answer is not None and asked == self._asked:
             self._show(inputs, answer)

@@ -6,11 +6,19 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.answers import BearingAnswer, PageWarning, concerning, counts, unplaced
+from ehlectric.app.answers import (
+    PROBABILITY_FOLLOWS,
+    BearingAnswer,
+    PageWarning,
+    concerning,
+    counts,
+    unplaced,
+)
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import page_warnings_of
 from ehlectric.app.compute.bearing_answers import (
     answer_of,
+    answer_over_speed,
     bearing_case,
     differences,
     judged,
@@ -412,3 +420,15 @@ def test_solved_contacts_are_the_result_of_the_command(tmp_path):
     assert {one.name for one in answer.differences} >= {
         "capacitance of the bearing", "minimum film thickness"
     }  # fmt: skip
+
+
+def test_curves_come_before_the_probability():
+    table = inputs()
+    before, whole = answer_over_speed(table), whole_quick_answer(table)
+    assert (before.over_speed, before.whole) == (True, False)
+    assert (whole.over_speed, whole.whole) == (True, True)
+    assert before.figures.keys() == whole.figures.keys() > {"breakdown", "capacitance"}
+    assert before.effects.rows == whole.effects.rows
+    assert before.judged.reasons[-1] == PROBABILITY_FOLLOWS
+    assert not any("probability of breakdown is" in one for one in before.judged.reasons)
+    assert any("probability of breakdown is" in one for one in whole.judged.reasons)

@@ -38,7 +38,7 @@ class Page:
         self.behind = Lock()
         self.following = Following(
             self.quick,
-            self.whole,
+            [self.whole],
             show=lambda inputs, answer: self.shown.append((inputs, answer)),
             passing=lambda inputs, _: self.passed.append(inputs),
             refuse=lambda error: self.refused.append(error.key),
@@ -72,6 +72,21 @@ def test_a_whole_answer_follows_the_quick_one():
 
     page = asyncio.run(use())
     assert page.shown == [(1, "quick"), (1, "whole")]
+
+
+def test_fuller_answers_follow_in_their_order():
+    async def use():
+        page = Page()
+
+        async def fullest(_):
+            return "fullest"
+
+        page.following._fuller = (page.whole, fullest)
+        await page.following.ask(1)
+        await until(lambda: len(page.shown) > 2)
+        return page
+
+    assert [answer for _, answer in asyncio.run(use()).shown] == ["quick", "whole", "fullest"]
 
 
 def test_inputs_in_between_are_never_computed():

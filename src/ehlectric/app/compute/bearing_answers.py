@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.app.answers import (
     FOLLOWS,
     PENDING,
+    PROBABILITY_FOLLOWS,
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
@@ -244,21 +245,26 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
-def quick_answer(
-    table: Mapping[str, Any], session: Path | None = None, *, whole: bool = False
-) -> BearingAnswer:
+def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing without solving its contacts, and without what depends on other inputs.
 
     Contacts are by formula where the tables say so, and otherwise from the atlas of films.
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=whole)
+    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=False)
+
+
+def answer_over_speed(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and
+    curves over the speed, but without the probability of breakdown.
+    """
+    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=True, probable=False)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing as ``quick_answer`` has it, with critical speeds and effects of the inputs."""
-    return quick_answer(table, session, whole=True)
+    """Answer about a bearing as ``answer_over_speed`` has it, with the probability of breakdown."""
+    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=True)
 
 
 def solve_contacts(
@@ -306,10 +312,14 @@ def _solved(key: CaseKey) -> BearingResult:
     return solve_bearing(key.case, workers=1)
 
 
-def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:
-    """Answer of a solved bearing; ``whole`` with the analysis of its margin, which takes a second or two."""
-    summary = result.summary() if whole else summary_of(result.solution)
-    verdict = result.verdict if whole else quick_verdict(result.solution)
+def answer_of(
+    result: BearingResult, *, whole: bool, probable: bool = True, changes: tuple[Difference, ...] = ()
+) -> BearingAnswer:
+    """Answer of a solved bearing; ``whole`` with the analysis of its margin, which takes half a second, and
+    then with the probability of breakdown where it is ``probable``, which takes a second or two.
+    """
+    summary = result.summary(probable=probable) if whole else summary_of(result.solution)
+    verdict = _verdict(result, whole=whole, probable=probable)
     warnings = result.warnings
     figures = _figures(result, summary) if result.converged else {}
     if whole and result.converged:
@@ -323,7 +333,8 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
-        whole=whole,
+        whole=whole and probable,
+        over_speed=whole,
         converged=result.converged,
         level=verdict.level,
         text=verdict.text,
@@ -340,6 +351,18 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         differences=changes,
         effects=effects_table(summary, verdict.level),
     )
+
+
+def _verdict(result: BearingResult, *, whole: bool, probable: bool) -> Verdict:
+    """Verdict with what is known so far, which says what follows."""
+    if not whole:
+        return quick_verdict(result.solution)
+    if probable:
+        return result.verdict
+    verdict = bearing_verdict(result.solution, result.margin_analysis)
+    if verdict.margin is None:
+        return verdict
+    return Verdict(verdict.level, f"{verdict.text} {PROBABILITY_FOLLOWS}", verdict.margin)
 
 
 def _how(result: BearingResult) -> str:

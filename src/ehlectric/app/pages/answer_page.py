@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable, Sequence
+from functools import partial
 from html import escape
 from typing import Any, ClassVar, Generic, Literal, TypeVar
 
@@ -39,19 +40,18 @@ class AnswerPage(Generic[A]):
     # Time for which the page waits for its first answer before it is sent without one [s].
     wait: ClassVar[float] = 0.0
     elsewhere: ClassVar[Sequence[str]] = ()  # keys that other parts of the page than its form show
-    # Functions that compute the quick answer, the whole quick answer, and the solution.
+    # Functions that compute the quick answer, fuller quick answers in their order, and the solution.
     quick: ClassVar[Call[Any]]
-    whole: ClassVar[Call[Any] | None] = None
+    later: ClassVar[Sequence[Call[Any]]] = ()
     solved: ClassVar[Call[Any]]
 
     view: AnswerView[A]
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        whole = self.whole
         self._following: Following[Inputs, A] = Following(
             lambda inputs: self._answer(self.quick, inputs),
-            None if whole is None else lambda inputs: self._answer(whole, inputs),
+            [partial(self._answer, call) for call in self.later],
             show=self._show,
             passing=lambda _, answer: self._put(answer),
             refuse=self._refuse,

@@ -7,8 +7,16 @@ from dataclasses import replace
 
 from nicegui import ui
 
-from ehlectric.app.answers import FOLLOWS, PENDING, RANGE_FOLLOWS, BearingAnswer, Difference, Table
-from ehlectric.app.calls import BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
+from ehlectric.app.answers import (
+    FOLLOWS,
+    PENDING,
+    PROBABILITY_FOLLOWS,
+    RANGE_FOLLOWS,
+    BearingAnswer,
+    Difference,
+    Table,
+)
+from ehlectric.app.calls import BEARING_OVER_SPEED, BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
 from ehlectric.app.pages.frame import BEARING
@@ -44,7 +52,8 @@ class BearingView(AnswerView[BearingAnswer]):
             elif one.note.startswith(RANGE_FOLLOWS):
                 self.numbers[one.key].show(replace(one, note=one.note.removeprefix(f"{RANGE_FOLLOWS}; ")))
         judged = self._pending.judged
-        self.verdict.show(replace(judged, reasons=tuple(one for one in judged.reasons if one != FOLLOWS)))
+        reasons = tuple(one for one in judged.reasons if one not in (FOLLOWS, PROBABILITY_FOLLOWS))
+        self.verdict.show(replace(judged, reasons=reasons))
         self._pending = None
 
     def show(self, answer: BearingAnswer) -> None:
@@ -55,18 +64,18 @@ class BearingView(AnswerView[BearingAnswer]):
         self._pending = None if answer.whole else answer
         self._changes.content = differences_html(answer.differences)
         self._changes.set_visibility(bool(answer.differences))
-        if answer.whole or not answer.figures:
+        if answer.over_speed or not answer.figures:
             self._effects.content = effects_html(answer.effects)
         self._effects.set_visibility(bool(self._effects.content))
-        mark(self._effects, "stale", on=not answer.whole)
+        mark(self._effects, "stale", on=not answer.over_speed)
         self._warnings.show(answer.warnings)
         say(self._none, "" if answer.figures else "Not converged: the figures would show no solution.")
 
     def show_figure(self, name: str, place: FigureBox, answer: BearingAnswer) -> None:
-        """Show a figure; one over the speed stays as it is until the whole answer has it."""
-        if name in _AT_ONCE or answer.whole or not answer.figures:
+        """Show a figure; one over the speed stays as it is until an answer has it."""
+        if name in _AT_ONCE or answer.over_speed or not answer.figures:
             place.show(answer.figures.get(name))
-        place.dim(dimmed=name in _OVER_SPEED and not answer.whole)
+        place.dim(dimmed=name in _OVER_SPEED and not answer.over_speed)
 
 
 def effects_html(effects: Table | None) -> str:
@@ -95,7 +104,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     groups = BEARING_GROUPS
     short = ("bearing.capacitance", "bearing.margin")
     wait = 1.0
-    quick, whole, solved = BEARING_QUICK, BEARING_WHOLE, BEARING_SOLVED
+    quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED
 
     def build_view(self) -> None:
         """Build the place of the answer."""

@@ -163,7 +163,7 @@ class ComparePage:
         self._known: dict[tuple[str, str], Side] = {}
         self._following: Following[Inputs, Sides] = Following(
             self._at_once,
-            self._whole,
+            [self._whole],
             show=self._show,
             passing=self._show,
             refuse=self._refuse,
