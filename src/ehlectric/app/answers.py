@@ -484,7 +484,6 @@ class Number:
 # in the verdict and next to the margin.
 PENDING = "…"
 FOLLOWS = "Margin at once; its range follows."
-PROBABILITY_FOLLOWS = "The probability of breakdown follows."
 RANGE_FOLLOWS = "its range within the stated ranges follows"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.margin import QuickMargins
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.solution import BearingSolution, film_error, insulating
+from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import kind_of
@@ -27,6 +28,9 @@ from ehlectric.formulas.variance_shares import variance_shares
 
 # Points of the design, a power of 2, and the seed of its random shifts.
 SAMPLES, SEED = 2048, 1
+
+# Points of the estimate at once, in which the films stay as they are.
+QUICK_SAMPLES = 256
 
 # Probabilities of the ends of the interval that is stated, and of its middle.
 INTERVAL = (0.05, 0.5, 0.95)
@@ -160,7 +164,6 @@ class _Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
 
     case: BearingCase
-    margins: QuickMargins
     computed: tuple[Change, ...]  # inputs for which films or circuits are computed
     factors: tuple[Change, ...]  # inputs to which the margin is proportional
     films: tuple[float, float]  # ends of the factor on the margin by the error of the films
@@ -169,23 +172,23 @@ class _Design:
     left_out: tuple[str, ...]
 
     @classmethod
-    def of(cls, solution: BearingSolution, margins: QuickMargins) -> _Design:
-        """Design of a solved bearing."""
+    def of(cls, solution: BearingSolution, *, beside_films: bool = False) -> _Design:
+        """Design of a solved bearing, with inputs ``beside_films`` only, on which they do not depend."""
         case, left_out, computed, factors = solution.case, [], [], []
         stated = {one.key for one in case.ranges or ()}
         changes = changes_of(case)
         for change in changes:
             if proportional_to_strength(change.key):
                 factors.append(change)
-            elif isinstance(kind_of(change.key), Amount) and margins.is_quick(change.key):
-                computed.append(change)
+            elif isinstance(kind_of(change.key), Amount) and QuickMargins.is_quick(change.key):
+                if not beside_films or change.key.startswith(NOT_IN_FILMS):
+                    computed.append(change)
             else:
                 left_out.append(f"{change.key}: its range has no part in the probability")
         weibull = case.discharge.weibull
         assumed = {change.key: change.reason for change in changes if change.key not in stated}
         return cls(
             case,
-            margins,
             tuple(computed),
             tuple(factors),
             _film_factors(solution),
@@ -244,9 +247,9 @@ def uncertainty_of(
 
     Raises InputError where no point has a result.
     """
-    design = _Design.of(solution, margins)
+    design = _Design.of(solution)
     at = qmc.Sobol(design.width, seed=seed).random(samples)
-    computed, solved = _computed(design, at)
+    computed, solved = _computed(design, margins, at)
     factors = design.log_factors(at)
     margin = computed * np.exp(np.sum(factors, axis=-1))
     inputs, predicted = _inputs(design, at, computed, solved)
@@ -272,7 +275,27 @@ def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
         return None
 
 
-def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[Array, Mask]:
+def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> Chance | None:
+    """Chance of a solved bearing at once, with its own films at all points: what changes them is left out, as
+    temperature, load and clearance. None where there is no margin.
+    """
+    if not solution.converged or first_margin(solution) is None:
+        return None
+    design = _Design.of(solution, beside_films=True)
+    at = qmc.Sobol(design.width, seed=SEED).random(samples)
+    arrays = design.arrays(at)
+    case = solution.case.with_arrays(arrays) if arrays else solution.case
+    found = first_margin(replace(solution, case=case))
+    assert found is not None
+    margin = np.broadcast_to(found, (samples,)) * np.exp(np.sum(design.log_factors(at), axis=-1))
+    probability = float(np.mean(margin < 1.0))
+    low, median, high = np.quantile(margin, INTERVAL).tolist()
+    return Chance(probability, sampling_error(probability, samples), low, median, high)
+
+
+def _computed(
+    design: _Design, margins: QuickMargins, at: Array, speed: Array | None = None
+) -> tuple[Array, Mask]:
     """Margins without the factors, 0 where the surfaces touch, and which points have a result, shape (n,).
 
     ``speed`` of the inner ring at the points [rad/s], by default that of the case.
@@ -282,7 +305,7 @@ def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[A
         arrays["bearing.inner_speed"] = speed
     if not arrays:
         arrays = {"bearing.inner_speed": np.full(len(at), design.case.bearing.inner_speed)}
-    many = design.margins.quick.case.with_arrays(arrays)
+    many = margins.quick.case.with_arrays(arrays)
     margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
     for part in solved_parts(many, detail="coarse"):
         found = first_margin(part.solution)
@@ -292,7 +315,7 @@ def _computed(design: _Design, at: Array, speed: Array | None = None) -> tuple[A
         solved[part.points] = True
     if not np.any(solved):
         raise InputError.worded(None, "the margin has no value within the ranges of the inputs")
-    return design.margins.margin_factor * margin, solved
+    return margins.margin_factor * margin, solved
 
 
 def _inputs(
@@ -349,10 +372,10 @@ def margin_band(
     """
     own = solution.case.bearing.inner_speed
     speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
-    design = _Design.of(solution, margins)
+    design = _Design.of(solution)
     at = qmc.Sobol(design.width, seed=seed).random(_AT_EACH)
     many = np.tile(at, (speed.size, 1))
-    computed, solved = _computed(design, many, np.repeat(speed, _AT_EACH))
+    computed, solved = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
     margin = computed * np.exp(np.sum(design.log_factors(many), axis=-1))
     rows = np.where(solved, margin, np.nan).reshape(speed.size, _AT_EACH)
     known = np.any(np.isfinite(rows), axis=1)

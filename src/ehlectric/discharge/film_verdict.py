@@ -78,6 +78,10 @@ def lead_of(level: Level, margin: float) -> str:
     return "No breakdown expected" if level == "green" else "Breakdown expected"
 
 
+# Sentence in place of the probability where only an estimate of it at once is known.
+PROBABILITY_FOLLOWS = "The probability of breakdown follows."
+
+
 @dataclass(frozen=True)
 class Chance:
     """Probability of breakdown within what is uncertain, and what makes it so."""
@@ -88,8 +92,10 @@ class Chance:
     low: float
     median: float
     high: float
-    first: str  # name of the input that spreads the margin most
-    share: float  # its share of the variance of the logarithm of the margin
+    # Name of the input that spreads the margin most, and its share of the variance of the logarithm of the
+    # margin; empty for an estimate at once, which leaves out what changes the films.
+    first: str = ""
+    share: float = 0.0
 
     @property
     def level(self) -> Level:
@@ -115,6 +121,8 @@ class Chance:
         'The probability of breakdown is 16 % (sampling error 1.6 %): within what is uncertain the margin is \
 0.78 to 3.00 in 90 of 100 cases, 1.47 in the middle. Measure first: rotor capacitance, 57 % of the spread.'
         """
+        if not self.first:
+            return PROBABILITY_FOLLOWS
         low, median, high = map(ratio_text, (self.low, self.median, self.high))
         return (
             f"The probability of breakdown is {chance_text(self.probability, self.error)}: within what is "

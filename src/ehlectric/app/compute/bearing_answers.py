@@ -13,7 +13,6 @@ import numpy as np
 from ehlectric.app.answers import (
     FOLLOWS,
     PENDING,
-    PROBABILITY_FOLLOWS,
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
@@ -51,6 +50,7 @@ from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, er
 from ehlectric.bearing.solving import CaseKey, key_of
 from ehlectric.bearing.speed_curves import over_speed
 from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing.uncertainty import quick_chance
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
@@ -223,7 +223,7 @@ def quick_verdict(solution: BearingSolution) -> Verdict:
 
     It is not green then: the verdict without an analysis counts an unknown range as a doubt.
     """
-    verdict = bearing_verdict(solution, MarginAnalysis())
+    verdict = bearing_verdict(solution, MarginAnalysis(), quick_chance(solution))
     if verdict.margin is None or not solution.case.ranges:
         return verdict
     text = verdict.text.replace(_OPEN_RANGE, FOLLOWS)
@@ -359,10 +359,7 @@ def _verdict(result: BearingResult, *, whole: bool, probable: bool) -> Verdict:
         return quick_verdict(result.solution)
     if probable:
         return result.verdict
-    verdict = bearing_verdict(result.solution, result.margin_analysis)
-    if verdict.margin is None:
-        return verdict
-    return Verdict(verdict.level, f"{verdict.text} {PROBABILITY_FOLLOWS}", verdict.margin)
+    return bearing_verdict(result.solution, result.margin_analysis, quick_chance(result.solution))
 
 
 def _how(result: BearingResult) -> str:

@@ -10,7 +10,6 @@ from nicegui import ui
 from ehlectric.app.answers import (
     FOLLOWS,
     PENDING,
-    PROBABILITY_FOLLOWS,
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
@@ -22,6 +21,7 @@ from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, W
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
 from ehlectric.cases.defaults import HOW
+from ehlectric.discharge.film_verdict import PROBABILITY_FOLLOWS
 from ehlectric.quantities.sheets import BEARING_CARDS
 
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")

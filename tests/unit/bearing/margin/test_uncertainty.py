@@ -15,6 +15,7 @@ from ehlectric.bearing.uncertainty import (
     _computed,
     _Design,
     margin_band,
+    quick_chance,
     sampling_error,
     uncertainty_of,
 )
@@ -68,9 +69,9 @@ def test_the_probability_is_that_of_plain_random_points(usual):
     """4000 points of an independent generator, whose own sampling error counts too."""
     solution, margins = usual
     found = uncertainty_of(solution, margins)
-    design = _Design.of(solution, margins)
+    design = _Design.of(solution)
     at = np.random.default_rng(11).random((4000, design.width))
-    computed, solved = _computed(design, at)
+    computed, solved = _computed(design, margins, at)
     assert solved.all()
     below = float(np.mean(computed * np.exp(np.sum(design.log_factors(at), axis=-1)) < 1.0))
     assert 0.05 < found.probability < 0.5
@@ -82,7 +83,7 @@ def test_the_probability_is_that_of_plain_random_points(usual):
 def test_the_strength_alone_has_an_even_distribution(usual):
     """Ranges that close in on all other inputs leave the even distribution of the strength."""
     solution, margins = usual
-    design = _Design.of(solution, margins)
+    design = _Design.of(solution)
     narrow = {
         change.key: [value * (1.0 - 1e-6), value * (1.0 + 1e-6)]
         for change in design.computed
@@ -149,6 +150,15 @@ def test_the_band_falls_to_no_breakdown_at_high_speed(usual):
     assert at.probability[0] == pytest.approx(own.probability, abs=2.0 * sampling_error(own.probability, 128))
 
 
+def test_the_chance_at_once_is_near_the_whole_one(usual):
+    """Its films are those of the bearing: temperature, load and clearance have a tenth of the spread here."""
+    at_once, whole = quick_chance(usual[0]), uncertainty_of(*usual).chance
+    assert at_once.probability == pytest.approx(whole.probability, abs=0.06)
+    assert at_once.median == pytest.approx(whole.median, rel=0.03)
+    assert whole.low <= at_once.low < at_once.high <= whole.high
+    assert "follows" in at_once.sentence
+
+
 def test_the_same_seed_gives_the_same_numbers(usual):
     first, again, other = (uncertainty_of(*usual, samples=64, seed=seed) for seed in (1, 1, 2))
     assert first.summary() == again.summary()
@@ -159,9 +169,9 @@ def test_the_same_seed_gives_the_same_numbers(usual):
 def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
     solution, margins = usual
     found = uncertainty_of(solution, margins)
-    design, rng, below = _Design.of(solution, margins), np.random.default_rng(7), 0.0
+    design, rng, below = _Design.of(solution), np.random.default_rng(7), 0.0
     for _ in range(20):
         at = rng.random((10000, design.width))
-        computed, _ = _computed(design, at)
+        computed, _ = _computed(design, margins, at)
         below += np.mean(computed * np.exp(np.sum(design.log_factors(at), axis=-1)) < 1.0) / 20.0
     assert abs(found.probability - below) < found.probability_error
