@@ -51,6 +51,7 @@ class DomainLaw:
     across: float
     # Largest inlet, outlet and side.
     most: tuple[float, float, float]
+    coarseness: float = 1.0  # factor on the errors of polynomials in place of integrals
 
     def ends(self, state: tuple[int, ...], length: Numbers, unit: UnitContact) -> Ends:
         """Inlet, outlet and side that are default, follow from a length, or are largest: ``state`` 0, 1 or 2.

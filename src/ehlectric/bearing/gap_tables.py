@@ -261,7 +261,7 @@ def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> S
         films = middle * b**2 / race.radius_x
         return around_directly(race, b, (-inlet, outlet, side), films, shoulders=False)[0]
 
-    return _normalised(capacitance, box, _LONG if state[0] else _SHORT)
+    return _normalised(capacitance, box, law.coarseness * (_LONG if state[0] else _SHORT))
 
 
 @lru_cache(maxsize=128)
@@ -275,7 +275,7 @@ def _between(law: DomainLaw, state: tuple[int, ...], box: _Box) -> SmoothTable |
         far = tuple(np.broadcast_to(end, length.shape) for end in law.ends(state, length, unit))
         return between_directly(unit, near, (far[0], far[1], far[2]), middle)
 
-    return _normalised(integral, box, _BETWEEN)
+    return _normalised(integral, box, law.coarseness * _BETWEEN)
 
 
 @lru_cache(maxsize=64)
@@ -285,7 +285,7 @@ def _ellipse(law: DomainLaw, part: int, box: _Box) -> SmoothTable | None:
     def logarithm(at: Array) -> Array:
         return np.asarray(np.log(around_ellipse_directly(np.exp(at[0]), np.exp(at[1]), law)[part]))
 
-    return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), _RELATIVE)
+    return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), law.coarseness * _RELATIVE)
 
 
 @lru_cache(maxsize=64)

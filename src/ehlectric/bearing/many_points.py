@@ -18,6 +18,7 @@ from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import is_number
 
 # Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
@@ -111,7 +112,8 @@ def solved_parts(
     for a reason that all share, as an oil that needs solved contacts.
     """
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
-        part = _solved(case, points, positions, detail)
+        with one_blas_thread():
+            part = _solved(case, points, positions, detail)
         if part is not None:
             yield part
         if reasons is not None:

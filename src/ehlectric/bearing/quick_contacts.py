@@ -16,7 +16,6 @@ from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import gap_breakdown
 from ehlectric.bearing.gap_tables import around_ellipses, around_of_balls, around_of_rollers, between_domains
 from ehlectric.bearing.ring_contacts import (
-    BALL_DOMAINS,
     BallContact,
     Contact,
     ContactCurve,
@@ -286,7 +285,7 @@ def _around_all(quick: QuickContact) -> tuple[Array, Array]:
     race = raceway_of(contact.ring)
     if not contact.ring.shape:
         return around_directly(race, b, quick.domain, central)
-    return around_of_balls(race, b, (-inlet, outlet, side), central, BALL_DOMAINS), np.full(shape, np.nan)
+    return around_of_balls(race, b, (-inlet, outlet, side), central, contact.domains), np.full(shape, np.nan)
 
 
 def _domain(contact: Contact, *, wide: bool) -> tuple[Numbers, Numbers, Numbers]:
@@ -303,7 +302,7 @@ def _beyond(contact: Contact, domain: tuple[Numbers, Numbers, Numbers], central:
     inlet, outlet, side = domain
     if isinstance(contact, BallContact):
         middle, ends = central * radius / b**2, (-inlet, outlet, side)
-        return np.asarray(radius * between_domains(raceway_of(contact.ring), ends, middle, BALL_DOMAINS))
+        return np.asarray(radius * between_domains(raceway_of(contact.ring), ends, middle, contact.domains))
     total, scale = np.zeros(central.shape), b**2 / radius
     for near, far in zip(LINE, (inlet, outlet), strict=True):
         x, weights = _geometric(abs(near), np.abs(far))
@@ -364,7 +363,7 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
     radius, b = contact.ring.radii.radius_x, contact.axes[0]
     middle = central * radius / b**2
     if isinstance(contact, BallContact):
-        inlet, outlet = around_ellipses(raceway_of(contact.ring), middle, BALL_DOMAINS)
+        inlet, outlet = around_ellipses(raceway_of(contact.ring), middle, contact.domains)
         return radius * inlet, radius * outlet
     unit = contact.length * radius / b
     gaps = middle[..., np.newaxis]

@@ -64,6 +64,9 @@ BALL_DOMAINS = DomainLaw(
     most=(_MOST[0], 0.1 * _MOST[0], _MOST[1]),
 )
 
+# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5.
+_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3)
+
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
 # film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
 # which costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded
@@ -177,6 +180,7 @@ class BallContact:
 
     ring: RingContacts[BallBearing]
     load: Numbers  # [N]
+    coarse: bool = False  # whether only ratios of results are used, so that gaps are computed coarsely
 
     @cached_property
     def dry(self) -> DryContact:
@@ -209,6 +213,11 @@ class BallContact:
             compliance_share=bearing.ring_share,
             film_factor=self.ring.film_factor,
         )
+
+    @property
+    def domains(self) -> DomainLaw:
+        """Law of the domains of the films of many balls."""
+        return _COARSE_DOMAINS if self.coarse else BALL_DOMAINS
 
     @property
     def axes(self) -> tuple[Numbers, Numbers]:
@@ -306,6 +315,7 @@ class RollerContact:
 
     ring: RingContacts[RollerBearing]
     load: Numbers  # [N]
+    coarse: bool = False  # as for balls; the gaps of rollers take little time
 
     @property
     def length(self) -> Numbers:

@@ -86,7 +86,8 @@ def _quick_curves(
 
     def curve(number: int, ring: RingContacts[Any]) -> ContactCurve:
         loads, used = loads_to_solve(prepared, ring, quick=True, coarse=detail != "whole")
-        found = QUICK_METHODS[case.contacts](kind_of(ring).contact(ring, np.moveaxis(loads, -1, 0)))
+        contact = replace(kind_of(ring).contact(ring, np.moveaxis(loads, -1, 0)), coarse=detail != "whole")
+        found = QUICK_METHODS[case.contacts](contact)
         progress(number, len(prepared.rings), f"contacts with the {ring.name} ring")
         unknown = np.full(found.inside.shape, np.nan)
         return quick_curve(found, used, (unknown, unknown) if detail == "films" else None)

@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_discharges import first_margin
@@ -25,6 +24,7 @@ from ehlectric.cases.input_keys import kind_of
 from ehlectric.discharge.film_verdict import Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.runtime.threads import one_blas_thread
 
 # Points of the design, a power of 2, and the seed of its random shifts.
 SAMPLES, SEED = 2048, 1
@@ -159,6 +159,15 @@ def sampling_error(probability: float, number: int) -> float:
     return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
 
 
+def _sobol(width: int, number: int, seed: int) -> Array:
+    """Points of a scrambled Sobol sequence from 0 to 1, shape (number, width)."""
+    # scipy.stats takes longer to load than most of the rest of a command.
+    from scipy.stats import qmc
+
+    points: Array = qmc.Sobol(width, seed=seed).random(number)
+    return points
+
+
 @dataclass(frozen=True)
 class _Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
@@ -248,7 +257,7 @@ def uncertainty_of(
     Raises InputError where no point has a result.
     """
     design = _Design.of(solution)
-    at = qmc.Sobol(design.width, seed=seed).random(samples)
+    at = _sobol(design.width, samples, seed)
     computed, solved = _computed(design, margins, at)
     factors = design.log_factors(at)
     margin = computed * np.exp(np.sum(factors, axis=-1))
@@ -282,7 +291,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     if not solution.converged or first_margin(solution) is None:
         return None
     design = _Design.of(solution, beside_films=True)
-    at = qmc.Sobol(design.width, seed=SEED).random(samples)
+    at = _sobol(design.width, samples, SEED)
     arrays = design.arrays(at)
     case = solution.case.with_arrays(arrays) if arrays else solution.case
     found = first_margin(replace(solution, case=case))
@@ -330,7 +339,8 @@ def _inputs(
     first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
     if number and np.count_nonzero(separated) > 1:
         logs = np.log(computed[separated])
-        found = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
+        with one_blas_thread():
+            found = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
         first, total, variance = found.first, found.total, found.variance
         missed = (1.0 - found.predicted) * float(np.var(logs))
     whole = variance + float(np.sum(own)) or 1.0
@@ -373,7 +383,7 @@ def margin_band(
     own = solution.case.bearing.inner_speed
     speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
     design = _Design.of(solution)
-    at = qmc.Sobol(design.width, seed=seed).random(_AT_EACH)
+    at = _sobol(design.width, _AT_EACH, seed)
     many = np.tile(at, (speed.size, 1))
     computed, solved = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
     margin = computed * np.exp(np.sum(design.log_factors(many), axis=-1))
