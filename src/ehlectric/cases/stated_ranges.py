@@ -88,7 +88,7 @@ def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
     part = _difference(key, text, value, around["part"].strip(), quantity)
     ends = value - part, value + part
     for end in ends:
-        _parsed(key, quantity, end)
+        _parsed(key, quantity, f"{end:.9g} {quantity.unit}" if quantity.unit else end)
     return ends[0], value, ends[1]
 
 

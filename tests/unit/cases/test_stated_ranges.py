@@ -57,6 +57,7 @@ def test_uncertainties_join_the_ranges_of_the_file_and_of_changes():
     ("bearing", "text"),
     [
         ({"temperature": "70 degC +- 10 %"}, "in K or degC"),
+        ({"temperature": "70 degC +- 500 K"}, "-156.85 K"),
         ({"radial_load": "1 kN +- 5 um"}, "with the unit of the value or in %"),
         ({"radial_load": "1 kN +- -3 %"}, "a difference above 0"),
         ({"radial_load": "2 kN to 1 kN"}, "the smaller value first"),
