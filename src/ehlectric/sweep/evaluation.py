@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dataset:
-    """Evaluate a bearing, or both of a drive, at many points of operation, a thousand or more a second on one core.
+    """Evaluate a bearing, or both of a drive, at many points of operation: a thousand a second on one core.
 
     Contacts are from the atlas of films, or by formula where those of the case are; those of a case with
     solved contacts are from the atlas here. Every point has the numbers that ``solve_bearing`` gives for it
