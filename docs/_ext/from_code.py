@@ -372,6 +372,7 @@ _GROUPS = {
         "solve_many",
         "solve_bearing",
         "solve_motion",
+        "evaluate",
         "run_sweep",
         "run_motion",
         "film_factors",

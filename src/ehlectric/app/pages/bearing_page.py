@@ -8,7 +8,6 @@ from dataclasses import replace
 from nicegui import ui
 
 from ehlectric.app.answers import (
-    FOLLOWS,
     PENDING,
     RANGE_FOLLOWS,
     BearingAnswer,
@@ -21,10 +20,13 @@ from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, W
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
 from ehlectric.cases.defaults import HOW
-from ehlectric.discharge.film_verdict import PROBABILITY_FOLLOWS
 from ehlectric.quantities.sheets import BEARING_CARDS
 
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")
+
+
+# End of sentences about what a later answer has.
+_TO_FOLLOW = "follows."
 
 
 class BearingView(AnswerView[BearingAnswer]):
@@ -52,7 +54,8 @@ class BearingView(AnswerView[BearingAnswer]):
             elif one.note.startswith(RANGE_FOLLOWS):
                 self.numbers[one.key].show(replace(one, note=one.note.removeprefix(f"{RANGE_FOLLOWS}; ")))
         judged = self._pending.judged
-        reasons = tuple(one for one in judged.reasons if one not in (FOLLOWS, PROBABILITY_FOLLOWS))
+        # The range of the margin and the probability of breakdown.
+        reasons = tuple(one for one in judged.reasons if not one.endswith(_TO_FOLLOW))
         self.verdict.show(replace(judged, reasons=reasons))
         self._pending = None
 
