@@ -18,7 +18,7 @@ from matplotlib.contour import ContourSet
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.tri import Triangulation
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, Mask
@@ -68,7 +68,7 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
         places = _between(_on_page(ax, places))
         free = np.ones(len(places))
         if len(taken):
-            around = cKDTree(_on_page(ax, taken) * (_WIDER, 1.0))
+            around = KDTree(_on_page(ax, taken) * (_WIDER, 1.0))
             free = np.minimum(around.query(places * (_WIDER, 1.0))[0], 1.0)
         edge = np.min(np.hstack([places, 1.0 - places]) * (_WIDER, 1.0, _WIDER, 1.0), axis=1)
         free = np.minimum(free, edge)
