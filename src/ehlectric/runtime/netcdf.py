@@ -114,7 +114,7 @@ class Layout:
         elif dtype.kind in "UO":
             dtype, values = import_module("h5py").string_dtype(), values.astype(object)
         near = [one for one in sorted(self.coordinates) if {*_names(self.variables[one][0])} <= {*dims}]
-        if near and name not in self.coordinates:
+        if near and name not in (*self.coordinates, *dims):
             attributes["coordinates"] = " ".join(near)
         variable = file.create_variable(name, dims, dtype, fillvalue=fill)
         for key, value in attributes.items():

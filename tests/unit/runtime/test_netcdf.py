@@ -1,0 +1,63 @@
+"""NetCDF files that are written without xarray, against those that xarray writes of the same variables."""
+
+import io
+
+import numpy as np
+import pytest
+
+from ehlectric.runtime.netcdf import Layout, content_of, opened, read_dataset
+
+# Numbers with a missing one, whole numbers, truths, texts, a scalar, and a coordinate that is no dimension.
+LAYOUT = Layout(
+    {
+        "x": ("x", np.array([0.0, 1.0, 2.0]), {"units": "m"}),
+        "load": ("x", np.array([5.0, 6.0, 7.0]), {"units": "N", "long_name": "load"}),
+        "y": ("y", np.array([1, 2], dtype=np.int64)),
+        "film": (("x", "y"), np.array([[1.0, np.nan], [2.0, 3.0], [4.0, 5.0]]), {"units": "m"}),
+        "single": ("x", np.array([1.0, 2.0, 3.0], dtype=np.float32)),
+        "solved": ("x", np.array([True, False, True])),
+        "names": ("x", np.array(["inner", "", "outer"], dtype=object)),
+        "count": ((), 3),
+        "none": ("empty", np.zeros(0)),
+    },
+    {"title": "A bearing", "schema": 4, "error": 0.25, "list": np.array([1.0, 2.0])},
+    coordinates=("load",),
+)
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Paths of the file that the layout writes itself, and of that of its dataset."""
+    paths = [tmp_path_factory.mktemp("netcdf") / name for name in ("own.nc", "xarray.nc")]
+    for path, content in zip(paths, (LAYOUT, LAYOUT.dataset()), strict=True):
+        target = io.BytesIO()
+        content_of(content)(target)
+        path.write_bytes(target.getvalue())
+    return paths
+
+
+def test_a_layout_is_read_as_the_dataset_of_xarray(files):
+    own, other = map(read_dataset, files)
+    assert own.identical(other)
+    assert own.identical(LAYOUT.dataset())
+    for name in own.variables:
+        assert own[name].dtype == other[name].dtype, name
+
+
+def test_a_layout_is_stored_as_xarray_stores_it(files):
+    """Types, fill values and attributes of every variable are the same, which other programs read."""
+
+    def stored(path):
+        with opened(path) as file:
+            return {
+                name: (
+                    variable.dimensions,
+                    variable.dtype,
+                    {key: np.asarray(value).tolist() for key, value in sorted(variable.attrs.items())},
+                )
+                for name, variable in file.variables.items()
+            }
+
+    own, other = map(stored, files)
+    assert repr(own) == repr({name: other[name] for name in own})
+    assert own.keys() == other.keys()
