@@ -38,6 +38,16 @@ OTHERS = {
     },
 }
 
+# A 6208 of the catalogue at a point of operation, in SI units.
+BALLS_IN_SI = {
+    "base": "6208",
+    "radial_clearance": 1e-5,
+    "radial_load": 1000.0,
+    "inner_speed": 314.0,
+    "temperature": 343.15,
+    "composite_rq": 3e-8,
+}
+
 # Groove radii of ISO 76, clearance within the class CN of ISO 5753.
 BALLS = {
     "bearing": DUTY

@@ -569,9 +569,8 @@ class BearingAnswer(PageAnswer):
     margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``over_speed``
     contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
     differences: tuple[Difference, ...] = ()
-    effects: Table | None = (
-        None  # margins if one input changes; None unless ``over_speed``, and without a margin
-    )
+    # Margins if one input changes; None unless ``over_speed``, and without a margin.
+    effects: Table | None = None
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Numbers
-from ehlectric.bearing.many_points import SolvedPart, solved_parts, some_points
+from ehlectric.bearing.many_points import SolvedPart, gathered, solved_parts, some_points
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import NOT_IN_FILMS, UNUSED, Detail, key_of
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
-from ehlectric.cases.table import fields_within, number_of
+from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError
 
 # Speed of the inner ring, which is varied where nothing else is.
@@ -44,13 +43,9 @@ class Several:
     parts: tuple[SolvedPart, ...]
     reasons: dict[int, str]  # why a point has no solution, by its place
 
-    def columns(self, numbers: Callable[[BearingSolution], Sequence[Numbers]]) -> Array:
-        """Numbers of all solutions, shape (k, n), NaN without one. ``numbers``, k numbers of a solution."""
-        found = [(part.points, np.stack(np.broadcast_arrays(*numbers(part.solution)))) for part in self.parts]
-        columns = np.full((len(found[0][1]) if found else 1, self.size), np.nan)
-        for points, values in found:
-            columns[:, points] = values
-        return columns
+    def columns(self, numbers: Callable[[BearingSolution], Sequence[Numbers]], count: int) -> Array:
+        """Numbers of all solutions, shape (count, n), NaN without one. ``numbers``, those of a solution."""
+        return gathered(self.parts, numbers, (count, self.size))
 
 
 def solve_several(case: BearingCase, detail: Detail = "coarse") -> Several:
@@ -62,8 +57,7 @@ def solve_several(case: BearingCase, detail: Detail = "coarse") -> Several:
     reasons: dict[int, str] = {}
     size = case.shape[0]
     try:
-        found = solved_parts(case, reasons=reasons, detail=detail)
-        parts = tuple(found)
+        parts = tuple(solved_parts(case, reasons=reasons, detail=detail))
     except InputError as error:
         return Several(size, (), dict.fromkeys(range(size), str(error)))
     return Several(size, parts, reasons)
@@ -116,30 +110,23 @@ def alike(cases: Sequence[BearingCase]) -> Iterator[tuple[IntArray, BearingCase]
     tables = [flattened(_alone(case).to_dict()) for case in cases]
     groups: dict[str, list[int]] = {}
     for place, table in enumerate(tables):
-        fixed = {key: value for key, value in table.items() if not _is_quantity(key, value)}
-        names = sorted(key for key, value in table.items() if _is_quantity(key, value))
+        fixed = {key: value for key, value in table.items() if not _is_varied(key, value)}
+        names = sorted(key for key, value in table.items() if _is_varied(key, value))
         groups.setdefault(repr((sorted(fixed.items(), key=str), names)), []).append(place)
     for places in groups.values():
         first = tables[places[0]]
         columns = {
             key: np.array([tables[place][key] for place in places])
             for key, value in first.items()
-            if _is_quantity(key, value)
+            if _is_varied(key, value)
         }
         varied = {key: values for key, values in columns.items() if key == _SPEED or np.ptp(values) > 0.0}
         yield np.array(places), _alone(cases[places[0]]).with_values(varied)
 
 
-def _is_quantity(key: str, value: object) -> bool:
+def _is_varied(key: str, value: object) -> bool:
     """Whether a value is a quantity, of which a case may have an array."""
-    return type(value) is float and key in _quantities()
-
-
-@cache
-def _quantities() -> frozenset[str]:
-    """Keys of a bearing file that are quantities."""
-    fields = fields_within(BearingCase)
-    return frozenset(key for key, one in fields.items() if isinstance(number_of(one), Amount))
+    return type(value) is float and is_quantity(key)
 
 
 # Number of times that points are added, distance of logarithms of speeds up to which a crossing is bracketed,

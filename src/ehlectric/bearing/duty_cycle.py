@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.duty_points import NAMES, PointValues, values_at
-from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case_oil import viscosity_over_temperature
@@ -193,10 +193,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     if case.duty is None:
         return None
     cycle = read_cycle(case.duty.file)
-    quick, refused = quick_case(case)
-    if quick is None:
-        assert refused is not None
-        raise refused
+    quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
     rows, found = _rows(quick, cycle)
     return DutyResult(

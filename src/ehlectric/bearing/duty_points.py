@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import shaft_voltage
-from ehlectric.bearing.many_points import solved_parts
+from ehlectric.bearing.many_points import gathered, solved_parts
 from ehlectric.bearing.solution import CONDUCTING, BearingSolution, capacitance, lambda_ratio
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
@@ -63,23 +63,17 @@ def values_at(case: BearingCase, inputs: Mapping[str, Array]) -> PointValues:
 
 def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
     """Quantities at the rows of a table with a column for each key, shape (n, keys)."""
-    values = {name: np.full(len(table), np.nan) for name in NAMES}
     reasons: dict[int, str] = {}
     many = case.with_arrays(dict(zip(keys, table.T, strict=True)))
-    for part in solved_parts(many, reasons=reasons):
-        for name, numbers in _numbers(part.solution):
-            values[name][part.points] = np.nan if numbers is None else numbers
-    return PointValues(values, reasons, len(table))
+    found = gathered(solved_parts(many, reasons=reasons), _numbers, (len(NAMES), len(table)))
+    return PointValues(dict(zip(NAMES, found, strict=True)), reasons, len(table))
 
 
-def _numbers(solution: BearingSolution) -> Iterator[tuple[str, Numbers | None]]:
-    """Quantities of solved points by name; None for what no point has."""
+def _numbers(solution: BearingSolution) -> tuple[Numbers | None, ...]:
+    """Quantities of solved points in the order of ``NAMES``; None for what no point has."""
     broken = breaks(solution)
-    yield "lambda_ratio", lambda_ratio(solution)
-    yield "capacitance", capacitance(solution)
-    yield "first_break", broken["first_break"]
-    yield "shaft_voltage", shaft_voltage(solution)
-    yield "margin", broken["margin"]
+    voltages = broken["first_break"], shaft_voltage(solution), broken["margin"]
+    return lambda_ratio(solution), capacitance(solution), *voltages
 
 
 def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:

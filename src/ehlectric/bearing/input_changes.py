@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ehlectric.arrays import Numbers
@@ -47,39 +47,35 @@ _OF_MOTOR = _JUDGED + "data sheets do not have it, and few measure it"
 
 @dataclass(frozen=True)
 class Change:
-    """Two values of an input, and the changes of the case that make them.
-
-    With ``factor_of_load`` both loads change in proportion; the inputs ``shift_of`` change by one step.
-    """
+    """Two values of an input of a case, and the changes of the case that make them."""
 
     key: str
     label: str
-    ends: tuple[float, float]
+    value: float  # value of the input in the case, SI units; 1 for a factor on a table
+    ends: tuple[float, float]  # smaller and larger value, SI units
     reason: str = ""  # where a usual range comes from; empty for a range of the file
-    factor_of_load: bool = False
-    shift_of: tuple[str, ...] = ()
+    # Values in the case of inputs that change by one step, or in proportion: this one among them.
+    shifted: Mapping[str, float] = field(default_factory=dict)
+    scaled: Mapping[str, float] = field(default_factory=dict)
 
-    def value(self, case: BearingCase) -> float:
-        """Value of the input in a case, SI units; 1 for a factor on a table."""
-        return 1.0 if self.key == OF_TABLE else float(value_at(case.to_dict(), self.key))
-
-    def changes(self, case: BearingCase, end: Numbers) -> dict[str, Any]:
-        """Changed inputs of a case by key, at one value of this input or at many, shape (...)."""
-        if self.shift_of:
-            table = case.to_dict()
-            step = end - value_at(table, self.key)
-            return {key: value_at(table, key) + step for key in self.shift_of}
-        if not self.factor_of_load:
-            return {self.key: end}
-        bearing, factor = case.bearing, end / value_at(case.to_dict(), self.key)
-        loads = {"bearing.radial_load": bearing.radial_load, "bearing.axial_load": bearing.axial_load}
-        return {key: factor * load for key, load in loads.items() if load}
+    def changes(self, end: Numbers) -> dict[str, Any]:
+        """Changed inputs of the case by key, at one value of this input or at many, shape (...)."""
+        if self.shifted:
+            step = end - self.value
+            return {key: value + step for key, value in self.shifted.items()}
+        if self.scaled:
+            factor = end / self.value
+            return {key: factor * value for key, value in self.scaled.items()}
+        return {self.key: end}
 
 
 def changes_of(case: BearingCase) -> tuple[Change, ...]:
     """Changes of all inputs that are uncertain, each once: a range of the file replaces the usual one."""
-    changes = {change.key: change for change in usual_changes(case, case.to_dict())}
-    changes |= {one.key: Change(one.key, _label(one.key), (one.low, one.high)) for one in case.ranges or ()}
+    table = case.to_dict()
+    changes = {change.key: change for change in usual_changes(case, table)}
+    for one in case.ranges or ():
+        value = float(value_at(table, one.key))
+        changes[one.key] = Change(one.key, _label(one.key), value, (one.low, one.high))
     return tuple(changes.values())
 
 
@@ -102,45 +98,49 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
     for key in STRENGTHS:
         strength = value_at(table, key)
         if strength is not None:
-            yield Change(key, _label(key), _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
+            yield Change(key, _label(key), strength, _part(strength, STRENGTH_UNKNOWN), _OF_STRENGTH)
     if case.discharge.strength_table is not None:
-        yield Change(
-            OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH_UNKNOWN), _OF_STRENGTH
-        )
+        label = "factor on the dielectric strength"
+        yield Change(OF_TABLE, label, 1.0, _part(1.0, STRENGTH_UNKNOWN), _OF_STRENGTH)
     if not temperature_is_unused(case):
         yield _temperature(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
-        yield Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH), _OF_GRADE)
+        at_40 = oil.at_40()
+        yield Change(_AT_40, label, at_40, _part(at_40, GRADE_WIDTH), _OF_GRADE)
     yield from _clearance(bearing)
     if bearing.contact_angle is not None:
-        key = "bearing.contact_angle"
-        yield Change(key, _label(key), _around(bearing.contact_angle, ANGLE), _OF_ANGLE)
-    radial = bearing.radial_load >= bearing.axial_load
-    load = bearing.radial_load if radial else bearing.axial_load
-    both = min(bearing.radial_load, bearing.axial_load) > 0.0
-    key = f"bearing.{'radial' if radial else 'axial'}_load"
-    name = _label(key)
-    yield Change(
-        key,
-        f"{name} ({'axial' if radial else 'radial'} in proportion)" if both else name,
-        _part(load, LOAD),
-        _OF_LOAD,
-        factor_of_load=both,
-    )
+        key, angle = "bearing.contact_angle", bearing.contact_angle
+        yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)
+    yield _load(bearing)
     for name in ("winding_rotor", "rotor_frame"):
         key = f"motor.{name}_capacitance"
-        yield Change(key, _label(key), _part(value_at(table, key), MOTOR), _OF_MOTOR)
+        capacitance = value_at(table, key)
+        yield Change(key, _label(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
+
+
+def _load(bearing: Bearing) -> Change:
+    """Change of the larger component of the load, and of the other one in proportion."""
+    loads = {"radial": bearing.radial_load, "axial": bearing.axial_load}
+    # Of equal components the first one.
+    larger = max(loads, key=loads.__getitem__)
+    both = {f"bearing.{name}_load": load for name, load in loads.items() if load}
+    key, value = f"bearing.{larger}_load", loads[larger]
+    label = _label(key)
+    if len(both) < 2:
+        return Change(key, label, value, _part(value, LOAD), _OF_LOAD)
+    other = "axial" if larger == "radial" else "radial"
+    label = f"{label} ({other} in proportion)"
+    return Change(key, label, value, _part(value, LOAD), _OF_LOAD, scaled=both)
 
 
 def _temperature(bearing: Bearing) -> Change:
     """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
-    keys = tuple(f"bearing.{key}" for key in bearing.all_temperatures())
-    label = _label(keys[0]) + (" (of all other parts by the same)" if len(keys) > 1 else "")
-    return Change(
-        keys[0], label, _around(bearing.oil_temperature, TEMPERATURE), _OF_TEMPERATURE, shift_of=keys
-    )
+    known = {f"bearing.{name}": value for name, value in bearing.all_temperatures().items()}
+    key, value = next(iter(known.items()))
+    label = _label(key) + (" (of all other parts by the same)" if len(known) > 1 else "")
+    return Change(key, label, value, _around(value, TEMPERATURE), _OF_TEMPERATURE, shifted=known)
 
 
 def _clearance(bearing: Bearing) -> Iterator[Change]:
@@ -151,11 +151,11 @@ def _clearance(bearing: Bearing) -> Iterator[Change]:
     if clearance is None:
         return
     if bearing.clearance_class is None or bearing.bore is None:
-        yield Change(key, _label(key), _around(clearance, CLEARANCE), _OF_CLEARANCE)
+        yield Change(key, _label(key), clearance, _around(clearance, CLEARANCE), _OF_CLEARANCE)
         return
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
     label = f"{_label(key)} (limits of class {bearing.clearance_class})"
-    yield Change(key, label, (limits.least, limits.most), _OF_CLASS)
+    yield Change(key, label, clearance, (limits.least, limits.most), _OF_CLASS)
 
 
 def _part(value: float, part: float) -> tuple[float, float]:

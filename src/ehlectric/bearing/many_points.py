@@ -3,29 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import POSITIONS, Detail, solution_of, solution_of_prepared
-from ehlectric.bearing.summary import numbers_of
+from ehlectric.bearing.summary import tables_of
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.quantities.results import TEXTS_OF_POINTS
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import is_number
 
 # Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
 TOGETHER = 1024
 
-# Texts of summary.json that may differ between points.
-TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
+# Speed of the inner ring, which is the array of a case of many points that has no other.
+_SPEED = "bearing.inner_speed"
 
 
 # Value and type of a column without results, by whether it has texts.
@@ -47,9 +49,8 @@ class Columns:
     size: int  # n
     # Numbers and texts by dotted key of summary.json, shape (n,); NaN or "" where a point has none.
     values: dict[str, Array] = field(default_factory=dict)
-    codes: dict[str, Mask] = field(
-        default_factory=dict
-    )  # points that have a warning, by its code, shape (n,)
+    # Points that have a warning, by its code, shape (n,).
+    codes: dict[str, Mask] = field(default_factory=dict)
     reasons: dict[int, str] = field(default_factory=dict)  # why a point has no result, by its place
 
     @property
@@ -66,8 +67,8 @@ class Columns:
 
     def add(self, part: SolvedPart) -> None:
         """Take the numbers and codes of solved points."""
-        for key, value in flattened(numbers_of(part.solution)).items():
-            if key in TEXTS or is_number(value) or np.ndim(value):
+        for key, value in flattened(tables_of(part.solution)).items():
+            if key in TEXTS_OF_POINTS or is_number(value) or np.ndim(value):
                 self._column(key)[part.points] = value
         for code, where in codes_of(part.solution):
             if np.any(where):
@@ -83,7 +84,7 @@ class Columns:
 
     def _column(self, key: str) -> Array:
         """Column of a key, which is empty at first."""
-        return self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS]))
+        return self.values.setdefault(key, np.full(self.size, *_EMPTY[key in TEXTS_OF_POINTS]))
 
     def _mask(self, code: str) -> Mask:
         """Points that have a warning, which are none at first."""
@@ -120,6 +121,51 @@ def solved_parts(
             solved = () if part is None else part.points
             for place in np.setdiff1d(points, solved).tolist():
                 reasons[place] = _reason(case.single(place))
+
+
+def gathered(
+    parts: Iterable[SolvedPart],
+    numbers: Callable[[BearingSolution], Sequence[Numbers | None]],
+    shape: tuple[int, int],
+) -> Array:
+    """Numbers of solved points in rows, shape (k, n); NaN where a point has none.
+
+    ``numbers``, k numbers of a solution, None for what no point of it has; ``shape``, (k, n).
+    """
+    rows = np.full(shape, math.nan)
+    for part in parts:
+        for row, values in zip(rows, numbers(part.solution), strict=True):
+            row[part.points] = math.nan if values is None else values
+    return rows
+
+
+def single_tables(part: SolvedPart) -> list[dict[str, dict[str, Any]]]:
+    """Tables of numbers and texts of each point, as in the summary of a single bearing."""
+    count = part.points.size
+    tables = {name: _rows(table, count) for name, table in tables_of(part.solution).items()}
+    return [{name: rows[place] for name, rows in tables.items()} for place in range(count)]
+
+
+def _rows(table: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
+    """Table of each of so many points, from a table with arrays of shape (points,)."""
+    columns = [_column(value, count) for value in table.values()]
+    return [dict(zip(table, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+def _column(value: Any, count: int) -> list[Any]:
+    """Values of so many points as Python has them: None for NaN and an empty text."""
+    if not np.ndim(value):
+        return [plain(value)] * count
+    if value.dtype.kind == "f":
+        numbers = value.astype(object)
+        numbers[~np.isfinite(value)] = None
+        return list(numbers)
+    return [None if each == "" else each for each in value.tolist()]
+
+
+def many_of(case: BearingCase, arrays: Mapping[str, Any], number: int) -> BearingCase:
+    """Case of a number of points with arrays by dotted key; all points are equal where there is none."""
+    return case.with_arrays(arrays or {_SPEED: np.full(number, case.bearing.inner_speed)})
 
 
 def some_points(case: BearingCase, points: IntArray) -> BearingCase:

@@ -38,7 +38,7 @@ from ehlectric.bearing.input_changes import (
     proportional_to_strength,
     temperature_is_unused,
 )
-from ehlectric.bearing.quick_contacts import formula_factor, is_quick, quick_case
+from ehlectric.bearing.quick_contacts import formula_factor, is_quick, required_quick_case
 from ehlectric.bearing.solution import (
     CONDUCTING,
     PARTIAL,
@@ -73,8 +73,8 @@ from ehlectric.errors import InputError, raised
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm, rpm_text
 
-# Inputs of strength laws that contacts without a solved field replace by a constant strength.
-_NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
+# Inputs of strength laws that only solved contacts have: others replace them by a constant strength.
+ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
 
 @dataclass(frozen=True)
@@ -99,6 +99,7 @@ class QuickMargins:
     # that are solved together, dimensionless.
     margin_factor: float
     lambda_factor: float
+    quick_case: BearingCase = field(repr=False)  # case with quick contacts
     quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
     quick_margin: float  # its margin, dimensionless
 
@@ -108,21 +109,18 @@ class QuickMargins:
         no margin, or the formulas have none for the same inputs.
         """
         own = MarginPoint(_margin_of(solution), lambda_ratio(solution))
-        quick = solution if is_quick(solution.case) else quick_solution(_quick(solution.case))
-        _, several = over_parts(_quick(solution.case))
+        case = _quick(solution.case)
+        quick = solution if is_quick(solution.case) else quick_solution(case)
+        _, several = over_parts(case)
         if OWN in several.reasons:
             raise InputError.worded(None, several.reasons[OWN])
-        margin, ratio = several.columns(_numbers)[:, OWN].tolist()
-        whole = float(_numbers(quick)[0])
+        margin, ratio = several.columns(margin_and_lambda, 2)[:, OWN].tolist()
+        whole = float(margin_and_lambda(quick)[0])
         if not margin * whole:
             text = "without solved contacts the surfaces touch already in the case itself"
             raise InputError.worded(None, text)
-        return cls(solution.case, own, own.margin / margin, own.lambda_ratio / ratio, quick, whole)
-
-    @staticmethod
-    def is_quick(key: str) -> bool:
-        """Whether an input has an effect on contacts that are not solved."""
-        return key not in _NOT_QUICK
+        factors = own.margin / margin, own.lambda_ratio / ratio
+        return cls(solution.case, own, *factors, case, quick, whole)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
@@ -162,7 +160,7 @@ class QuickMargins:
 
     def _beside_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays on which the films do not depend."""
-        margin, _ = _numbers(replace(self.quick, case=case))
+        margin, _ = margin_and_lambda(replace(self.quick, case=case))
         ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
         columns = self.own.margin / self.quick_margin * margin, ratio, np.ones(case.shape)
         return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
@@ -179,7 +177,7 @@ class QuickMargins:
     def _changed(self, changes: Mapping[str, Any]) -> BearingCase:
         """Case with changed inputs."""
         for key in changes:
-            if not self.is_quick(key):
+            if key in ONLY_SOLVED:
                 raise InputError.worded(key, "has an effect that only solved contacts have")
         return self.case.replace(changes)
 
@@ -187,29 +185,25 @@ class QuickMargins:
         """Speeds of ``PARTS`` [rad/s], shape (n,), margins and lambda ratios at them, shape (2, n), and the
         reasons of speeds without a solution, whose numbers are NaN, by their places.
         """
-        speeds, several = over_parts(_quick(self.case))
+        speeds, several = over_parts(self.quick_case)
         return speeds, self._scaled(several), several.reasons
 
     def at_speeds(self, speeds: Array) -> Array:
         """Margins and lambda ratios at speeds [rad/s], shape (n,) -> (2, n); NaN without a solution."""
-        return self._scaled(at_speeds(_quick(self.case), speeds))
+        return self._scaled(at_speeds(self.quick_case, speeds))
 
     def _scaled(self, several: Several) -> Array:
         """Margins and lambda ratios, scaled to the solution, shape (2, n); NaN without a solution."""
-        found: Array = np.array([[self.margin_factor], [self.lambda_factor]]) * several.columns(_numbers)
-        return found
+        factors = np.array([[self.margin_factor], [self.lambda_factor]])
+        return np.asarray(factors * several.columns(margin_and_lambda, 2))
 
 
 def _quick(case: BearingCase) -> BearingCase:
     """Case with quick contacts, with a constant strength where they need one."""
-    quick, refused = quick_case(case, constant=True)
-    if quick is None:
-        assert refused is not None
-        raise refused
-    return quick
+    return required_quick_case(case, constant=True)[0]
 
 
-def _numbers(solution: BearingSolution) -> tuple[Numbers, Numbers]:
+def margin_and_lambda(solution: BearingSolution) -> tuple[Numbers, Numbers]:
     """Margin and lambda ratio of a solution with quick contacts, shape (...); a margin of 0 where surfaces
     touch.
     """
@@ -368,9 +362,9 @@ def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...]
     effects, left_out = [], []
     if temperature_is_unused(margins.case):
         left_out.append("temperature: without effect, because lubricant.viscosity is given")
-    ends = [(change, end) for change in changes_of(margins.case) for end in change.ends]
-    found = iter(_margins(margins, margin, ends))
-    for change, low, high in zip(changes_of(margins.case), found, found, strict=True):
+    changes = changes_of(margins.case)
+    found = iter(_margins(margins, margin, [(change, end) for change in changes for end in change.ends]))
+    for change, low, high in zip(changes, found, found, strict=True):
         error = next((one for one in (low, high) if isinstance(one, InputError)), None)
         if error is None:
             effects.append(Effect(change.key, change.label, *change.ends, low, high))
@@ -382,14 +376,15 @@ def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...]
 
 def _margins(margins: QuickMargins, margin: float, ends: Sequence[tuple[Change, float]]) -> list[Any]:
     """Margins at the ends of changed inputs, each or the error of why it has none."""
-    found: list[Any] = [
-        margin * end / change.value(margins.case) if proportional_to_strength(change.key) else None
-        for change, end in ends
-    ]
-    others = [k for k, value in enumerate(found) if value is None]
-    points = margins.at_all([ends[k][0].changes(margins.case, ends[k][1]) for k in others])
-    for k, point in zip(others, points, strict=True):
-        found[k] = point if isinstance(point, InputError) else point.margin
+    others = [change.changes(end) for change, end in ends if not proportional_to_strength(change.key)]
+    points = iter(margins.at_all(others))
+    found: list[Any] = []
+    for change, end in ends:
+        if proportional_to_strength(change.key):
+            found.append(margin * end / change.value)
+        else:
+            point = next(points)
+            found.append(point if isinstance(point, InputError) else point.margin)
     return found
 
 
@@ -554,7 +549,7 @@ def _judged(
         level, lead, reasons, interval = chance.level, chance.lead, [*doubts, chance.sentence], ""
         reasons += _widths(solution, analysis, margin)
         if doubts and level == "green":
-            level, lead = "yellow", "Breakdown possible"
+            level, lead = "yellow", lead_of("yellow", likely=False)
     text = (
         f"{lead}: shaft voltage {shaft:.3g} V, first breakdown at "
         f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
@@ -587,7 +582,7 @@ def _by_ends(
         interval = (
             f", {ratio_text(analysis.low)} to {ratio_text(analysis.high)} within the stated ranges of inputs"
         )
-    return level, lead_of(level, margin), reasons, interval
+    return level, lead_of(level, likely=margin < 1.0), reasons, interval
 
 
 def _coating(solution: BearingSolution, shaft: float) -> str:

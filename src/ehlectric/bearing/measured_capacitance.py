@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
-from ehlectric.bearing.quick_contacts import is_quick, quick_case
+from ehlectric.bearing.quick_contacts import is_quick, required_quick_case
 from ehlectric.bearing.solution import CONDUCTING, BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.solving import POSITIONS, solution_of_prepared
 from ehlectric.cases import library
@@ -182,10 +182,7 @@ class OperatingPoint:
         """
         # What is in parallel is taken off the measured values, and the measured factor contains the supply.
         alone = {"bearing.parallel_capacitance": None, "bearing.supply": "flooded"}
-        changed, refused = quick_case(case.replace({**changes, **alone}), constant=True)
-        if changed is None:
-            assert refused is not None
-            raise refused
+        changed, _ = required_quick_case(case.replace({**changes, **alone}), constant=True)
         return cls(changed, prepare_bearing(changed, POSITIONS))
 
     def at(self, factor: float) -> FilmState:

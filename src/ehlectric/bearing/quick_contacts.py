@@ -118,6 +118,17 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
     return changed, None
 
 
+def required_quick_case(
+    case: BearingCase, *, constant: bool = False
+) -> tuple[BearingCase, InputError | None]:
+    """Case of ``quick_case``, and what it leaves out; raises this InputError where there is no case."""
+    quick, refused = quick_case(case, constant=constant)
+    if quick is None:
+        assert refused is not None
+        raise refused
+    return quick, refused
+
+
 # Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
 # of solved contacts, and that of the atlas.
 LINE, POINT = DEFAULT_ENDS[False], DEFAULT_ENDS[True]

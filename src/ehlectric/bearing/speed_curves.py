@@ -21,9 +21,9 @@ from ehlectric.bearing.changed_bearings import (
     at_speeds,
     over_parts,
 )
+from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio
-from ehlectric.bearing.summary import numbers_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.units import rpm
@@ -86,23 +86,14 @@ def over_speed(case: BearingCase, count: int | None = None) -> tuple[list[Speed]
 
 def _points(case: BearingCase, several: Several) -> list[Speed]:
     """Speeds [rad/s] with the numbers, texts and inputs of a bearing, as in its summary."""
-    inputs, points = case.to_dict(), []
+    inputs, points = plain(case.to_dict()), []
     for part in several.parts:
-        numbers = numbers_of(part.solution)
-        for k, speed in enumerate(np.asarray(part.solution.case.bearing.inner_speed).tolist()):
+        speeds = np.asarray(part.solution.case.bearing.inner_speed).tolist()
+        for speed, tables in zip(speeds, single_tables(part), strict=True):
             bearing = {**inputs["bearing"], "inner_speed": speed}
-            summary = {
-                table: {key: _at(one, k) for key, one in own.items()} for table, own in numbers.items()
-            }
             known = {"converged": True, "inputs": {**inputs, "bearing": bearing}}
-            points.append((speed, plain(known | summary)))
+            points.append((speed, known | tables))
     return sorted(points, key=lambda point: point[0])
-
-
-def _at(values: Any, k: int) -> Any:
-    """Number or text of a point; None in place of an empty text."""
-    value = values[k] if isinstance(values, np.ndarray) and values.ndim else values
-    return None if isinstance(value, str) and not value else value
 
 
 def _is_conducting(summary: dict[str, Any]) -> bool:
@@ -315,7 +306,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     speeds, several = over_parts(quick)
     if OWN in several.reasons:
         return None
-    scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),))[0, OWN]
+    scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
 
     def excess(at: BearingSolution) -> tuple[Numbers]:
         """How far a bearing is beyond both limits; negative where it is not capacitive.
@@ -327,10 +318,10 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
         return (np.minimum(np.log(np.log(share) / math.log(CAPACITIVE)), room),)
 
     def beyond(log: Array) -> Array:
-        """The same at logarithms of speeds, shape (n,) -> (1, n); NaN without a solution."""
-        return at_speeds(quick, np.exp(log), "films").columns(excess)
+        """``excess`` at logarithms of speeds, shape (n,) -> (1, n); NaN where the bearing has no solution."""
+        return at_speeds(quick, np.exp(log), "films").columns(excess, 1)
 
-    values = several.columns(excess)[0]
+    values = several.columns(excess, 1)[0]
     # From the speed of the case towards higher speeds, or from a capacitive bearing towards lower ones.
     way = 1 if values[OWN] < 0.0 else -1
     log, values = np.log(speeds)[OWN::way], values[OWN::way]

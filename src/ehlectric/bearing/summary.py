@@ -66,7 +66,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             "converged": solution.converged,
             **texts_and_codes(bearing_warnings(solution)),
             "inputs": case.to_dict(),
-            **numbers_of(solution, duty),
+            **tables_of(solution, duty),
             "contacts": contact_rows(solution, duty),
             "seconds": solution.seconds,
         }
@@ -74,7 +74,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
     return summary
 
 
-def numbers_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dict[str, dict[str, Any]]:
+def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dict[str, dict[str, Any]]:
     """Tables ``lubricant``, ``bearing`` and ``mechanics`` of summary.json, with numbers and texts of shape
     (...); None for what no point has. ``duty`` is that of the solution, where it is already known.
     """

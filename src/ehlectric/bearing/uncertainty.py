@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,14 +14,13 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
-from ehlectric.bearing.many_points import solved_parts
-from ehlectric.bearing.margin import QuickMargins
+from ehlectric.bearing.many_points import gathered, many_of, solved_parts
+from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, margin_and_lambda
 from ehlectric.bearing.quick_contacts import formula_factor
-from ehlectric.bearing.solution import BearingSolution, film_error, insulating
+from ehlectric.bearing.solution import BearingSolution, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.input_keys import kind_of
+from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.film_verdict import Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
@@ -82,9 +82,8 @@ class Uncertainty:
     viscosity from the temperature, changes with it. A point whose surfaces touch counts as breakdown.
     """
 
-    margins: Array = field(
-        repr=False
-    )  # margins of all points with a result, 0 where surfaces touch, shape (n,)
+    # Margins of all points with a result, 0 where surfaces touch, dimensionless, shape (n,).
+    margins: Array = field(repr=False)
     inputs: tuple[UncertainInput, ...]  # the largest contribution first
     touching: float  # share of points whose surfaces touch
     failed: int  # number of points without a result
@@ -97,20 +96,17 @@ class Uncertainty:
     @property
     def median(self) -> float:
         """Margin that half of the points have, dimensionless."""
-        return self._quantile(INTERVAL[1])
+        return self.chance.median
 
     @property
     def interval(self) -> tuple[float, float]:
         """Margins between which 90 % of the points are, dimensionless."""
-        return self._quantile(INTERVAL[0]), self._quantile(INTERVAL[2])
-
-    def _quantile(self, probability: float) -> float:
-        return float(np.quantile(self.margins, probability))
+        return self.chance.low, self.chance.high
 
     @property
     def probability(self) -> float:
         """Probability that the margin is below 1."""
-        return float(np.mean(self.margins < 1.0))
+        return self.chance.probability
 
     @property
     def probability_error(self) -> float:
@@ -118,15 +114,12 @@ class Uncertainty:
 
         Half of Wilson's interval; the points of a Sobol design have a smaller one.
         """
-        return sampling_error(self.probability, self.margins.size)
+        return self.chance.error
 
-    @property
+    @cached_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
-        first, (low, high) = self.inputs[0], self.interval
-        return Chance(
-            self.probability, self.probability_error, low, self.median, high, first.label, first.total
-        )
+        return _chance(self.margins, self.inputs[0].label, self.inputs[0].total)
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""
@@ -145,6 +138,14 @@ class Uncertainty:
             "seed": self.seed,
             "left_out": list(self.left_out),
         }
+
+
+def _chance(margins: Array, first: str = "", share: float = 0.0) -> Chance:
+    """Chance of a breakdown from margins at random points, shape (n,); see ``Chance`` for the others."""
+    probability = float(np.mean(margins < 1.0))
+    low, median, high = np.quantile(margins, INTERVAL).tolist()
+    error = sampling_error(probability, margins.size)
+    return Chance(probability, error, low, median, high, first, share)
 
 
 def sampling_error(probability: float, number: int) -> float:
@@ -189,7 +190,7 @@ class _Design:
         for change in changes:
             if proportional_to_strength(change.key):
                 factors.append(change)
-            elif isinstance(kind_of(change.key), Amount) and QuickMargins.is_quick(change.key):
+            elif is_quantity(change.key) and change.key not in ONLY_SOLVED:
                 if not beside_films or change.key.startswith(NOT_IN_FILMS):
                     computed.append(change)
             else:
@@ -216,13 +217,13 @@ class _Design:
         arrays: dict[str, Array] = {}
         for k, change in enumerate(self.computed):
             low, high = change.ends
-            arrays |= change.changes(self.case, low + (high - low) * at[:, k])
+            arrays |= change.changes(low + (high - low) * at[:, k])
         return arrays
 
     def log_factors(self, at: Array) -> Array:
         """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - computed)."""
         columns, k = [], len(self.computed)
-        ends = [(change.ends, change.value(self.case)) for change in self.factors]
+        ends = [(change.ends, change.value) for change in self.factors]
         for (low, high), value in [*ends, (self.films, 1.0)]:
             columns.append(np.log((low + (high - low) * at[:, k]) / value))
             k += 1
@@ -296,10 +297,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     case = solution.case.with_arrays(arrays) if arrays else solution.case
     found = first_margin(replace(solution, case=case))
     assert found is not None
-    margin = np.broadcast_to(found, (samples,)) * np.exp(np.sum(design.log_factors(at), axis=-1))
-    probability = float(np.mean(margin < 1.0))
-    low, median, high = np.quantile(margin, INTERVAL).tolist()
-    return Chance(probability, sampling_error(probability, samples), low, median, high)
+    return _chance(found * np.exp(np.sum(design.log_factors(at), axis=-1)))
 
 
 def _computed(
@@ -312,19 +310,12 @@ def _computed(
     arrays = design.arrays(at)
     if speed is not None:
         arrays["bearing.inner_speed"] = speed
-    if not arrays:
-        arrays = {"bearing.inner_speed": np.full(len(at), design.case.bearing.inner_speed)}
-    many = margins.quick.case.with_arrays(arrays)
-    margin, solved = np.zeros(len(at)), np.zeros(len(at), dtype=bool)
-    for part in solved_parts(many, detail="coarse"):
-        found = first_margin(part.solution)
-        # There is none where the surfaces touch at all of the points.
-        if found is not None:
-            margin[part.points] = np.where(insulating(part.solution), found, 0.0)
-        solved[part.points] = True
+    many = many_of(margins.quick.case, arrays, len(at))
+    margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
+    solved = np.isfinite(margin)
     if not np.any(solved):
         raise InputError.worded(None, "the margin has no value within the ranges of the inputs")
-    return margins.margin_factor * margin, solved
+    return margins.margin_factor * np.where(solved, margin, 0.0), solved
 
 
 def _inputs(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -271,3 +272,19 @@ def kind_of(key: str) -> Amount | Count | None:
         return number_of(input_field(key))
     except InputError:
         return None
+
+
+# Keys that are remembered as quantities or none: more than files have.
+_REMEMBERED = 4096
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def is_quantity(key: str) -> bool:
+    """Whether a dotted key is a number with a unit or without one, of which points may have different values.
+
+    Examples
+    --------
+    >>> is_quantity("bearing.radial_load"), is_quantity("bearing.elements"), is_quantity("bearing.kind")
+    (True, False, False)
+    """
+    return isinstance(kind_of(key), Amount)

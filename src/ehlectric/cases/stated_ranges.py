@@ -93,7 +93,7 @@ def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
 
 
 def _difference(key: str, text: str, value: float, part: str, quantity: Amount) -> float:
-    """What a value may be off either way, SI units."""
+    """Largest deviation from a value in both directions, which stands behind "+-", SI units."""
     takes = "a difference above 0 behind +-, with the unit of the value or in %"
     percent = _PERCENT.fullmatch(part)
     if quantity.unit == "K":

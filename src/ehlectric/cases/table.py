@@ -235,16 +235,9 @@ class Table(BaseModel, metaclass=_Listed):
 
     def with_values(self, values: Mapping[str, Any]) -> Self:
         """Copy with values of dotted keys in its tables, which are not checked."""
-        nested: dict[str, dict[str, Any]] = {}
-        changes: dict[str, Any] = {}
-        for key, value in values.items():
-            first, _, rest = key.partition(".")
-            if rest:
-                nested.setdefault(first, {})[rest] = value
-            else:
-                changes[first] = value
-        changes |= {name: getattr(self, name).with_values(inner) for name, inner in nested.items()}
-        return self.model_copy(update=changes)
+        own, within = by_table(values)
+        inner = {name: getattr(self, name).with_values(changes) for name, changes in within.items()}
+        return self.model_copy(update=own | inner)
 
     def single(self, index: int) -> Self:
         """Table of one of many points, with its numbers as floats, which are not checked."""
@@ -285,6 +278,25 @@ class CaseFile(Tabled, Table):
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:  # noqa: ARG002
         """Tables that hold a rotational speed, each with its key; none by default."""
         yield from ()
+
+
+def by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+    """Values of dotted keys: those of a table itself, and those of each table within it by its name.
+
+    Examples
+    --------
+    >>> by_table({"title": "A", "bearing.base": "6208"})
+    ({'title': 'A'}, {'bearing': {'base': '6208'}})
+    """
+    own: dict[str, Any] = {}
+    within: dict[str, dict[str, Any]] = {}
+    for key, value in values.items():
+        first, _, rest = key.partition(".")
+        if rest:
+            within.setdefault(first, {})[rest] = value
+        else:
+            own[first] = value
+    return own, within
 
 
 def _frozen(name: str) -> InputError:

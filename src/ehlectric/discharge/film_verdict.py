@@ -43,6 +43,11 @@ class Verdict:
     text: str
     margin: float | None = None
 
+    @property
+    def lead(self) -> str:
+        """First words of the answer, as "Breakdown likely"."""
+        return self.text.partition(":")[0]
+
     def __str__(self) -> str:
         return self.text
 
@@ -71,10 +76,10 @@ def level_of(low: float, high: float) -> Level:
     return "green" if low >= 1.0 else "red" if high < 1.0 else "yellow"
 
 
-def lead_of(level: Level, margin: float) -> str:
-    """First words of a verdict with this level and margin, dimensionless."""
+def lead_of(level: Level, *, likely: bool) -> str:
+    """First words of a verdict with this level; ``likely``, whether breakdown is likelier than none."""
     if level == "yellow":
-        return "Breakdown possible" if margin >= 1.0 else "Breakdown likely"
+        return "Breakdown likely" if likely else "Breakdown possible"
     return "No breakdown expected" if level == "green" else "Breakdown expected"
 
 
@@ -107,9 +112,7 @@ class Chance:
     @property
     def lead(self) -> str:
         """First words of a verdict by the probability."""
-        if self.level == "yellow":
-            return "Breakdown possible" if self.probability <= EVEN else "Breakdown likely"
-        return lead_of(self.level, self.median)
+        return lead_of(self.level, likely=self.probability > EVEN)
 
     @property
     def sentence(self) -> str:
@@ -259,8 +262,9 @@ def contact_verdict(
         doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
     bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
     last = f"{bound}{assumption_of(discharge)}."
+    lead = lead_of(level, likely=margin < 1.0)
     text = (
-        f"{lead_of(level, margin)}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
+        f"{lead}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
         f"(margin {ratio_text(margin)}{spread})."
     )
     return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin)

@@ -29,7 +29,7 @@ from ehlectric.bearing.speed_curves import (
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS
-from ehlectric.discharge.film_verdict import chance_text, lead_of, ratio_text
+from ehlectric.discharge.film_verdict import chance_text, ratio_text
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing_figures import (
     LEAST_VARIATION,
@@ -101,7 +101,7 @@ def circuit(result: BearingResult) -> str:
         return f"First breakdown at {first}: {found['first_break_at']}"
     verdict, margin, lead = result.verdict, found["margin"], "Margin"
     if verdict is not None and verdict.level != "grey":
-        lead = f"{lead_of(verdict.level, margin)}: margin"
+        lead = f"{verdict.lead}: margin"
     return f"{lead} {ratio_text(margin)} (first breakdown {first} / shaft voltage {volts(shaft)})"
 
 

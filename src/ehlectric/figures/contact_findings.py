@@ -11,7 +11,7 @@ from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.touching import about_share
 from ehlectric.discharge.film_breakdown import FieldUtilisation
-from ehlectric.discharge.film_verdict import lead_of, ratio_text
+from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.figures.figure_names import (
     BREAKDOWN_FIGURE,
     METER_FIGURE,
@@ -241,13 +241,12 @@ def breakdown_text(result: AnyContact) -> str:
         return f"Probability of breakdown {chance} at {applied}; 63 % at {breaking}"
     verdict = result.verdict
     assert verdict is not None
-    lead = "No verdict" if verdict.level == "grey" else lead_of(verdict.level, found.margin)
     strength = found.dielectric_strength
     assumed = "by the table assumed" if strength is None else f"{strength / 1e6:.3g} V/µm assumed"
     # The panels of a point contact say where they cut the film.
     where = f" at {place}" if isinstance(result, Result) else ""
     margin = f"margin {ratio_text(found.margin)}, strength {assumed}"
-    return f"{lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
+    return f"{verdict.lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
 
 
 def meter_text(result: AnyContact) -> str:

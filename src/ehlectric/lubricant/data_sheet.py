@@ -181,7 +181,7 @@ class Estimate:
         yield ResultWarning.of("estimated-alpha", alpha=alpha, base_oil=self.base_oil, percent=percent)
 
     def codes(self, max_pressure: Array) -> Iterator[tuple[int, str]]:
-        """The same for many points with Hertz pressures [Pa], shape (n,): their places and its code."""
+        """Places of many points with Hertz pressures [Pa], shape (n,), each with the code of the warning."""
         yield from ((place, "estimated-alpha") for place in range(max_pressure.size))
 
 

@@ -23,6 +23,9 @@ NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
     dict(zip(ENDS, ("drive end", "non-drive end"), strict=True))
 )
 
+# Results of bearings that are texts and may differ between the points of a sweep.
+TEXTS_OF_POINTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
+
 # Statistics of the discharges of a bearing, by the ends of their keys.
 STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}
 

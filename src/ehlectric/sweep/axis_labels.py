@@ -30,6 +30,11 @@ class Label:
         finite = np.abs(values[np.isfinite(values)])
         return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
 
+    def attributes(self, *, number: bool) -> dict[str, str]:
+        """CF attributes of a variable: its name and, if it is a ``number``, its unit."""
+        units = {"units": self.unit.replace("**", "^").replace("*", " ") or "1"} if number else {}
+        return {"long_name": self.name, **units}
+
     def axis(self, scale: Scale) -> str:
         """Label of an axis: name, symbol and the unit of ``scale``."""
         return " ".join(filter(None, [self.name, self.symbol, f"[{scale.unit}]" if scale.unit else ""]))

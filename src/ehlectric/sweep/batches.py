@@ -11,14 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
-from ehlectric.bearing.many_points import TOGETHER, SolvedPart, solved_parts
+from ehlectric.arrays import Array
+from ehlectric.bearing.many_points import TOGETHER, SolvedPart, single_tables, solved_parts
 from ehlectric.bearing.quick_contacts import is_quick
-from ehlectric.bearing.summary import SCHEMA, numbers_of
+from ehlectric.bearing.summary import SCHEMA
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.table import by_table
 from ehlectric.errors import CODES, CODES_OF_TEXTS, TEXTS
-from ehlectric.runtime.files import now, plain
+from ehlectric.runtime.files import now
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.worker_processes import Crew
 from ehlectric.sweep.engine import Outcome, Task, planned_point, solve_point
@@ -47,15 +48,8 @@ class Batch:
 
 def _with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Nested tables with values of dotted keys; tables that do not change are those that were given."""
-    changed = dict(table)
-    own: dict[str, dict[str, Any]] = {}
-    for key, value in values.items():
-        first, _, rest = key.partition(".")
-        if rest:
-            own.setdefault(first, {})[rest] = value
-        else:
-            changed[first] = value
-    return changed | {name: _with_values(table.get(name, {}), inner) for name, inner in own.items()}
+    own, within = by_table(values)
+    return {**table, **own, **{name: _with_values(table.get(name, {}), one) for name, one in within.items()}}
 
 
 def batches_of(
@@ -182,12 +176,11 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
     The text of a warning is the meaning of its code: that of a single bearing names numbers and contacts.
     """
     count, solution = part.points.size, part.solution
-    tables = {name: _rows(table, count) for name, table in numbers_of(solution).items()}
     codes: list[dict[str, str]] = [{} for _ in range(count)]
     for code, where in codes_of(solution):
         for place in np.flatnonzero(np.broadcast_to(where, count)).tolist():
             codes[place][code] = CODES[code].meaning
-    for place, point in enumerate(part.points.tolist()):
+    for place, (point, tables) in enumerate(zip(part.points.tolist(), single_tables(part), strict=True)):
         yield {
             "schema": SCHEMA,
             "version": solution.version,
@@ -196,22 +189,5 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
             TEXTS: list(codes[place].values()),
             CODES_OF_TEXTS: list(codes[place]),
             "inputs": batch.table_of(point),
-            **{name: rows[place] for name, rows in tables.items()},
+            **tables,
         }
-
-
-def _rows(table: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
-    """Table of a summary of each of so many points, from a table with arrays of shape (points,)."""
-    columns = [_column(value, count) for value in table.values()]
-    return [dict(zip(table, row, strict=True)) for row in zip(*columns, strict=True)]
-
-
-def _column(value: Numbers, count: int) -> list[Any]:
-    """Values of so many points as Python has them: None for NaN and an empty text."""
-    if not np.ndim(value):
-        return [plain(value)] * count
-    if value.dtype.kind == "f":
-        numbers = value.astype(object)
-        numbers[~np.isfinite(value)] = None
-        return list(numbers)
-    return [None if each == "" else each for each in value.tolist()]

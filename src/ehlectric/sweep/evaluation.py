@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import IntArray
-from ehlectric.bearing.many_points import TEXTS, Columns, columns_of
-from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.cases.amounts import Amount
+from ehlectric.bearing.many_points import Columns, columns_of, many_of
+from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.input_keys import kind_of
+from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.version import __version__
 
@@ -98,9 +98,7 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
     for end, bearing in zip(ENDS, case.bearings, strict=True):
         own = {key: _key_of_end(key, end) for key in given}
         inputs = {name: given[key] for key, name in own.items() if name is not None}
-        # A bearing without inputs of its own is the same at every point.
-        speed = {"bearing.inner_speed": np.full(number, bearing.bearing.inner_speed)}
-        columns, values = _columns(_quick(bearing), inputs or speed, number)
+        columns, values = _columns(_quick(bearing), inputs, number)
         found |= {key: values[name] for key, name in own.items() if name is not None}
         part = _dataset(bearing, columns, values).drop_vars(list(values))
         parts.append(part.rename_vars({name: f"{end}.{name}" for name in part.data_vars}))
@@ -132,9 +130,8 @@ def _quick(case: BearingCase) -> BearingCase:
     """Case whose contacts are not solved; an InputError where the bearing needs solved ones."""
     if not isinstance(case, BearingCase):
         raise InputError("case", got=type(case).__name__, takes="a BearingCase or a DriveCase")
-    quick, refused = quick_case(case)
-    if quick is None or refused is not None:
-        assert refused is not None
+    quick, refused = required_quick_case(case)
+    if refused is not None:
         raise refused
     return quick
 
@@ -145,10 +142,7 @@ def _columns(case: BearingCase, given: Mapping[str, Any], number: int) -> tuple[
     for points, names in _groups(given, number):
         own = case.replace(names) if names else case
         arrays = {key: _at(values, points) for key, values in given.items() if key not in names}
-        if not arrays:
-            # A case of many points has an array at least; its own speed is one.
-            arrays = {"bearing.inner_speed": np.full(points.size, own.bearing.inner_speed)}
-        many = own.with_arrays(arrays)
+        many = many_of(own, arrays, points.size)
         columns.take(points, columns_of(many))
         own_inputs = names | many.arrays()
         for key, column in found.items():
@@ -163,7 +157,7 @@ def _at(values: Any, points: IntArray) -> Any:
 
 def _groups(given: Mapping[str, Any], number: int) -> Iterator[tuple[IntArray, dict[str, Any]]]:
     """Points that share their names and whole numbers, with these by key."""
-    shared = [key for key in given if not isinstance(kind_of(key), Amount)]
+    shared = [key for key in given if not is_quantity(key)]
     groups: dict[tuple[Any, ...], list[int]] = {}
     for point in range(number):
         groups.setdefault(tuple(given[key][point] for key in shared), []).append(point)
@@ -177,10 +171,11 @@ def _dataset(case: BearingCase, columns: Columns, inputs: Mapping[str, Any]) -> 
 
     def entry(key: str, values: Any) -> tuple[str, Any, dict[str, str]]:
         label = label_of(key, case)
-        attributes = {"long_name": label.name}
-        if key not in TEXTS and values.dtype.kind == "f":
-            attributes["units"] = label.unit.replace("**", "^").replace("*", " ") or "1"
-        return "point", values, attributes
+        return (
+            "point",
+            values,
+            label.attributes(number=key not in TEXTS_OF_POINTS and values.dtype.kind == "f"),
+        )
 
     solved = columns.solved
     reasons = np.array([columns.reasons.get(k, "") for k in range(columns.size)], dtype=object)

@@ -9,10 +9,9 @@ from itertools import product
 from typing import Any
 
 from ehlectric.bearing.quick_contacts import is_quick
-from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import set_keys
-from ehlectric.cases.input_keys import kind_of
+from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.engine import Planned, case_key, hash_of, plan, planned_point, text_of
@@ -35,7 +34,7 @@ class PointGroup:
 
 def groups_of(sweep: Sweep, inputs: Iterable[Inputs]) -> list[PointGroup]:
     """Groups of points whose names, whole numbers and lists are equal, in the order of their first points."""
-    amounts = {key for key in sweep.vary if isinstance(kind_of(key), Amount)}
+    amounts = {key for key in sweep.vary if is_quantity(key)}
     groups: dict[tuple[str, ...], PointGroup] = {}
     for place, values in enumerate(inputs):
         # An input such as a clearance may be a number at one point and a name at another one.

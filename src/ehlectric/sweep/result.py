@@ -19,6 +19,7 @@ from ehlectric.cases.table import nearest
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
@@ -33,10 +34,6 @@ from ehlectric.version import __version__
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-
-# Keys of the summary whose values are texts that may differ between points.
-_TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
 
 
 def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
@@ -64,7 +61,7 @@ def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
 
 def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
     """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
-    return {key: results.columns[key] for key in _TEXTS if key in results.columns}
+    return {key: results.columns[key] for key in TEXTS_OF_POINTS if key in results.columns}
 
 
 def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
@@ -108,7 +105,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
     summaries = {
         key: (
             dimensions,
-            (_array(values) if key in _TEXTS else np.array(values, dtype=float)).reshape(shape),
+            (_array(values) if key in TEXTS_OF_POINTS else np.array(values, dtype=float)).reshape(shape),
             _attributes(key, results),
         )
         for key, values in columns.items()
@@ -149,18 +146,19 @@ def cell(value: Any) -> Any:
 
 def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
     """CF attributes of an input or result: its name and, if it is a number, its unit."""
-    label = label_of(key, results.case)
-    attributes = {"long_name": label.name}
-    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
-        return attributes
-    return attributes | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}
+    return label_of(key, results.case).attributes(number=not _has_texts(key, results))
+
+
+def _has_texts(key: str, results: SweepPoints) -> bool:
+    """Whether an input or result is a text."""
+    return key in TEXTS_OF_POINTS or (key in results.varied and kind_of(key) is None)
 
 
 def unit_of_column(results: SweepPoints, key: str) -> str | None:
     """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers."""
     if key in SWEEP_COLUMNS:
         return "s" if key == "seconds" else None
-    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
+    if _has_texts(key, results):
         return None
     return label_of(key, results.case).unit
 

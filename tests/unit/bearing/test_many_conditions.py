@@ -13,16 +13,9 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import InputError
+from tests.helpers.bearings import BALLS_IN_SI as BALLS
 
 STRENGTH = {"temperature": [293.15, 333.15, 393.15], "strength": [2e7, 1.6e7, 1e7]}
-BALLS = {
-    "base": "6208",
-    "radial_clearance": 1e-5,
-    "radial_load": 1000.0,
-    "inner_speed": 314.0,
-    "temperature": 343.15,
-    "composite_rq": 3e-8,
-}
 OIL = {"base": "iso-vg-46", "temperature": {"thermal_conductivity": 0.14}, "relative_permittivity": 2.2}
 FITS = {
     "unmounted_clearance": 3e-5,

@@ -124,7 +124,7 @@ def test_the_margin_over_temperature_warms_all_parts_together():
     changes = {change.key: change for change in usual_changes(case, case.to_dict())}
     warmth = changes["bearing.temperature"]
     for step, end in zip((-10.0, 10.0), warmth.ends, strict=True):
-        bearing = case.replace(warmth.changes(case, end)).bearing
+        bearing = case.replace(warmth.changes(end)).bearing
         found = *bearing.temperatures().values(), bearing.fits.housing_temperature
         assert found == pytest.approx([value + 273.15 + step for value in (70, 85, 50)], rel=1e-12)
     clearance = changes["bearing.fits.unmounted_clearance"]

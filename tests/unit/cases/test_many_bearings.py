@@ -5,16 +5,10 @@ import pytest
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
+from tests.helpers.bearings import BALLS_IN_SI
 
 TABLE = {
-    "bearing": {
-        "base": "6208",
-        "radial_clearance": 1e-5,
-        "radial_load": 1000.0,
-        "inner_speed": 314.0,
-        "temperature": 343.15,
-        "composite_rq": 3e-8,
-    },
+    "bearing": BALLS_IN_SI,
     "lubricant": {"base": "iso-vg-46", "relative_permittivity": 2.2},
     "discharge": {"dielectric_strength": 1e7},
     "motor": {

@@ -8,22 +8,12 @@ from ehlectric import BearingCase, DriveCase, InputError, evaluate, solve_bearin
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.changes import flattened
 from ehlectric.runtime.values import is_number
+from tests.helpers.bearings import OIL as SHEET_OIL
+from tests.helpers.bearings import OTHERS
 from tests.helpers.each import each
 
-MOTOR = {
-    "common_mode_voltage": "300 V",
-    "winding_rotor_capacitance": "20 pF",
-    "rotor_frame_capacitance": "1 nF",
-}
-OIL = {
-    "base": "paper",
-    "temperature": {
-        "kinematic_viscosity_40": "46 mm^2/s",
-        "kinematic_viscosity_100": "6.8 mm^2/s",
-        "density_15": "870 kg/m^3",
-        "thermal_conductivity": "0.14 W/m/K",
-    },
-}
+MOTOR = OTHERS["motor"]
+OIL = {**SHEET_OIL, "temperature": {**SHEET_OIL["temperature"], "thermal_conductivity": "0.14 W/m/K"}}
 KINDS = {
     "6208": {"radial_clearance": "10 um", "film_factor": "none"},
     "7208-c": {"axial_load": "1 kN", "film_factor": "inlet-shear"},

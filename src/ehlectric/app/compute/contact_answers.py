@@ -100,7 +100,7 @@ def verdict_by_formula(
         level = "yellow"
     last = " ".join([*doubts, "Upper bound: isothermal, fully flooded film."])
     return level, (
-        f"{lead_of(level, margin)}, by formula: the film breaks down at "
+        f"{lead_of(level, likely=margin < 1.0)}, by formula: the film breaks down at "
         f"{estimate['breakdown_voltage']:.3g} V, {voltage:.3g} V are applied: margin {ratio_text(margin)}. "
         "The formula may be up to 40 % off, and the "
         f"dielectric strength {estimate['dielectric_strength'] / 1e6:.3g} V/µm is an assumption; "

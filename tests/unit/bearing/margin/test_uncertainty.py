@@ -85,9 +85,7 @@ def test_the_strength_alone_has_an_even_distribution(usual):
     solution, margins = usual
     design = _Design.of(solution)
     narrow = {
-        change.key: [value * (1.0 - 1e-6), value * (1.0 + 1e-6)]
-        for change in design.computed
-        for value in [change.value(solution.case)]
+        change.key: [change.value * (1.0 - 1e-6), change.value * (1.0 + 1e-6)] for change in design.computed
     }
     low, high = 12e6, 30e6
     solution, margins = analysed(bearing(ranges=narrow | {STRENGTH: [low, high]}))
