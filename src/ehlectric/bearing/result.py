@@ -157,14 +157,22 @@ class BearingResult(Shown):
         """
         return analyse_margin(self.solution)
 
-    @cached_property
+    @property
     def uncertainty(self) -> Uncertainty | None:
         """Distribution of the margin over what is uncertain of the inputs and the films, with its probability
-        of breakdown; None where there is no margin.
+        of breakdown; None where there is no margin, or none at any other inputs, as ``summary`` then tells.
 
         It evaluates 2048 bearings with contacts from the atlas when it is first asked for: some two seconds.
         """
-        return uncertainty_of_result(self.solution)
+        return self._uncertainty_or_reason[0]
+
+    @cached_property
+    def _uncertainty_or_reason(self) -> tuple[Uncertainty | None, tuple[str, ...]]:
+        """Distribution of the margin, and what could not be computed of it, and why."""
+        try:
+            return uncertainty_of_result(self.solution), ()
+        except InputError as error:
+            return None, (f"probability of breakdown: {error}",)
 
     @cached_property
     def margin_band(self) -> MarginBand | None:
@@ -218,7 +226,10 @@ class BearingResult(Shown):
         for key, value in summary_of(self.solution).items():
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
-                summary["margin"] = plain({"level": verdict.level, **analysis.summary(), **speed})
+                found = analysis.summary()
+                if probable:
+                    found["left_out"] += self._uncertainty_or_reason[1]
+                summary["margin"] = plain({"level": verdict.level, **found, **speed})
                 summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
             summary[key] = value
             if key == "warning_codes":

@@ -276,13 +276,12 @@ def uncertainty_of(
 
 
 def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
-    """Distribution of the margin of a solved bearing; None where it has no margin, or at no other inputs."""
+    """Distribution of the margin of a solved bearing; None where it has no margin. Raises InputError where it
+    has none at any other inputs.
+    """
     if not solution.converged or first_margin(solution) is None:
         return None
-    try:
-        return uncertainty_of(solution, QuickMargins.of(solution))
-    except InputError:
-        return None
+    return uncertainty_of(solution, QuickMargins.of(solution))
 
 
 def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> Chance | None:

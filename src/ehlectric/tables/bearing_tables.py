@@ -343,7 +343,12 @@ def _shares(summary: Summary) -> Iterator[Row]:
 
 
 def _left_out_of_probability(summary: Summary) -> Iterator[Row]:
-    for text in (summary.get("uncertainty") or {}).get("left_out", ()):
+    """Rows of ranges and points that are not in the probability, and why."""
+    found = summary.get("uncertainty") or {}
+    texts = [*found.get("left_out", ())]
+    if found.get("failed"):
+        texts.append(f"{found['failed']} of {found['samples']} points, which have no result")
+    for text in texts:
         yield Row("not in the probability", note=text, key="uncertainty.left_out")
 
 

@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric import BearingCase
+from ehlectric import BearingCase, InputError, solve_bearing
+from ehlectric.bearing import result as bearing_result
 from ehlectric.bearing.margin import QuickMargins
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.uncertainty import (
@@ -19,6 +20,7 @@ from ehlectric.bearing.uncertainty import (
     sampling_error,
     uncertainty_of,
 )
+from ehlectric.tables.bearing_tables import total_rows
 
 STRENGTH, ROTOR = "discharge.dielectric_strength", "motor.winding_rotor_capacitance"
 
@@ -173,3 +175,26 @@ def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
         computed, _ = _computed(design, margins, at)
         below += np.mean(computed * np.exp(np.sum(design.log_factors(at), axis=-1)) < 1.0) / 20.0
     assert abs(found.probability - below) < found.probability_error
+
+
+def test_a_probability_that_is_not_computed_says_why(monkeypatch):
+    def refused(_):
+        raise InputError.worded(None, "no point has a result")
+
+    monkeypatch.setattr(bearing_result, "uncertainty_of_result", refused)
+    result = solve_bearing(bearing(), workers=1)
+    summary = result.summary()
+    assert result.uncertainty is None
+    assert summary["uncertainty"] is None
+    assert summary["margin"]["left_out"] == ["probability of breakdown: no point has a result"]
+    assert "probability" not in result.verdict.text
+
+
+def test_points_without_a_result_are_told_in_the_table():
+    """Above some temperature the viscosity is below the range of its equation."""
+    case = bearing(ranges={"bearing.temperature": ["60 degC", "230 degC"]})
+    summary = solve_bearing(case, workers=1).summary()
+    failed = summary["uncertainty"]["failed"]
+    assert 0 < failed < 2048
+    rows = [row for row in total_rows(summary) if row.key == "uncertainty.left_out"]
+    assert [row.note for row in rows] == [f"{failed} of 2048 points, which have no result"]
