@@ -54,9 +54,10 @@ def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
         scale_axis(ax.xaxis, f"{along.name} [{along.unit}]", values=np.round(x, 6), log=along.log)
         if along.window is not None:
             ax.set_xlim(*along.window)
-    scale_axis(
-        ax.yaxis, f"{panel.title} [{panel.unit}]" if panel.unit else panel.title, values=y, log=panel.log
-    )
+    # Ticks reach as far as shaded areas, too.
+    ends = [end for area in panel.areas if area.ends is not None for end in area.ends]
+    title = f"{panel.title} [{panel.unit}]" if panel.unit else panel.title
+    scale_axis(ax.yaxis, title, values=np.concatenate([y, *ends]), log=panel.log)
     if not panel.log:
         ax.set_ylim(panel.bottom, panel.top)
     for area in panel.areas:

@@ -338,6 +338,9 @@ def test_the_margin_over_the_speed_has_its_band_and_the_bearing_itself():
     # The axis ends at half of the least median.
     least = max(band.low.min(), 0.5 * band.median.min())
     assert (ends.min(), ends.max()) == pytest.approx((least, band.high.max()), rel=1e-6)
+    # Round numbers are at most a factor of 2.5 apart: ticks reach as far as the band.
+    assert max(ax.get_yticks()) > ends.max() / 2.5
+    assert min(ax.get_yticks()) < 2.5 * ends.min()
     finding = " ".join(title_of(figure(result, MARGIN)))
     assert "probability" in finding
     assert "90 of 100 cases" in finding
