@@ -195,7 +195,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     cycle = read_cycle(case.duty.file)
     quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
-    rows, found = _rows(quick, cycle)
+    rows, found = rows_of(quick, cycle)
     return DutyResult(
         rows=rows,
         stretches=tuple(_stretches(quick, rows)),
@@ -220,6 +220,11 @@ def _check_cycle(case: BearingCase, cycle: Cycle) -> None:
     if _VOLTAGE in cycle.values and case.motor is None:
         text = "has a common-mode voltage, and the bearing file has no [motor]"
         raise InputError(cycle.source, text, takes="[motor], with the capacitances of the motor")
+    check_rows(case, cycle)
+
+
+def check_rows(case: BearingCase, cycle: Cycle) -> None:
+    """Refuse a cycle with a speed without a load. Raises InputError with its line."""
     given = _given(case, cycle)
     idle = (given["radial_load"] == 0.0) & (given["axial_load"] == 0.0) & _moves(given["speed"])
     if np.any(idle):
@@ -246,8 +251,10 @@ def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
     return {name: cycle.values.get(name, np.full(cycle.time.size, own[name])) for name in _INPUTS}
 
 
-def _rows(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
-    """Rows of a cycle, and the values of those that are no standstill."""
+def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
+    """Rows of a cycle of a bearing with quick contacts, and the values of those that are no standstill, with
+    reasons by the places of the rows.
+    """
     given, time = _given(case, cycle), cycle.time
     moves = _moves(given["speed"])
     moving = {name: values[moves] for name, values in given.items()}
@@ -364,14 +371,19 @@ def _text(column: str, value: float) -> str:
     return f"{scale.of(value):.4g} {scale.unit}"
 
 
-def _warnings(
-    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None
-) -> Iterator[ResultWarning]:
-    """Warnings about the file of a cycle and about what is not computed of it."""
+def file_warnings(cycle: Cycle, case: BearingCase) -> Iterator[ResultWarning]:
+    """Warnings about columns of the file of a cycle that are not used."""
     if cycle.ignored:
         yield ResultWarning.of("columns-ignored", file=cycle.source, columns=", ".join(cycle.ignored))
     if "temperature" in cycle.values and viscosity_over_temperature(case.lubricant) is None:
         yield ResultWarning.of("temperature-unused", "duty", file=cycle.source)
+
+
+def _warnings(
+    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None
+) -> Iterator[ResultWarning]:
+    """Warnings about the file of a cycle and about what is not computed of it."""
+    yield from file_warnings(cycle, case)
     if refused is not None:
         yield ResultWarning.of("duty-without-margin", reason=refused)
     if found.reasons:

@@ -13,6 +13,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.changes import displace, flattened, set_keys
 from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
+from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title, read_toml
@@ -69,6 +70,8 @@ class DriveCase(CaseFile, book="drive_file"):
         Title of tables and figures.
     remedies : sequence of mapping, optional
         Changes that are computed beside the drive, each with its title.
+    duty : mapping, optional
+        Duty cycle over which discharges are expected.
     """
 
     if TYPE_CHECKING:
@@ -84,6 +87,7 @@ class DriveCase(CaseFile, book="drive_file"):
     # The bearing of the drive end is that of both, where only one is given.
     non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
     remedies: tuple[Remedy, ...] = ()
+    duty: Duty | None = None
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
@@ -165,16 +169,18 @@ class DriveCase(CaseFile, book="drive_file"):
 
 
 def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a drive file with the bearings of the files that it names, and the path of its waveform.
-    Raises InputError if a bearing file cannot be read or is not valid.
+    """Tables of a drive file with the bearings of the files that it names, and the paths of its waveform and
+    its duty cycle. Raises InputError if a bearing file cannot be read or is not valid.
     """
-    found, source = dict(table), table.get("source")
+    found = dict(table)
     for end in ENDS:
         if isinstance(found.get(end), Mapping) and "file" in found[end]:
             found[end] = _bearing_of(found[end], folder, end)
-    if isinstance(source, Mapping) and isinstance(source.get("file"), str):
-        # It then stays valid where the case is written to another folder.
-        found["source"] = {**source, "file": str((folder / source["file"]).absolute())}
+    for name in ("source", "duty"):
+        holder = found.get(name)
+        if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
+            # It then stays valid where the case is written to another folder.
+            found[name] = {**holder, "file": str((folder / holder["file"]).absolute())}
     return found
 
 

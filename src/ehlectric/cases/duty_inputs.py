@@ -1,4 +1,4 @@
-"""Table ``duty`` of a bearing file, and the duty cycle in the file that it names."""
+"""Table ``duty`` of a bearing or a drive file, and the duty cycle in the file that it names."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ehlectric.errors import InputError
 
 
 class Duty(Table, book="duty"):
-    """Duty cycle of a bearing: speed, loads, temperature and common-mode voltage over time."""
+    """Duty cycle of a bearing or a drive: speed, loads, temperature and common-mode voltage over time."""
 
     file: str
 

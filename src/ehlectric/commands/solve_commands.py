@@ -286,7 +286,8 @@ def drive(
     The files are summary.json, events.csv with the discharges, spectrum.csv with the amplitudes of the shaft
     voltage over the frequency, drive.nc for ehlectric plot, and figures of the bearing voltage, its spectrum,
     the discharges of each bearing with their voltage, charge, energy and current, and the same for each
-    remedy of the file.
+    remedy of the file. With the table [duty] in the file, duty.csv and a figure have the expected discharges
+    over the time of a duty cycle.
 
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.

@@ -13,6 +13,7 @@ import typer
 from ehlectric.commands.options import TEXTS, chosen, command
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.example_files import examples_folder
 
 _HERE = Path(__file__).parent
@@ -21,11 +22,8 @@ _HERE = Path(__file__).parent
 TEMPLATES: Mapping[str, str] = MappingProxyType(TEXTS["templates"])
 _GEOMETRIES = ("line", "point")
 
-# Measurements and duty cycles that belong to an example, by the name of its file.
-_MEASUREMENTS = {
-    "bearing_6208.toml": "measurements/bearing_6208_capacitance.csv",
-    "duty_wltc.toml": "measurements/wltc_class_3b_motor.csv",
-}
+# Measurements that belong to an example, by the name of its file.
+_MEASUREMENTS = {"bearing_6208.toml": "measurements/bearing_6208_capacitance.csv"}
 
 # Folder of the examples that holds the surfaces of rough contacts.
 _SURFACES = "surfaces"
@@ -174,6 +172,11 @@ def _needed(file: str) -> Iterator[str]:
         yield _MEASUREMENTS[file]
     if isinstance(table.get("case"), str):
         yield from _needed(table["case"])
+    if "duty" in table:
+        yield table["duty"]["file"]
+    for end in ENDS:
+        if "file" in table.get(end, ()):
+            yield from _needed(table[end]["file"])
     for surface in table.get("roughness", ()):
         if "file" in surface:
             yield surface["file"]

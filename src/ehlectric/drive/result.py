@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
@@ -20,6 +21,7 @@ from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
@@ -42,6 +44,8 @@ class DriveResult(Shown):
         Bearings and record.
     remedies : tuple of (str, dict, DriveSolution)
         Title, changes and solution of each remedy.
+    duty : DriveDuty, optional
+        Expected discharges over the duty cycle of the case.
     seconds : float
         Computing time [s].
     version : str
@@ -50,6 +54,7 @@ class DriveResult(Shown):
 
     solution: DriveSolution
     remedies: tuple[tuple[str, dict[str, Any], DriveSolution], ...] = ()
+    duty: DriveDuty | None = None
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
 
@@ -66,7 +71,8 @@ class DriveResult(Shown):
     @cached_property
     def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings that tell where the result is unreliable, each once."""
-        return tuple(drive_warnings(self.solution))
+        of_cycle = () if self.duty is None else self.duty.warnings
+        return (*drive_warnings(self.solution), *of_cycle)
 
     @cached_property
     def verdict(self) -> Verdict:
@@ -77,7 +83,12 @@ class DriveResult(Shown):
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
         remedies = [(title, changes, drive_summary(found)) for title, changes, found in self.remedies]
-        return whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
+        summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
+        if self.duty is not None:
+            summary["duty"] = plain(self.duty.summary())
+            for b, end in enumerate(ENDS):
+                summary[end] |= plain(self.duty.end_summary(b))
+        return summary
 
     def events(self) -> list[dict[str, Any]]:
         """Table of discharges in the order of time, SI units; the first 200 000 of them.
@@ -140,7 +151,7 @@ class DriveResult(Shown):
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of the result, as drive.nc holds it; SI units."""
-        return dataset_of(self.solution, self.remedies, self.seconds, self.version)
+        return dataset_of(self.solution, self.remedies, self.duty, self.seconds, self.version)
 
     def _headline(self) -> str:
         found = drive_summary(self.solution)
@@ -169,7 +180,8 @@ def solve_drive(
 ) -> DriveResult:
     """Solve a drive: its bearings, the voltage across their films over time, and their discharges.
 
-    The remedies of the case are solved beside it, with the same random numbers.
+    The remedies of the case are solved beside it, with the same random numbers. With a duty cycle, some of
+    its rows are simulated as well.
 
     Parameters
     ----------
@@ -188,8 +200,8 @@ def solve_drive(
     Raises
     ------
     InputError
-        Where a bearing cannot be solved, or lacks a value that discharges need; or where a remedy changes a
-        key that does not exist.
+        Where a bearing cannot be solved, or lacks a value that discharges need; where a remedy changes a
+        key that does not exist; or where the duty cycle cannot be used.
     """
     # Loads the compiler of the simulation, which stored results do not need.
     from ehlectric.drive.solver import solve
@@ -197,10 +209,13 @@ def solve_drive(
     start, report = time.perf_counter(), progress or silent
     # A mistake in a remedy is told before the drive itself takes its time.
     variants = case.variants()
-    parts = _parts(report, 1 + len(variants))
+    parts = _parts(report, 1 + len(variants) + (case.duty is not None))
     solution = solve(case, next(parts), workers=workers)
     remedies = tuple(
         (one.title, dict(one.changes), solve(variant, next(parts), workers=workers))
         for one, variant in zip(case.remedies, variants, strict=True)
     )
-    return replace(DriveResult(solution, remedies), seconds=time.perf_counter() - start)
+    duty = None
+    if case.duty is not None:
+        duty = run_drive_cycle(case, solution.highest_source, partial(solve, workers=workers), next(parts))
+    return replace(DriveResult(solution, remedies, duty), seconds=time.perf_counter() - start)

@@ -1,4 +1,4 @@
-"""Run of a drive and the files of its result: summary.json, events.csv, spectrum.csv and drive.nc."""
+"""Run of a drive and the files of its result: summary.json, drive.nc and tables as CSV."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.stored import SCHEMA, parts_of
+from ehlectric.drive.stored import SCHEMA, duty_of, parts_of
 from ehlectric.quantities.results import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
@@ -32,7 +32,8 @@ def run(
     workers: int | None = None,
     others: Sequence[str] = (),
 ) -> RunOutcome[DriveResult]:
-    """Solve a drive, and write summary.json, events.csv, spectrum.csv and drive.nc.
+    """Solve a drive, and write summary.json, events.csv, spectrum.csv and drive.nc, and with a duty cycle
+    duty.csv.
 
     Files of an earlier result in the folder are removed when the drive is solved, also the ``others``, such
     as figures. The outcome has a ``failure`` where a contact is not converged; its files are written all the
@@ -50,7 +51,7 @@ def run(
 
 
 def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
-    """Save the result of a drive: summary.json, events.csv, spectrum.csv and drive.nc, all or none.
+    """Save the result of a drive: summary.json, drive.nc and its tables as CSV, all files or none.
 
     Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
     folder cannot be used.
@@ -61,6 +62,7 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
         SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),
         SPECTRUM: csv_of(lines, result.spectrum().itertuples(index=False)),
+        **({} if result.duty is None else result.duty.contents()),
         NETCDF: content_of(result.to_xarray()),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
@@ -78,4 +80,4 @@ def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:
     check_format(dataset.attrs, SCHEMA, path, "the result of a drive")
     with refusing(path):
         solution, remedies, seconds, version = parts_of(dataset)
-        return DriveResult(solution, tuple(remedies), seconds, version)
+        return DriveResult(solution, tuple(remedies), duty_of(dataset), seconds, version)

@@ -13,6 +13,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.march import Films, Segments
 from ehlectric.drive.discharges.simulation import Measuring, films_of, simulate
 from ehlectric.drive.drive_bearings import BearingElement, bearing_element
+from ehlectric.drive.drive_cycle import check_drive_cycle
 from ehlectric.drive.drive_record import DriveSolution
 from ehlectric.drive.inverter import steps_of
 from ehlectric.drive.measured_source import measured_source
@@ -69,8 +70,10 @@ class PreparedDrive:
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     """Solve the bearings of a drive, and set up its circuit.
 
-    Raises InputError where a bearing cannot be solved, or lacks a value that discharges need.
+    Raises InputError where a bearing cannot be solved, or lacks a value that discharges need, and where the
+    file of a duty cycle cannot be used.
     """
+    check_drive_cycle(case)
     first, second = case.bearings
     drive_end = solve_bearing(first, workers=workers)
     results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)

@@ -293,7 +293,7 @@ def _duty(result: BearingResult) -> tuple[Draw, ...]:
 
     def draw(number: int, panel: Panel) -> Draw:
         def drawn(_: BearingResult, ax: Axes) -> Axes:
-            draw_panel(panel, ax, time_axis(duty))
+            draw_panel(panel, ax, time_axis(duty.rows))
             bands = [area for area in ax.collections if not str(area.get_label()).startswith("_")]
             if bands and not number:
                 legend_above(ax, bands, columns=3)

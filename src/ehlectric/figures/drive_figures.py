@@ -7,6 +7,7 @@ import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,8 @@ from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.duty_panels import drive_duty_panels
+from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
 from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, literal
 from ehlectric.figures.style import (
     drawing_of,
@@ -140,6 +143,32 @@ def remedies(result: DriveResult) -> str:
         return f"No discharge with {names}; {number_text(now)} a second as it is"
     left = "leaves" if len(best) == 1 else "leave"
     return f"{names} {left} {number_text(least)} of the {number_text(now)} discharges a second"
+
+
+def duty_cycle(result: DriveResult) -> str:
+    """Sentence: expected discharges of each bearing over the duty cycle, and their energy."""
+    assert result.duty is not None
+    sums = zip(NAMES, result.duty.discharges, result.duty.energy, strict=True)
+    texts = [f"{_count(count.value)} with {_energy(one.value)} ({name})" for name, count, one in sums]
+    return f"Expected discharges over the cycle: {' and '.join(texts)}"
+
+
+def _count(number: float) -> str:
+    """Large number in words.
+
+    >>> _count(41_200_000.0), _count(520.0)
+    ('41.2 million', '520')
+    """
+    return f"{1e-6 * number:.3g} million" if number >= 1e6 else number_text(number)
+
+
+def cycle_lines(result: DriveResult) -> list[str]:
+    """Lines: title of the case, file of the duty cycle and the number of simulated rows."""
+    duty = result.duty
+    assert duty is not None
+    title = textwrap.shorten(result.case.title, 70, placeholder=" ...")
+    text = f"{literal(Path(duty.source).name)}: {duty.points} rows simulated, the others interpolated"
+    return [*filter(None, [title]), text]
 
 
 def case_lines(result: DriveResult) -> list[str]:
@@ -452,9 +481,9 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     """Figures of a drive by the names of their files.
 
     Figures with nothing to show are left out: a spectrum without lines, distributions without discharges,
-    remedies where the file has none, and voltages over time where no time was recorded.
+    remedies and a duty cycle where the file has none, and voltages over time where no time was recorded.
     """
-    voltages_file, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
+    voltages_file, over_voltage, over_frequency, of_events, side_by_side, over_cycle = DRIVE_FIGURE_FILES
     found: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
         found[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
@@ -466,6 +495,8 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     if result.remedies:
         height = 1.7 + 0.5 * (1 + len(result.remedies))
         found[side_by_side] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
+    if result.duty is not None:
+        found[over_cycle] = _Drawing(DUTY_PANELS, 3, (6.3, 5.4), duty_cycle, legend_of_cycle, shared=True)
     return found
 
 
@@ -473,6 +504,8 @@ def figure(result: DriveResult, name: str) -> Figure:
     """Figure of a drive. Raises InputError where the drive has no figure of this name."""
     drawing = drawing_of(drive_figures_of(result), name)
     lines = [drawing.finding(result), *case_lines(result)]
+    if drawing.finding is duty_cycle:
+        lines[1:] = cycle_lines(result)
     if drawing.finding is discharges:
         lines.append(arc_line(result))
     with style():
@@ -569,7 +602,25 @@ def over_time(result: DriveResult, ax: Axes, *, number: int) -> None:
         line.set_clip_on(line.get_marker() == "None")
 
 
+def over_cycle_time(result: DriveResult, ax: Axes, *, number: int) -> None:
+    """Draw one of the quantities over the duty cycle."""
+    assert result.duty is not None
+    rows = result.duty.rows
+    draw_panel(list(drive_duty_panels(rows))[number], ax, time_axis_of_cycle(rows))
+
+
+def legend_of_cycle(axes: list[Axes]) -> None:
+    """Legend above the first panel: states of the films, and both bearings."""
+    found: dict[str, Artist] = {}
+    for ax in (axes[0], axes[-1]):
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            if not label.startswith("_") and label != "speed":
+                found.setdefault(label, handle)
+    legend_above(axes[0], list(found.values()), columns=3)
+
+
 # Panels of the figure, from top to bottom.
+DUTY_PANELS = tuple(partial(over_cycle_time, number=number) for number in range(3))
 VOLTAGE_PANELS = tuple(partial(over_time, number=number) for number in range(3))
 
 

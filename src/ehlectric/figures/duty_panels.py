@@ -1,4 +1,4 @@
-"""Panels of a bearing over a duty cycle: speed, lambda ratio, margin, and bands of the states of its film."""
+"""Panels over a duty cycle with bands of the states of the films: of a bearing, and of a drive."""
 
 from __future__ import annotations
 
@@ -12,11 +12,14 @@ from ehlectric.bearing.duty_cycle import (
     STANDSTILL,
     TOUCHING,
     DutyResult,
+    DutyRows,
     edges_of,
 )
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.drive.drive_cycle import DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE
+from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.units import RPM
 
 # Longest cycle whose time is in seconds; that of a longer one is in hours [s].
@@ -30,50 +33,81 @@ _BANDS = (
 )
 
 
-def time_axis(duty: DutyResult) -> Along:
+# Colours and dashes of both bearings of a drive.
+_ENDS, _DASHES = (BLUE, ORANGE), ("solid", "dash")
+
+
+def time_axis(rows: DutyRows | DriveDutyRows) -> Along:
     """Axis of the time of a duty cycle."""
-    factor, unit = _unit(duty)
-    time = factor * duty.rows.time
+    factor, unit = _unit(rows)
+    time = factor * rows.time
     return Along("time", unit, (float(time[0]), float(time[-1])))
 
 
 def duty_panels(duty: DutyResult) -> Iterator[Panel]:
     """Speed, lambda ratio and, where any row has one, margin over time."""
     rows = duty.rows
-    yield _panel(duty, "speed", "rpm", rows.speed / RPM, BLACK)
-    yield _panel(duty, "lambda ratio", "", rows.lambda_ratio, BLUE, (CONDUCTING, PARTIAL))
+    yield _panel(rows, "speed", "rpm", rows.speed / RPM)
+    yield _panel(rows, "lambda ratio", "", rows.lambda_ratio, limits=(CONDUCTING, PARTIAL), colours=(BLUE,))
     if rows.has_margin:
-        yield _panel(duty, "margin", "", rows.margin, BLACK, (1.0,))
+        yield _panel(rows, "margin", "", rows.margin, limits=(1.0,))
+
+
+def drive_duty_panels(rows: DriveDutyRows) -> Iterator[Panel]:
+    """Speed, and lambda ratios and discharges per second of both bearings over time; equal curves once."""
+    yield _panel(rows, "speed", "rpm", rows.speed / RPM)
+    same = np.array_equal(rows.lambda_ratio[:, 0], rows.lambda_ratio[:, 1], equal_nan=True)
+    ratios = rows.lambda_ratio[:, :1] if same else rows.lambda_ratio
+    limits = (CONDUCTING, PARTIAL)
+    yield _panel(rows, "lambda ratio", "", ratios, limits=limits, colours=(BLACK,) if same else _ENDS)
+    yield _panel(rows, "discharges", "1/s", rows.discharge_rate, colours=_ENDS)
 
 
 def _panel(
-    duty: DutyResult, title: str, unit: str, values: Array, colour: str, limits: tuple[float, ...] = ()
+    rows: DutyRows | DriveDutyRows,
+    title: str,
+    unit: str,
+    values: Array,
+    *,
+    limits: tuple[float, ...] = (),
+    colours: tuple[str, ...] = (BLACK,),
 ) -> Panel:
-    """Panel of a quantity over time, with dashed lines at limits."""
-    time = _unit(duty)[0] * duty.rows.time
+    """Panel of a quantity over time, shape (n,), or of both bearings, shape (n, 2), with dashed lines at
+    limits.
+    """
+    time = _unit(rows)[0] * rows.time
+    columns = values.reshape(time.size, -1).T
+    names = tuple(NAMES_OF_ENDS.values()) if len(columns) > 1 else (title,)
     ends = time[[0, -1]]
     lines = [Curve("", ends, np.full(2, limit), GREY, "dash", 0.8) for limit in limits]
     low, high = float(np.nanmin(values, initial=0.0)), float(np.nanmax(values, initial=1.0))
     return Panel(
         title,
         unit,
-        [*lines, Curve(title, time, values, colour, width=0.9)],
+        [
+            *lines,
+            *(
+                Curve(name, time, column, colour, dash, 0.9)
+                for name, column, colour, dash in zip(names, columns, colours, _DASHES, strict=False)
+            ),
+        ],
         1.08 * high,
         1.08 * low,
-        areas=tuple(_bands(duty)),
+        areas=tuple(_bands(rows)),
         log=bool(limits) and is_wide(values),
     )
 
 
-def _bands(duty: DutyResult) -> Iterator[Area]:
-    """Bands of the times in each state, between the edges of the rows."""
-    edges = np.repeat(_unit(duty)[0] * edges_of(duty.rows.time), 2)[1:-1]
+def _bands(rows: DutyRows | DriveDutyRows) -> Iterator[Area]:
+    """Bands of the times in each state, of the thinner film of two, between the edges of the rows."""
+    edges = np.repeat(_unit(rows)[0] * edges_of(rows.time), 2)[1:-1]
+    thinner = np.min(rows.state.reshape(rows.time.size, -1), axis=1)
     for state, name, colour, opacity in _BANDS:
-        within = np.repeat(duty.rows.state == state, 2)
+        within = np.repeat(thinner == state, 2)
         if np.any(within):
             yield Area(name, edges, within, colour, opacity)
 
 
-def _unit(duty: DutyResult) -> tuple[float, str]:
+def _unit(rows: DutyRows | DriveDutyRows) -> tuple[float, str]:
     """Factor from seconds to the unit of the time, and this unit."""
-    return (1.0, "s") if duty.rows.time[-1] - duty.rows.time[0] <= _LONGEST else (1.0 / 3600.0, "h")
+    return (1.0, "s") if rows.time[-1] - rows.time[0] <= _LONGEST else (1.0 / 3600.0, "h")

@@ -70,14 +70,17 @@ BEARING_FIGURE_FILES = (
 # Figures of bearings over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 
+DRIVE_DUTY_FIGURE = "drive_duty.png"
+
 # Figures of drives: voltages over a short time, how long which voltages last, the spectrum of the shaft
-# voltage, discharges, and remedies.
+# voltage, discharges, remedies, and a duty cycle.
 DRIVE_FIGURE_FILES = (
     "drive_voltages.png",
     "drive_histogram.png",
     "drive_spectrum.png",
     "drive_discharges.png",
     "drive_remedies.png",
+    DRIVE_DUTY_FIGURE,
 )
 
 # Figures of an oil.

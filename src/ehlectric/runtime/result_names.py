@@ -13,7 +13,7 @@ OF_CONTACTS = (SUMMARY, CONTACT_NETCDF, FILM)
 BEARING_NETCDF, CONTACTS, IMPEDANCE, DUTY = "bearing.nc", "contacts.csv", "impedance.csv", "duty.csv"
 OF_BEARINGS = (SUMMARY, CONTACTS, IMPEDANCE, DUTY, BEARING_NETCDF)
 DRIVE_NETCDF, EVENTS, SPECTRUM = "drive.nc", "events.csv", "spectrum.csv"
-OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DRIVE_NETCDF)
+OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DUTY, DRIVE_NETCDF)
 
 # Run with moving roughness, and the list of its changes that a kill in the middle of a write leaves.
 MOTION = "motion.nc"

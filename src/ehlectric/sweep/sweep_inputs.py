@@ -292,9 +292,10 @@ class Sweep(Tabled, Table):
     @field_validator("case")
     @classmethod
     def _alone(cls, case: SweptCase) -> SweptCase:
-        """Case without remedies, which a sweep does not solve: what they change may vary."""
-        remedied = isinstance(case, DriveCase) and case.remedies
-        return case.replace(remedies=()) if remedied else case
+        """Case without remedies and duty cycle, which a sweep does not solve: what they change may vary."""
+        if isinstance(case, DriveCase) and (case.remedies or case.duty is not None):
+            return case.model_copy(update={"remedies": (), "duty": None})
+        return case
 
     @field_validator("vary", mode="before")
     @classmethod

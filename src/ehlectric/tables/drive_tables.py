@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
-from ehlectric.quantities.formats import number_text
+from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
+from ehlectric.quantities.units import rpm_text, unit_for
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -70,7 +71,8 @@ def side_by_side(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, 
     found = [{row.key: row for row in end_rows(summary, end, sheet)} for end in ENDS]
     for section in _part(sheet, ends=True):
         pairs = [tuple(rows.get(key) for rows in found) for key in section.keys]
-        yield section.heading, [pair for pair in pairs if any(pair)]
+        if known := [pair for pair in pairs if any(pair)]:
+            yield section.heading, known
 
 
 def end_cells(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, list[tuple[str, ...]]]]:
@@ -132,6 +134,37 @@ def _range(summary: Summary) -> tuple[str, str]:
     return f"{low} to {high}" if end["events"] else f"at most {high}", "1/s"
 
 
+def _duty_range(name: str) -> Callable[[Summary], Any]:
+    """Interval of a sum over the duty cycle; None without one."""
+
+    def value(summary: Summary) -> Any:
+        end = summary["end"]
+        if f"duty_{name}" not in end:
+            return None
+        low, high = end[f"duty_{name}_low"], end[f"duty_{name}_high"]
+        unit = DRIVE_BOOK[f"end.duty_{name}"].unit
+        if high is None:
+            return "not known", ""
+        factor, shown = unit_for(high, unit, least=1.0) if unit and high else (1.0, unit)
+        texts = [number_text(factor * value) for value in (low, high)]
+        return f"{texts[0]} to {texts[1]}", shown
+
+    return value
+
+
+def _stretches(summary: Summary) -> Iterator[Row]:
+    """Rows of the worst stretches of a duty cycle, that with the most discharges first."""
+    about = DRIVE_BOOK[key := "duty.stretches.discharges"]
+    for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
+        yield Row(
+            f"{about.label}, {one['start']:.6g} to {one['end']:.6g} s",
+            one["discharges"],
+            note=f", {amount(one['energy'], 'J')}, mean {rpm_text(one['speed'])} rpm",
+            digits=about.digits,
+            key=key.replace("stretches.", f"stretches.{place}."),
+        )
+
+
 def _edges(summary: Summary) -> float | None:
     rate = summary["source"]["edges_per_second"]
     return None if rate is None else rate * summary["drive"]["duration"]
@@ -157,6 +190,7 @@ _LIMITS = [f"{limit:g}" for limit in LIMITS]
 
 
 _WORDS = Words(
+    rows={"duty.stretches": _stretches},
     notes={
         "source.peak": lambda s: ", measured waveform" if s["source"]["edges_per_second"] is None else "",
         "end.films": lambda s: f", films may be {percent(s['end']['films_error'])} off",
@@ -168,6 +202,9 @@ _WORDS = Words(
         "source.edges": _edges,
         "end.films": lambda s: HOW.get(s["end"].get("films")),
         "end.events_per_second_range": _range,
+        "end.duty_discharges_range": _duty_range("discharges"),
+        "end.duty_energy_range": _duty_range("energy"),
+        "duty.left_out_share": lambda s: (s.get("duty") or {}).get("left_out_share") or None,
         "end.contact_current": _contact_current,
         **{f"end.time_above.{name}": _time_above(name, before) for before, name in pairwise(_LIMITS)},
     },

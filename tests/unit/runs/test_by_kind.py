@@ -134,6 +134,7 @@ def test_kinds_of_the_examples():
         "bearing_regime_map": "sweep",
         "bearing_thin_oil": "bearing",
         "duty_wltc": "bearing",
+        "duty_drive": "drive",
         "drive": "drive",
         "drive_map": "sweep",
         "moving_roughness": "motion",

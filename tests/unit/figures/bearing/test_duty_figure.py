@@ -26,7 +26,7 @@ def test_panels(result):
     assert [panel.title for panel in (speed, ratio, margin)] == ["speed", "lambda ratio", "margin"]
     assert speed.curves[-1].y == pytest.approx([0.0, 0.0, 30.0, 6000.0, 6000.0])
     assert np.isnan(ratio.curves[-1].y[:2]).all()
-    assert time_axis(result.duty).window == (0.0, 40.0)
+    assert time_axis(result.duty.rows).window == (0.0, 40.0)
 
 
 def test_bands_end_halfway_between_rows(result):

@@ -1,0 +1,497 @@
+"""Duty cycle of a drive: expected discharges and their energy over time, from simulated points of operation.
+
+Some rows of the cycle are simulated, and the rates of discharges of all rows are interpolated between them.
+Each simulated row is also compared with the interpolation between those of other groups: the mean difference
+corrects the sums over the cycle, and its scatter is their error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import RBFInterpolator
+from scipy.spatial.distance import cdist
+from scipy.special import stdtrit
+
+from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.bearing.duty_cycle import (
+    FULL_FILM,
+    LEFT_OUT,
+    PARTIAL_FILM,
+    STANDSTILL,
+    STATES,
+    TOUCHING,
+    DutyRows,
+    check_rows,
+    edges_of,
+    file_warnings,
+    rows_of,
+)
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.duty_inputs import Cycle, read_cycle
+from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
+from ehlectric.drive.quick_drive import quick_drive
+from ehlectric.errors import InputError, ResultWarning, within
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.quantity import data_file
+from ehlectric.runtime.files import Content, column_head, csv_of
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.result_names import DUTY
+from ehlectric.runtime.stored import number, stored
+from ehlectric.runtime.values import Values
+
+# Rows that are simulated, and groups of them that are left out in turn.
+SIMULATED, _GROUPS = 48, 8
+
+# Least and longest time that a row is simulated [s]: whole periods of the fundamental in between.
+LEAST_TIME, MOST_TIME = 0.02, 0.5
+
+# Largest number of stretches that are listed, the worst first.
+_MOST_STRETCHES = 10
+
+# Change of temperature that counts as much as films thicker by a factor of e [K]: the oil conducts better.
+_WARMER = 25.0
+
+_VOLTAGE = "common_mode_voltage"
+
+# Inputs of a drive in whose place a column of the cycle stands.
+_KEYS = {
+    "speed": "drive.speed",
+    "temperature": "drive.temperature",
+    "radial_load": "bearings.bearing.radial_load",
+    "axial_load": "bearings.bearing.axial_load",
+}
+
+# SI unit and meaning of the columns of duty.csv.
+COLUMNS: Mapping[str, Mapping[str, str]] = data_file("ehlectric.quantities", "measured_columns.toml")[
+    "drive_duty_written"
+]
+
+_MAYBE = "not negative or NaN"
+_row = partial(stored, "duty_row")
+_pair = partial(stored, "duty_row bearing")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DriveDutyRows(Values):
+    """Rows of a duty cycle with both films and their discharges, SI units; NaN where a row has no value.
+
+    Numbers of both bearings have the shape (n, 2).
+    """
+
+    time: Array = field(metadata=_row("s", "increasing"))
+    duration: Array = field(metadata=_row("s", "positive"))  # time for which a row stands
+    speed: Array = field(metadata=_row("rad/s"))
+    temperature: Array = field(metadata=_row("K", "positive"))
+    common_mode_voltage: Array = field(metadata=_row("V", "not negative"))  # peak of the source
+    lambda_ratio: Array = field(metadata=_pair("", _MAYBE))
+    state: Array = field(metadata=_pair("", "whole"))  # number of the state in ``STATES``
+    # Expected number of discharges in a second [1/s], and their energy in a second [W].
+    discharge_rate: Array = field(metadata=_pair("1/s", _MAYBE))
+    discharge_power: Array = field(metadata=_pair("W", _MAYBE))
+
+    @property
+    def known(self) -> Mask:
+        """Rows with a rate of discharges, shape (n,)."""
+        return np.isfinite(self.discharge_rate[:, 0])
+
+    def share(self, within: Mask) -> float:
+        """Share of the time of some rows, from 0 to 1."""
+        return float(np.sum(self.duration[within]) / np.sum(self.duration))
+
+
+@dataclass(frozen=True)
+class Expected:
+    """Expected sum over the cycle at one bearing, with the interval of 95 %."""
+
+    value: float = field(metadata=number())
+    low: float = field(metadata=number())
+    high: float | None = field(metadata=number())  # None where nothing bounds it
+
+
+@dataclass(frozen=True)
+class DriveStretch:
+    """Stretch of a duty cycle in which both bearings together discharge more often than in the mean."""
+
+    start: float = field(metadata=number())  # [s]
+    end: float = field(metadata=number())  # [s]
+    discharges: float = field(metadata=number())  # expected number, both bearings
+    energy: float = field(metadata=number())  # of these discharges [J]
+    speed: float = field(metadata=number())  # mean over its time [rad/s]
+    lambda_ratio: float = field(metadata=number())  # least of both bearings
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DriveDuty(Values):
+    """Duty cycle of a drive: rows, and the expected discharges of each bearing over all of them.
+
+    Attributes
+    ----------
+    rows : DriveDutyRows
+        Inputs, films and discharges of each row.
+    discharges, energy : tuple of Expected
+        Expected number of discharges, and their energy [J], of each bearing.
+    stretches : tuple of DriveStretch
+        The worst stretches, at most ten, that with the most discharges first.
+    source : str
+        File of the duty cycle.
+    points : int
+        Number of simulated rows.
+    simulated : float
+        Time that was simulated at all of them together [s].
+    warnings : tuple of ResultWarning
+        Warnings about the file and about rows that are not computed.
+    """
+
+    rows: DriveDutyRows
+    discharges: tuple[Expected, Expected]
+    energy: tuple[Expected, Expected]
+    stretches: tuple[DriveStretch, ...]
+    source: str = field(metadata=number("text"))
+    points: int = field(metadata=number("whole"))
+    simulated: float = field(metadata=number())
+    warnings: tuple[ResultWarning, ...] = ()
+
+    def summary(self) -> dict[str, Any]:
+        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
+        rows = self.rows
+        return {
+            "source": self.source,
+            "rows": rows.time.size,
+            "duration": float(np.sum(rows.duration)),
+            "points": self.points,
+            "simulated": self.simulated,
+            "standstill_share": rows.share(rows.state[:, 0] == STANDSTILL),
+            "left_out_share": rows.share(~rows.known),
+            "discharges": sum(one.value for one in self.discharges),
+            "energy": sum(one.value for one in self.energy),
+            "stretches": [asdict(one) for one in self.stretches],
+        }
+
+    def end_summary(self, b: int) -> dict[str, Any]:
+        """Values of the bearing at one end, as in its table of summary.json, SI units."""
+        rows, state = self.rows, self.rows.state[:, b]
+        shares = {"touching": TOUCHING, "partial_film": PARTIAL_FILM, "full_film": FULL_FILM}
+        sums = {"discharges": self.discharges[b], "energy": self.energy[b]}
+        found: dict[str, Any] = {
+            f"duty_{name}_share": rows.share(state == place) for name, place in shares.items()
+        }
+        for name, one in sums.items():
+            found |= {f"duty_{name}": one.value, f"duty_{name}_low": one.low, f"duty_{name}_high": one.high}
+        return found
+
+    def contents(self) -> dict[str, Content]:
+        """Content of duty.csv by its name."""
+        columns: dict[str, list[Any]] = {}
+        for each in fields(self.rows):
+            values = getattr(self.rows, each.name)
+            if each.name == "state":
+                values = np.array(STATES, dtype=object)[values.astype(int)]
+            pairs = [(each.name, values)]
+            if values.ndim == 2:
+                pairs = [(f"{end}.{each.name}", values[:, b]) for b, end in enumerate(ENDS)]
+            for name, column in pairs:
+                unit = COLUMNS[each.name].get("unit", "")
+                head = column_head(name, unit.removeprefix("-")) if unit else name
+                columns[head] = ["" if value != value else value for value in column.tolist()]
+        return {DUTY: csv_of(list(columns), zip(*columns.values(), strict=True))}
+
+
+@dataclass(frozen=True, eq=False)
+class _Ready:
+    """Drive with quick contacts, its cycle, and both films at all rows."""
+
+    case: DriveCase
+    cycle: Cycle
+    peak: float  # largest voltage of the source of the case [V]
+    given: Mapping[str, Array]  # inputs of the rows by the names of their columns, SI units, shape (n,)
+    ends: tuple[DutyRows, DutyRows]
+    reasons: Mapping[int, str]  # why a row has no film, by its place
+
+    @property
+    def computed(self) -> Mask:
+        """Rows at a standstill or with the films of both bearings, shape (n,)."""
+        known: Mask = np.all([one.state != LEFT_OUT for one in self.ends], axis=0)
+        return known
+
+    @property
+    def runs(self) -> Mask:
+        """Rows whose shaft turns, with a voltage and with films that are computed, shape (n,)."""
+        turns: Mask = self.ends[0].state != STANDSTILL
+        return self.computed & turns & (self.given[_VOLTAGE] > 0.0)
+
+
+def check_drive_cycle(case: DriveCase) -> None:
+    """Refuse the duty cycle of a drive file that cannot be used, without its computation."""
+    if case.duty is not None:
+        _check(case, read_cycle(case.duty.file))
+
+
+def run_drive_cycle(
+    case: DriveCase,
+    peak: float,
+    solve: Callable[[DriveCase], DriveSolution],
+    progress: Progress = silent,
+) -> DriveDuty | None:
+    """Result of the duty cycle of a drive file; None without one.
+
+    Contacts are from the atlas, or by formula. Each row is a stationary point of operation. A row at a
+    standstill, or without a voltage, has no discharges. ``peak`` is the largest voltage of the source [V],
+    and ``solve`` simulates a drive. Raises InputError where the file of the cycle cannot be used, a bearing
+    needs solved contacts, or no row can be simulated.
+    """
+    if case.duty is None:
+        return None
+    ready = _ready(case, read_cycle(case.duty.file), peak)
+    found = _simulated(ready, solve, progress)
+    rows = _rows(ready, found.rates)
+    return DriveDuty(
+        rows=rows,
+        discharges=(found.sums[0], found.sums[1]),
+        energy=(found.sums[2], found.sums[3]),
+        stretches=tuple(_stretches(rows)),
+        source=ready.cycle.source,
+        points=found.simulation.done,
+        simulated=found.simulation.time,
+        warnings=tuple(_warnings(ready, found)),
+    )
+
+
+def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
+    """Drive with quick contacts at the rows of a cycle."""
+    _check(case, cycle)
+    quick, refused = quick_drive(case.model_copy(update={"remedies": (), "duty": None}))
+    if quick is None:
+        raise InputError.worded("duty", f"needs bearings with contacts from the atlas, not as {refused} asks")
+    drive_end, non_drive_end = quick.bearings
+    first, found = rows_of(drive_end, _of_bearing(cycle))
+    second, other = first, found
+    if non_drive_end != drive_end:
+        second, other = rows_of(non_drive_end, _of_bearing(cycle))
+    reasons = {**other.reasons, **found.reasons}
+    own = np.full(cycle.time.size, peak)
+    given = {name: getattr(first, name) for name in _KEYS} | {_VOLTAGE: cycle.values.get(_VOLTAGE, own)}
+    return _Ready(quick, cycle, peak, given, (first, second), reasons)
+
+
+def _check(case: DriveCase, cycle: Cycle) -> None:
+    """Refuse a cycle that does not fit the bearings of its drive."""
+    for end, bearing in zip(ENDS, case.bearings, strict=True):
+        with within(end):
+            check_rows(bearing, _of_bearing(cycle))
+
+
+def _of_bearing(cycle: Cycle) -> Cycle:
+    """Cycle of a bearing, without the voltage, which is that of the source of the drive."""
+    return replace(cycle, values={key: one for key, one in cycle.values.items() if key != _VOLTAGE})
+
+
+def _simulated(ready: _Ready, solve: Callable[[DriveCase], DriveSolution], progress: Progress) -> _Found:
+    """Rates of discharges at all rows, and their sums over the cycle."""
+    places, duration = np.flatnonzero(ready.runs), ready.ends[0].duration
+    rates = np.where(ready.computed[:, np.newaxis], np.zeros(4), np.nan)
+    simulation = _Simulation(ready, solve, progress)
+    if not places.size:
+        return _Found(rates, [Expected(0.0, 0.0, 0.0)] * 4, simulation)
+    at, drawn = _features(ready)[places], _drawn(duration[places], ready.case.drive.seed)
+    found = simulation.at(places[drawn])
+    rates[places] = _between(at[drawn], found, at)
+    known = np.isfinite(rates[places, 0])
+    if not np.any(known):
+        raise InputError.worded("duty", f"no row can be simulated: {next(iter(simulation.reasons.values()))}")
+    usable = known[drawn] & np.isfinite(found[:, 0])
+    weights = duration[places[known]]
+    means, off = _compared(at[known], weights / np.sum(weights), at[drawn[usable]], found[usable])
+    return _Found(rates, _sums(means, off, float(np.sum(weights)), simulation), simulation)
+
+
+def _drawn(duration: Array, seed: int) -> IntArray:
+    """Places of rows at equal steps of time from a random begin, so that each has a chance by its duration
+    [s].
+    """
+    part = (np.arange(SIMULATED) + np.random.default_rng(seed).random()) / SIMULATED
+    ends = np.cumsum(duration)
+    places: IntArray = np.minimum(np.searchsorted(ends, part * ends[-1]), duration.size - 1)
+    return places
+
+
+def _compared(at: Array, weights: Array, nodes: Array, values: Array) -> tuple[Array, Array]:
+    """Mean over all rows of values interpolated without one group of nodes, mean of all groups, shape (4,);
+    and differences of each node from the interpolation without its group, shape (m, 4).
+    """
+    group = np.arange(len(nodes)) % min(_GROUPS, len(nodes))
+    means, off = [], np.empty_like(values)
+    for one in range(min(_GROUPS, len(nodes))):
+        others, own = group != one, group == one
+        if not np.any(others):
+            others = own
+        found = _between(nodes[others], values[others], np.concatenate([at, nodes[own]]))
+        means.append(weights @ found[: len(at)])
+        off[own] = values[own] - found[len(at) :]
+    return np.mean(means, axis=0), off
+
+
+@dataclass
+class _Simulation:
+    """Simulations of rows, each with its own random numbers."""
+
+    ready: _Ready
+    solve: Callable[[DriveCase], DriveSolution]
+    progress: Progress
+    done: int = 0  # number of simulated rows
+    reasons: dict[int, str] = field(default_factory=dict)  # why a row has no result, by its place
+    time: float = 0.0  # simulated time [s]
+    counts: Array = field(default_factory=lambda: np.zeros(2))  # discharges of each bearing
+
+    def at(self, places: IntArray) -> Array:
+        """Discharges per second of both bearings, and their powers [W], at rows; NaN where one has none,
+        shape (rows, 4).
+        """
+        found = np.full((places.size, 4), np.nan)
+        for k, place in enumerate(places.tolist()):
+            self.progress(round(100.0 * k / places.size), 100, "simulating the duty cycle")
+            try:
+                record = self.solve(_at_row(self.ready, place, self.ready.case.drive.seed + k)).record
+            except InputError as error:
+                self.reasons[place] = str(error)
+                continue
+            counts = np.sum(record.counts, axis=1)
+            self.done, self.time, self.counts = (
+                self.done + 1,
+                self.time + record.duration,
+                self.counts + counts,
+            )
+            found[k] = np.concatenate([counts, record.sums[:, ENERGY]]) / record.duration
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Rates of discharges of both bearings and their powers at all rows, and what is behind them."""
+
+    rates: Array  # [1/s] and [W], shape (n, 4)
+    sums: list[Expected]  # discharges of both bearings, and their energies [J]
+    simulation: _Simulation
+
+
+def _at_row(ready: _Ready, place: int, seed: int) -> DriveCase:
+    """Drive at a row of its cycle, with a time of whole periods of the fundamental."""
+    given = {name: float(values[place]) for name, values in ready.given.items()}
+    changes: dict[str, Any] = {
+        key: given[name] for name, key in _KEYS.items() if name in ready.cycle.values and name != "speed"
+    }
+    changes |= {"drive.seed": seed, "drive.speed": abs(given["speed"])}
+    factor, source = given[_VOLTAGE] / ready.peak, ready.case.source
+    if factor != 1.0:
+        key = "scale" if source.measured else "dc_link"
+        changes[f"source.{key}"] = factor * getattr(source, key)
+    case = ready.case.replace(changes)
+    frequency = case.running_source.fundamental_frequency
+    if frequency is None:
+        return case
+    return case.replace({"drive.duration": min(math.ceil(LEAST_TIME * frequency) / frequency, MOST_TIME)})
+
+
+def _features(ready: _Ready) -> Array:
+    """Places of all rows, between which the rates of discharges are interpolated, shape (n, 7).
+
+    These are logarithms of the lambda ratio, to which breakdown voltages are about proportional, and of the
+    capacitance of both bearings, of the voltage of the source, and of the root of the speed; and the
+    temperature, with which the oil conducts.
+    """
+    films = [np.log(getattr(one, name)) for one in ready.ends for name in ("lambda_ratio", "capacitance")]
+    given = {name: np.where(ready.runs, one, 1.0) for name, one in ready.given.items()}
+    others = [np.log(given[_VOLTAGE]), 0.5 * np.log(np.abs(given["speed"])), given["temperature"] / _WARMER]
+    return np.column_stack([*(math.sqrt(0.5) * one for one in films), *others])
+
+
+def _between(nodes: Array, values: Array, at: Array) -> Array:
+    """Values at rows between nodes, within those of the nodes; NaN where the nearest node has none."""
+    places, own = np.unique(nodes, axis=0, return_inverse=True)
+    sums = np.zeros((len(places), 4))
+    np.add.at(sums, own.reshape(-1), values)
+    means = sums / np.bincount(own.reshape(-1))[:, np.newaxis]
+    known = np.isfinite(means[:, 0])
+    if np.count_nonzero(known) > 1:
+        found = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
+        found = np.clip(found, np.min(means[known], axis=0), np.max(means[known], axis=0))
+    else:
+        found = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), 4))
+    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], found, np.nan)
+
+
+def _sums(means: Array, off: Array, time: float, simulation: _Simulation) -> list[Expected]:
+    """Sums over a time [s] from means of interpolated values, and differences of simulated values from
+    interpolated ones, shape (m, 4): discharges of both bearings, and their energies.
+
+    Where none was seen, that of a Poisson process bounds their number, and nothing their energy.
+    """
+    count = len(off)
+    mean = means + np.mean(off, axis=0)
+    half = np.full(4, np.inf)
+    if count > 1:
+        student = float(stdtrit(count - 1, 0.5 * (1.0 + CONFIDENCE)))
+        half = student * np.std(off, axis=0, ddof=1) / math.sqrt(count)
+    most = mean + half
+    seen = np.tile(simulation.counts > 0.0, 2)
+    unseen = event_rate(np.zeros(1), simulation.time).high
+    most = np.where(seen, most, [unseen, unseen, np.inf, np.inf])
+    return [
+        Expected(time * max(value, 0.0), time * max(value - error, 0.0), time * top if top < np.inf else None)
+        for value, error, top in zip(mean.tolist(), half.tolist(), most.tolist(), strict=True)
+    ]
+
+
+def _rows(ready: _Ready, rates: Array) -> DriveDutyRows:
+    """Rows of the cycle with both films and their rates."""
+    first, given = ready.ends[0], ready.given
+    return DriveDutyRows(
+        time=first.time,
+        duration=first.duration,
+        speed=given["speed"],
+        temperature=given["temperature"],
+        common_mode_voltage=given[_VOLTAGE],
+        lambda_ratio=np.column_stack([one.lambda_ratio for one in ready.ends]),
+        state=np.column_stack([one.state for one in ready.ends]),
+        discharge_rate=rates[:, :2],
+        discharge_power=rates[:, 2:],
+    )
+
+
+def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
+    """Worst stretches of a cycle, in which both bearings discharge more often than in its mean."""
+    rate = np.nan_to_num(np.sum(rows.discharge_rate, axis=1))
+    power = np.nan_to_num(np.sum(rows.discharge_power, axis=1))
+    often = rate > np.average(rate, weights=rows.duration)
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], often, [0]]))).reshape(-1, 2)
+    edges = edges_of(rows.time)
+    found = []
+    for first, after in ends.tolist():
+        part, time = slice(first, after), rows.duration[first:after]
+        found.append(
+            DriveStretch(
+                start=float(edges[first]),
+                end=float(edges[after]),
+                discharges=float(rate[part] @ time),
+                energy=float(power[part] @ time),
+                speed=float(np.average(rows.speed[part], weights=time)),
+                lambda_ratio=float(np.min(rows.lambda_ratio[part])),
+            )
+        )
+    yield from sorted(found, key=lambda one: -one.discharges)[:_MOST_STRETCHES]
+
+
+def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:
+    """Warnings about the file of a cycle and about what is not computed of it."""
+    yield from file_warnings(ready.cycle, ready.case.bearings[0])
+    left_out = np.flatnonzero(~np.isfinite(found.rates[:, 0]))
+    if left_out.size:
+        reasons = {**ready.reasons, **found.simulation.reasons}
+        place, reason = next(iter(reasons.items()))
+        line = ready.cycle.lines[place]
+        yield ResultWarning.of("duty-left-out", rows=left_out.size, line=line, reason=reason)
