@@ -24,7 +24,7 @@ def duty_figure(duty: DutyResult) -> Plot:
         # The axis of a curve names it.
         trace["showlegend"] = trace["showlegend"] and "fill" in trace
     # Speeds are written in full, without a k for a thousand.
-    made["layout"]["yaxis"]["exponentformat"] = "none"
+    made["layout"]["yaxis"]["tickformat"] = "~f"
     return made
 
 

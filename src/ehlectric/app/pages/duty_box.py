@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from typing import Any
 
 from nicegui import ui
@@ -26,10 +27,9 @@ _COLUMNS = (
     "load [N], temperature [degC] and common-mode voltage [V]. What has no column is as above."
 )
 
-_COMPUTING, _TO_RESULT = (
-    "The cycle is being computed.",
-    ("() => document.querySelector('[data-testid=duty]')?.scrollIntoView({ block: 'start' })"),
-)
+_COMPUTING = "The cycle is being computed."
+
+_TO_RESULT = "document.querySelector('[data-testid=duty]')?.scrollIntoView({ block: 'start' })"
 
 
 class DutyField:
@@ -38,20 +38,21 @@ class DutyField:
     def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
         self._session, self._change = session, change
         self._found: dict[str, str] = {}  # sentences about files that were looked at
-        given = self.file is not None
+        title, given = "Duty cycle", self.file is not None
         with (
             ui.element("div").classes("form").props('role="form" aria-label="Duty cycle"'),
-            GroupBox("Duty cycle", title="Duty cycle", note=_COLUMNS, opened=given),
+            GroupBox(title, title=title, note=_COLUMNS, opened=given, first=True) as self._group,
             ui.element("div").classes("box"),
         ):
             UploadField(session, self._take, self.refuse, name="duty", label=_LABEL)
             self._error = ui.label().classes("error").props('role="alert" id="duty-error"')
             self._error.props('data-testid="error-duty"')
             self._used = ui.label().classes("hint").props('data-testid="duty-used" aria-live="polite"')
-            with ui.element("div").classes("buttons") as self._buttons:
-                button("Go to its result", "to-duty", lambda: ui.run_javascript(f"({_TO_RESULT})()"))
-                button("Remove the cycle", "duty-remove", self._removed)
-            button("Use the example, the WLTC of a car", "duty-example", self._example)
+            with ui.element("div").classes("buttons"):
+                leads = button("Go to its result", "to-duty", lambda: ui.run_javascript(_TO_RESULT))
+                removes = button("Remove the cycle", "duty-remove", self._removed)
+                button("Use the example, the WLTC of a car", "duty-example", self._example)
+            self._of_cycle = (leads, removes)
         self.refresh()
 
     @property
@@ -69,7 +70,8 @@ class DutyField:
         """Show the file of the present inputs, as after an undo."""
         file = self.file
         say(self._error, "")
-        self._buttons.set_visibility(file is not None)
+        for one in self._of_cycle:
+            one.set_visibility(file is not None)
         if file is None:
             say(self._used, "")
             return
@@ -81,7 +83,11 @@ class DutyField:
 
     def refuse(self, error: Exception | str) -> None:
         """Show why there is no cycle; files have the names that their user knows."""
-        say(self._error, self.named(str(error)))
+        self._tell(self.named(str(error)))
+
+    def _tell(self, text: str) -> None:
+        say(self._error, text)
+        self._group.turn(opened=True)
 
     def named(self, text: str) -> str:
         """Text in which the path of the file is the name that its user knows."""
@@ -109,7 +115,7 @@ class DutyField:
             self._found[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
         except (InputError, LostError) as error:
             path = self._path(name) or name
-            say(self._error, str(error).replace(path, self._session.name_of(name)))
+            self._tell(str(error).replace(path, self._session.name_of(name)))
             return
         await self._change({DUTY_FILE: name})
 
@@ -143,7 +149,8 @@ class DutyView:
         self._lines.content = lines_html(
             answer.lines, "Numbers of the duty cycle, as the command prints them"
         )
-        self._warnings.content = name("".join(map(told, answer.warnings)))
+        named = (replace(one, text=name(one.text)) for one in answer.warnings)
+        self._warnings.content = "".join(map(told, named))
         self.figure.show(answer.figure)
         stretches = answer.stretches
         self._stretches.content = "" if stretches is None else table_html(stretches)

@@ -51,6 +51,7 @@ class UploadField:
             return
         else:
             await self._take(name)
+        self._state.text = ""
 
     def _sent(self, event: Any) -> None:
         """Show that the browser sends a file, or why it does not."""
@@ -61,4 +62,5 @@ class UploadField:
         elif status == 0:
             self._state.text = f"Reading {name}"
         else:
+            self._state.text = ""
             self._refuse(f"{name}: could not be sent to the server; try again")
