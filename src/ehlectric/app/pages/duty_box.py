@@ -38,6 +38,7 @@ class DutyField:
     def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
         self._session, self._change = session, change
         self._found: dict[str, str] = {}  # sentences about files that were looked at
+        self._last: str | None = None  # file that was shown last
         title, given = "Duty cycle", self.file is not None
         with (
             ui.element("div").classes("form").props('role="form" aria-label="Duty cycle"'),
@@ -69,6 +70,9 @@ class DutyField:
     def refresh(self) -> None:
         """Show the file of the present inputs, as after an undo."""
         file = self.file
+        if file is not None and self._last is None:
+            self._group.turn(opened=True)
+        self._last = file
         say(self._error, "")
         for one in self._of_cycle:
             one.set_visibility(file is not None)
