@@ -553,6 +553,16 @@ class PageAnswer:
         return next((one for one in self.shown if one.key == key), None)
 
 
+@dataclass(frozen=True)
+class DutyAnswer:
+    """Answer about a duty cycle."""
+
+    lines: tuple[Line, ...]  # rows that the command prints, without the stretches
+    stretches: Table | None  # the worst stretches; None without any
+    figure: Figure  # speed, lambda ratio and margin over the time
+    warnings: tuple[PageWarning, ...]
+
+
 @dataclass(frozen=True, kw_only=True)
 class BearingAnswer(PageAnswer):
     """Answer about a bearing, in SI units."""
@@ -571,6 +581,8 @@ class BearingAnswer(PageAnswer):
     differences: tuple[Difference, ...] = ()
     # Margins if one input changes; None unless ``over_speed``, and without a margin.
     effects: Table | None = None
+    # Duty cycle of a solved bearing; None without one, and of a quick answer, which its page asks for later.
+    duty: DutyAnswer | None = None
 
 
 @dataclass(frozen=True)

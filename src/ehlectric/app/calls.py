@@ -12,6 +12,7 @@ from ehlectric.app.answers import (
     ContactCheck,
     ContactView,
     DriveAnswer,
+    DutyAnswer,
     MotionAnswer,
     Shown,
     Side,
@@ -56,6 +57,10 @@ BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
 BEARING_OVER_SPEED: Call[BearingAnswer] = Call("bearing_answers.answer_over_speed")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
+
+# A duty cycle: what its file has, and its result.
+DUTY_LOOK: Call[str] = Call("duty_answers.look")
+BEARING_DUTY: Call[DutyAnswer] = Call("bearing_answers.duty_answer")
 
 # A drive.
 DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")

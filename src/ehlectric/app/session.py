@@ -146,13 +146,7 @@ class Session:
         Raises InputError if it is too large or cannot be stored, and LostError if the session has ended.
         """
         size, given, folder = file.size(), shown_name(file.name), self.folder
-        kept = sum(
-            max(path.stat().st_size, self._coming.get(f"{SURFACES}/{path.name}", 0))
-            for path in folder.glob(f"{SURFACES}/*")
-        )
-        if size > LARGEST or kept + size > MOST_TOGETHER:
-            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
-            raise InputError.worded(None, f"{given}: has {size / 1e6:.4g} MB; expected {limits}")
+        self._refuse_too_much(given, size)
         name = new_file(file.name, folder)
         self._coming[name] = size
         try:
@@ -167,6 +161,27 @@ class Session:
             raise LostError("the page was closed")
         self._names[name] = given
         return name
+
+    def add(self, given: str, content: bytes) -> str:
+        """Store a file of the program as if it had been uploaded, and return its name relative to the folder.
+
+        Raises InputError if the session has no room for it.
+        """
+        self._refuse_too_much(given, len(content))
+        name = new_file(given, self.folder)
+        (self.folder / name).write_bytes(content)
+        self._names[name] = given
+        return name
+
+    def _refuse_too_much(self, given: str, size: int) -> None:
+        """Raise InputError for a file that is too large [bytes], or too large beside those of the session."""
+        kept = sum(
+            max(path.stat().st_size, self._coming.get(f"{SURFACES}/{path.name}", 0))
+            for path in self.folder.glob(f"{SURFACES}/*")
+        )
+        if size > LARGEST or kept + size > MOST_TOGETHER:
+            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
+            raise InputError.worded(None, f"{given}: has {size / 1e6:.4g} MB; expected {limits}")
 
     def close(self) -> None:
         """End the jobs, and remove the folder."""

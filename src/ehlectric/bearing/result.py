@@ -200,7 +200,7 @@ class BearingResult(Shown):
         return capacitive_speed(self.solution)
 
     @property
-    def _spread(self) -> Array | None:
+    def margin_spread(self) -> Array | None:
         """Margins within what is uncertain over the margin of the bearing, shape (n,); None without one."""
         known, own = self.uncertainty, self.margin
         return None if known is None or own is None else known.margins / own
@@ -235,7 +235,7 @@ class BearingResult(Shown):
             if key == "warning_codes":
                 summary["verdict"] = verdict.text
             if key == "mechanics" and self.duty is not None:
-                summary["duty"] = plain(self.duty.summary(self._spread if probable else None))
+                summary["duty"] = plain(self.duty.summary(self.margin_spread if probable else None))
         if self.duty is not None:
             summary |= texts_and_codes((*self.warnings, *self.duty.warnings))
         return summary

@@ -10,7 +10,7 @@ import pytest
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import Session
 from ehlectric.app.work import Scratch, Work, clear_left_behind
-from ehlectric.errors import LostError
+from ehlectric.errors import InputError, LostError
 
 
 @pytest.fixture
@@ -79,3 +79,15 @@ def test_a_link_to_a_folder_is_not_followed(temporary, tmp_path_factory):
     (temporary / "ehlectric-app-link").symlink_to(precious)
     clear_left_behind()
     assert (precious / "lock").exists()
+
+
+def test_a_file_of_the_program_is_stored_as_an_uploaded_one(work, monkeypatch):
+    given = Session(work, Inputs({}))
+    name = given.add("cycle.csv", b"time [s]\n")
+    assert (given.folder / name).read_bytes() == b"time [s]\n"
+    assert given.name_of(name) == "cycle.csv"
+    assert given.add("cycle.csv", b"") != name, "inputs that were undone keep theirs"
+    monkeypatch.setattr("ehlectric.app.session.MOST_TOGETHER", 10)
+    with pytest.raises(InputError, match=r"cycle\.csv: has .* MB; expected at most"):
+        given.add("cycle.csv", b"12")
+    given.close()

@@ -41,6 +41,9 @@ _HIDDEN = 11
 # Pixels of a line that is a point wide, and largest number of intervals of a curve whose extremes are kept.
 _PIXELS, _INTERVALS = 5.0 / 3.0, 1500
 
+# Node that separates two outlines in one curve.
+_GAP_NODE = np.array([np.nan])
+
 # Margins of figures in boxes [px].
 NARROW = {"l": 8, "r": 8, "t": 8, "b": 8}
 
@@ -163,8 +166,8 @@ def values(array: Any, digits: int = 7) -> list[Any]:
 def thinned(curves: Sequence[Array], most: int) -> Indices:
     """Increasing indices of nodes along a line, of which every curve keeps its smallest and largest values.
 
-    The curves are values over the same nodes, shape (n,). Both ends are kept, and all nodes where they are
-    few.
+    The curves are values over the same nodes, shape (n,), NaN where a curve has a gap. Both ends are kept, a
+    node of each gap, and all nodes where they are few.
 
     Examples
     --------
@@ -179,9 +182,13 @@ def thinned(curves: Sequence[Array], most: int) -> Indices:
     edges = np.linspace(0, number, most + 1).astype(int)
     kept = {0, number - 1}
     for curve in curves:
+        gaps = np.isnan(curve)
+        low, high = np.where(gaps, np.inf, curve), np.where(gaps, -np.inf, curve)
         for first, last in pairwise(edges):
-            part = curve[first:last]
-            kept |= {first + int(np.argmin(part)), first + int(np.argmax(part))}
+            part = slice(first, last)
+            kept |= {first + int(np.argmin(low[part])), first + int(np.argmax(high[part]))}
+            if np.any(gaps[part]):
+                kept.add(first + int(np.argmax(gaps[part])))
     return np.array(sorted(kept))
 
 
@@ -252,10 +259,10 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
         name, hidden = axis_name(number), f"y{_HIDDEN + number}"
         domain = {"domain": ends_of_panel, "anchor": "x"}
         ends = {} if panel.log else {"range": [panel.bottom, panel.top]}
-        title = f"{panel.title}{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]"
+        unit = f"{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]" if panel.unit else ""
+        title = f"{panel.title}{unit}"
         layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **log_ticks(log=panel.log))
-        for area in panel.areas:
-            data += _shaded(area, name, hidden)
+        data += [_shaded(area, name, hidden) for area in panel.areas]
         data += [_trace(curve, panel, name, converged=converged) for curve in panel.curves]
         data += [
             scatter(
@@ -298,27 +305,31 @@ def _trace(curve: Curve, panel: Panel, yaxis: str, *, converged: bool) -> Plot:
     )
 
 
-def _shaded(area: Area, yaxis: str, hidden: str) -> Iterator[Plot]:
-    """Outlines of the spans of an area, filled; the first one is in the legend."""
+def _shaded(area: Area, yaxis: str, hidden: str) -> Plot:
+    """Outlines of all spans of an area with gaps between them, filled."""
     look: Plot = {"fillcolor": faint(area.colour, area.opacity)}
     if area.hatched:
         look["fillpattern"] = {"shape": "/", "size": 8, "fgcolor": area.colour, "fgopacity": 0.5}
         look["fillpattern"]["bgcolor"] = look["fillcolor"]
-    for k, span in enumerate(_spans(area.within)):
+    outline: list[tuple[Array, Array]] = []
+    for span in _spans(area.within):
         x = area.x[span]
-        low, high = (np.zeros_like(x), np.ones_like(x)) if area.ends is None else area.ends
-        if area.ends is not None:
-            low, high = low[span], high[span]
-        yield scatter(
-            _around(x, x),
-            _around(low, high),
-            yaxis=hidden if area.ends is None else yaxis,
-            fill="toself",
-            line={"width": 0},
-            name=area.name,
-            showlegend=bool(area.name) and k == 0,
-            **look,
-        )
+        if area.ends is None:
+            x, low, high = x[[0, -1]], np.zeros(2), np.ones(2)
+        else:
+            low, high = area.ends[0][span], area.ends[1][span]
+        outline += [(_around(x, x), _around(low, high)), (_GAP_NODE, _GAP_NODE)]
+    x, y = (np.concatenate([part[k] for part in outline[:-1]]) if outline else np.empty(0) for k in (0, 1))
+    return scatter(
+        x,
+        y,
+        yaxis=hidden if area.ends is None else yaxis,
+        fill="toself",
+        line={"width": 0},
+        name=area.name,
+        showlegend=bool(area.name) and bool(outline),
+        **look,
+    )
 
 
 def _spans(within: Mask) -> Iterator[slice]:

@@ -16,6 +16,7 @@ from ehlectric.app.answers import (
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
+    DutyAnswer,
     Figure,
     Judged,
     Number,
@@ -43,6 +44,8 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     unknown,
 )
+from ehlectric.app.compute.duty_answers import shown_duty
+from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.result import BearingResult, solve_bearing
@@ -63,6 +66,7 @@ from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.report.light import light_of
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
 from ehlectric.tables.bearing_tables import contact_cells, contact_heads, input_range, total_rows
@@ -245,26 +249,47 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
+def _without_cycle(table: Mapping[str, Any], session: Path | None) -> BearingCase:
+    """Case of a bearing at its own operating point, which needs no file of a duty cycle."""
+    return bearing_case({key: value for key, value in table.items() if key != "duty"}, session=session)
+
+
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing without solving its contacts, and without what depends on other inputs.
 
-    Contacts are by formula where the tables say so, and otherwise from the atlas of films.
+    Contacts are by formula where the tables say so, and otherwise from the atlas of films. A duty cycle has
+    an answer of its own, ``duty_answer``.
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=False)
+    return answer_of(solved_quickly(_without_cycle(table, session)), whole=False)
 
 
 def answer_over_speed(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and
     curves over the speed, but without the probability of breakdown.
     """
-    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=True, probable=False)
+    return answer_of(solved_quickly(_without_cycle(table, session)), whole=True, probable=False)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``answer_over_speed`` has it, with the probability of breakdown."""
-    return answer_of(solved_quickly(bearing_case(table, session=session)), whole=True)
+    return answer_of(solved_quickly(_without_cycle(table, session)), whole=True)
+
+
+def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:
+    """Answer about the duty cycle of a bearing, which takes some seconds. Its probability of breakdown has
+    the spread of the margin with quick contacts.
+
+    Raises InputError if the tables are no valid case or name no cycle, or its file cannot be used.
+    """
+    case = bearing_case(table, session=session)
+    duty = run_duty(case)
+    if duty is None:
+        raise InputError.missing("duty.file", "a file of a duty cycle")
+    result = solved_quickly(_without_cycle(table, session))
+    summary = summary_of(result.solution) | {"duty": plain(duty.summary(result.margin_spread))}
+    return shown_duty(duty, summary)
 
 
 def solve_contacts(
@@ -344,12 +369,14 @@ def answer_of(
         numbers=summary["bearing"],
         margin=summary.get("margin"),
         contact_rows=tuple(summary["contacts"]),
-        lines=lines_of(total_rows(summary)),
+        # Rows of a duty cycle stand with it.
+        lines=lines_of(total_rows({**summary, "duty": None})),
         figures=figures,
         warnings=placed,
         seconds=summary["seconds"],
         differences=changes,
         effects=effects_table(summary, verdict.level),
+        duty=shown_duty(result.duty, summary) if whole and result.duty is not None else None,
     )
 
 

@@ -184,6 +184,7 @@ class AnswerView(Generic[A]):
     """Place of an answer, whose texts and figures change in place so that zoom and focus stay."""
 
     rows_name: ClassVar[str]  # name of the table of all rows, for screen readers
+    rows_title = "All rows, as the command prints them"
 
     def __init__(self) -> None:
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self.body:
@@ -227,7 +228,7 @@ class AnswerView(Generic[A]):
         for name, place in self.figures.items():
             self.show_figure(name, place, answer)
         rows = lines_html(answer.lines, self.rows_name)
-        self._lines.content = behind("All rows, as the command prints them", rows)
+        self._lines.content = behind(self.rows_title, rows)
 
     def show_figure(self, name: str, place: FigureBox, answer: A) -> None:
         """Show a figure of an answer in its place."""
@@ -280,10 +281,10 @@ class NumberBox:
         self._label.text, self._note.text = number.label, number.note
         self._value.text = number.with_unit
         self._value.classes(replace="value" if number.known else "value unknown")
-        self._told.content = "".join(map(_told, number.warnings))
+        self._told.content = "".join(map(told, number.warnings))
 
 
-def _told(one: PageWarning) -> str:
+def told(one: PageWarning) -> str:
     """Warning with its meaning in sight, and its text with numbers behind it."""
     word = SEVERITY_WORDS[one.severity]
     if not one.meaning:
@@ -337,7 +338,7 @@ class WarningList:
         others = len(every) - len(listed)
         where = f" ({others} beside the numbers)" if others else ""
         self._head.text = f"This result has {counts(every)}{where}"
-        self._list.content = "".join(map(_told, listed))
+        self._list.content = "".join(map(told, listed))
         self._heading.set_visibility(bool(listed))
         stands = "Warnings: none." if not every else f"{counts(every)}, beside the numbers that they concern."
         self._none.text = stands[0].upper() + stands[1:]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -12,18 +13,36 @@ from ehlectric.app.answers import (
     RANGE_FOLLOWS,
     BearingAnswer,
     Difference,
+    DutyAnswer,
     Table,
 )
-from ehlectric.app.calls import BEARING_OVER_SPEED, BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
+from ehlectric.app.calls import (
+    BEARING_DUTY,
+    BEARING_OVER_SPEED,
+    BEARING_QUICK,
+    BEARING_SOLVED,
+    BEARING_WHOLE,
+)
+from ehlectric.app.following import Following
 from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
+from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
+from ehlectric.app.session import Session
 from ehlectric.cases.defaults import HOW
+from ehlectric.errors import LostError
 from ehlectric.quantities.sheets import BEARING_CARDS
 
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")
 
+
+_OTHER_ROWS = "All other rows, as the command prints them"
+
+_OR_SOLVE = "solve the contacts, which computes the duty cycle, too"
+
+_NOT_COMPUTED = "The duty cycle is not computed; its field says why."
 
 # End of sentences about what a later answer has.
 _TO_FOLLOW = "follows."
@@ -42,6 +61,7 @@ class BearingView(AnswerView[BearingAnswer]):
         self._warnings = WarningList()
         self._none = ui.label().classes("notice").props('data-testid="no-figures"')
         self.build_figures((*_AT_ONCE, *_OVER_SPEED))
+        self.duty = DutyView()
         self._pending: BearingAnswer | None = None
 
     def stop(self) -> None:
@@ -107,8 +127,77 @@ class BearingPage(AnswerPage[BearingAnswer]):
     groups = BEARING_GROUPS
     short = ("bearing.capacitance", "bearing.margin")
     wait = 1.0
+    elsewhere = (DUTY_FILE,)
     quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED
+
+    view: BearingView
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        # A duty cycle takes some seconds: it follows the whole answer, behind the answers of other tabs.
+        self._cycle: Following[Inputs, DutyAnswer] = Following(
+            self._cycle_of,
+            show=lambda _, answer: self._show_cycle(answer),
+            passing=lambda *_: None,
+            refuse=self._refuse_cycle,
+            behind=session.work.behind,
+        )
 
     def build_view(self) -> None:
         """Build the place of the answer."""
         self.view = BearingView()
+
+    def build_boxes(self) -> None:
+        """Build the field of a duty cycle."""
+        self.duty = DutyField(self.session, self.form.take)
+
+    def show_boxes(self) -> None:
+        """Show the present inputs in the field of the duty cycle."""
+        self.duty.refresh()
+
+    def close(self) -> None:
+        """Want no further answers."""
+        super().close()
+        self._cycle.drop()
+
+    async def _cycle_of(self, inputs: Inputs) -> DutyAnswer:
+        async with self.session.work.behind:
+            if inputs != self.session.inputs:
+                raise LostError("the inputs have changed")
+            return await self.session.work.quick(BEARING_DUTY, dict(inputs.table), self.session.made_folder)
+
+    def _ask(self) -> asyncio.Future[None]:
+        self._cycle.drop()
+        return super()._ask()
+
+    def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
+        super()._show(inputs, answer)
+        if self.duty.file is None:
+            self.view.duty.show(None)
+        elif self.duty.lost:
+            self.view.duty.fail(_NOT_COMPUTED)
+        elif answer.duty is not None:
+            self._show_cycle(answer.duty)
+        else:
+            self.view.duty.wait()
+            if answer.whole:
+                self._cycle.ask(inputs)
+
+    def _put(self, answer: BearingAnswer) -> None:
+        # The rows of a duty cycle stand with it.
+        self.view.rows_title = AnswerView.rows_title if self.duty.file is None else _OTHER_ROWS
+        super()._put(answer)
+
+    def _show_cycle(self, answer: DutyAnswer) -> None:
+        self.view.duty.show(answer, self.duty.named)
+
+    def _refuse_cycle(self, error: Exception) -> None:
+        # A solution has more time than an answer of the page.
+        further = f"; {_OR_SOLVE}" if isinstance(error, LostError) else ""
+        self.duty.refuse(f"{error}{further}")
+        self.view.duty.fail(_NOT_COMPUTED)
+
+    def _refuse(self, error: Exception) -> None:
+        super()._refuse(error)
+        self._cycle.drop()
+        self.view.duty.stop()

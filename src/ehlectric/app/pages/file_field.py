@@ -44,13 +44,15 @@ class UploadField:
     async def _uploaded(self, event: events.UploadEventArguments) -> None:
         try:
             name = await self._session.store(event.file)
-        except InputError as error:
-            self._refuse(str(error))
         except LostError:
             # The tab was closed meanwhile.
             return
-        else:
-            await self._take(name)
+        except InputError as error:
+            self._state.text = ""
+            self._refuse(str(error))
+            return
+        self._state.text = ""
+        await self._take(name)
 
     def _sent(self, event: Any) -> None:
         """Show that the browser sends a file, or why it does not."""
@@ -61,4 +63,5 @@ class UploadField:
         elif status == 0:
             self._state.text = f"Reading {name}"
         else:
+            self._state.text = ""
             self._refuse(f"{name}: could not be sent to the server; try again")

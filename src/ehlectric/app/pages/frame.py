@@ -216,7 +216,7 @@ class Toolbar:
 
     def compare(self) -> None:
         """Open the page that compares, with this case on both sides."""
-        table = dict(self.session.inputs.table)
+        table = self._case.table
         case = table.get("case", table)
         if "drive_end" in case:
             self._tell(error="drives are compared by their remedies, on the page Drive")
@@ -225,15 +225,20 @@ class Toolbar:
 
     def vary(self) -> None:
         """Open the page of sweeps with this case."""
-        self._go("/sweep", Inputs({"case": dict(self.session.inputs.table)}))
+        self._go("/sweep", Inputs({"case": dict(self._case.table)}))
 
     def in_drive(self) -> None:
         """Open the page of drives with this bearing at both ends."""
-        self._go(PATHS["drive"], drive_with(self.session.inputs))
+        self._go(PATHS["drive"], drive_with(self._case))
+
+    @property
+    def _case(self) -> Inputs:
+        """Inputs for other pages, which have no duty cycle."""
+        return self.session.inputs.changed({"duty": None})
 
     def _go(self, path: str, inputs: Inputs) -> None:
         """Open another page with inputs; files stay in the session of this one."""
-        if _has_files(self.session.inputs.table):
+        if _has_files(self._case.table):
             self._tell(error="the case has data from files, which other pages do not have: open it there")
         elif not inputs.linkable:
             self._tell(error="the case is too long for an address; open its file on the other page")
@@ -324,8 +329,8 @@ class Toolbar:
 def _has_files(table: Mapping[str, Any]) -> bool:
     """Whether a case, or that of a sweep, has data from files, which stay in their session."""
     case = table.get("case", table)
-    source = case.get("source") if isinstance(case, Mapping) else None
-    if isinstance(source, Mapping) and "file" in source:
+    named = [case.get(name) for name in ("source", "duty")] if isinstance(case, Mapping) else []
+    if any(isinstance(one, Mapping) and "file" in one for one in named):
         return True
     rough = case.get("roughness") if isinstance(case, Mapping) else None
     return isinstance(rough, list) and any(isinstance(one, Mapping) and "file" in one for one in rough)

@@ -1,0 +1,50 @@
+"""Figure of a bearing over its duty cycle, for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ehlectric.app.charts.plotly_panels import Plot, kept_nodes, stack
+from ehlectric.bearing.duty_cycle import STATES, DutyResult
+from ehlectric.figures.data import Panel
+from ehlectric.figures.duty_panels import duty_panels, time_axis
+from ehlectric.quantities.formats import scale_of
+from ehlectric.quantities.units import rpm_text
+
+# Heads of the table over the time, and largest number of its rows.
+DUTY_HEADS = ("time [s]", "speed [rpm]", "temperature [°C]", "λ", "margin", "state")
+MOST_DUTY_ROWS = 200
+
+
+def duty_figure(duty: DutyResult) -> Plot:
+    """Speed, lambda ratio and margin over the time, with bands of the states behind them."""
+    made = stack(time_axis(duty.rows), [*_named_once(duty_panels(duty))])
+    for trace in made["data"]:
+        # The axis of a curve names it.
+        trace["showlegend"] = trace["showlegend"] and "fill" in trace
+    # Speeds are written in full, without a k for a thousand.
+    made["layout"]["yaxis"]["tickformat"] = "~f"
+    return made
+
+
+def _named_once(panels: Iterator[Panel]) -> Iterator[Panel]:
+    """Panels of which only the first names its bands, which are those of all."""
+    for number, panel in enumerate(panels):
+        areas = [replace(area, name="" if number else area.name) for area in panel.areas]
+        yield replace(panel, areas=areas)
+
+
+def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
+    """Cells of the table over the time, of rows evenly spaced in the file."""
+    rows, celsius = duty.rows, scale_of("°C")
+    return [
+        (
+            f"{rows.time[k]:.6g}",
+            rpm_text(rows.speed[k]),
+            f"{celsius.of(float(rows.temperature[k])):.4g}",
+            *(f"{one[k]:.3g}" if one[k] == one[k] else "none" for one in (rows.lambda_ratio, rows.margin)),
+            STATES[int(rows.state[k])],
+        )
+        for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()
+    ]

@@ -1,0 +1,178 @@
+"""Duty cycle of a page: the field of its file, and the place of its result."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import replace
+from typing import Any
+
+from nicegui import ui
+
+from ehlectric.app.answers import DutyAnswer
+from ehlectric.app.calls import DUTY_LOOK
+from ehlectric.app.pages.answer_page import FigureBox, table_html, told
+from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
+from ehlectric.app.session import LARGEST, Session, own_file
+from ehlectric.errors import InputError, LostError
+from ehlectric.runs.example_files import example
+
+# Key of the file, and the example that a click loads.
+DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
+
+_LABEL = f"CSV of the cycle, at most {LARGEST / 1e6:g} MB"
+
+_COLUMNS = (
+    "The bearing over time. The file has the column time [s], and any of speed [rpm], radial load [N], axial "
+    "load [N], temperature [degC] and common-mode voltage [V]. What has no column is as above."
+)
+
+_COMPUTING = "The cycle is being computed."
+
+_TO_RESULT = "document.querySelector('[data-testid=duty]')?.scrollIntoView({ block: 'start' })"
+
+
+class DutyField:
+    """Field for the file of a duty cycle; ``change`` is called with a changed key and its value."""
+
+    def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
+        self._session, self._change = session, change
+        self._found: dict[str, str] = {}  # sentences about files that were looked at
+        self._last: str | None = None  # file that was shown last
+        title, given = "Duty cycle", self.file is not None
+        with (
+            ui.element("div").classes("form").props('role="form" aria-label="Duty cycle"'),
+            GroupBox(title, title=title, note=_COLUMNS, opened=given, first=True) as self._group,
+            ui.element("div").classes("box"),
+        ):
+            UploadField(session, self._take, self.refuse, name="duty", label=_LABEL)
+            self._error = ui.label().classes("error").props('role="alert" id="duty-error"')
+            self._error.props('data-testid="error-duty"')
+            self._used = ui.label().classes("hint").props('data-testid="duty-used" aria-live="polite"')
+            with ui.element("div").classes("buttons"):
+                leads = button("Go to its result", "to-duty", lambda: ui.run_javascript(_TO_RESULT))
+                removes = button("Remove the cycle", "duty-remove", self._removed)
+                button("Use the example, the WLTC of a car", "duty-example", self._example)
+            self._of_cycle = (leads, removes)
+        self.refresh()
+
+    @property
+    def file(self) -> str | None:
+        """Name of the file of the present inputs; None without one."""
+        file = self._session.inputs.value(DUTY_FILE)
+        return file if isinstance(file, str) else None
+
+    @property
+    def lost(self) -> bool:
+        """Whether the present inputs name a file that this session does not have."""
+        return self.file is not None and self._path(self.file) is None
+
+    def refresh(self) -> None:
+        """Show the file of the present inputs, as after an undo."""
+        file = self.file
+        if file is not None and self._last is None:
+            self._group.turn(opened=True)
+        self._last = file
+        say(self._error, "")
+        for one in self._of_cycle:
+            one.set_visibility(file is not None)
+        if file is None:
+            say(self._used, "")
+            return
+        about, name = self._found.get(file), self._session.name_of(file)
+        link = "A link cannot hold the file; a download with everything has it."
+        say(self._used, f"{name}: {about} {link}" if about else f"The file is {name}. {link}")
+        if self.lost:
+            self.refuse("This file was uploaded in another session. Upload it again, or remove the cycle.")
+
+    def refuse(self, error: Exception | str) -> None:
+        """Show why there is no cycle; files have the names that their user knows."""
+        self._tell(self.named(str(error)))
+
+    def _tell(self, text: str) -> None:
+        say(self._error, text)
+        self._group.turn(opened=True)
+
+    def named(self, text: str) -> str:
+        """Text in which the path of the file is the name that its user knows."""
+        file = self.file
+        path = None if file is None else self._path(file)
+        return text if file is None or path is None else text.replace(path, self._session.name_of(file))
+
+    def _path(self, file: str) -> str | None:
+        folder = self._session.made_folder
+        path = None if folder is None else own_file(file, folder)
+        return None if path is None else str(path)
+
+    async def _example(self) -> None:
+        try:
+            path = example(_EXAMPLE)
+            name = self._session.add(path.name, path.read_bytes())
+        except (InputError, OSError) as error:
+            self.refuse(error)
+        else:
+            await self._take(name)
+
+    async def _take(self, name: str) -> None:
+        """Put an uploaded file into the inputs, if it is a duty cycle."""
+        try:
+            self._found[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
+        except (InputError, LostError) as error:
+            path = self._path(name) or name
+            self._tell(str(error).replace(path, self._session.name_of(name)))
+            return
+        await self._change({DUTY_FILE: name})
+
+    async def _removed(self) -> None:
+        await self._change({"duty": None})
+
+
+class DutyView:
+    """Place of the result of a duty cycle, below the answer about its bearing."""
+
+    def __init__(self) -> None:
+        with ui.element("section").classes("duty").props('aria-label="Duty cycle"') as self.body:
+            self.body.props('data-testid="duty"')
+            heading("Duty cycle", 2)
+            self._state = ui.label().classes("notice").props('role="status" data-testid="duty-state"')
+            with ui.element("div").classes("duty") as self._result:
+                self._lines = ui.html("", sanitize=False).props('data-testid="duty-numbers"')
+                self._warnings = ui.html("", sanitize=False).props('data-testid="duty-warnings"')
+                self.figure = FigureBox("duty", wide=True)
+                self._stretches = ui.html("", sanitize=False).props('data-testid="duty-stretches"')
+        self.show(None)
+
+    def show(self, answer: DutyAnswer | None, name: Callable[[str], str] = str) -> None:
+        """Show a result; None hides the place. ``name`` gives files in texts the names of their user."""
+        self.body.set_visibility(answer is not None)
+        self._result.set_visibility(answer is not None)
+        say(self._state, "")
+        mark(self._result, "stale", on=False)
+        if answer is None:
+            return
+        self._lines.content = lines_html(
+            answer.lines, "Numbers of the duty cycle, as the command prints them"
+        )
+        named = (replace(one, text=name(one.text)) for one in answer.warnings)
+        self._warnings.content = "".join(map(told, named))
+        self.figure.show(answer.figure)
+        stretches = answer.stretches
+        self._stretches.content = "" if stretches is None else table_html(stretches)
+        self._stretches.set_visibility(stretches is not None)
+
+    def wait(self) -> None:
+        """Show that a result is being computed; the one before is dimmed."""
+        self.body.set_visibility(True)
+        say(self._state, _COMPUTING)
+        mark(self._result, "stale", on=True)
+
+    def stop(self) -> None:
+        """Show that what was to follow is not computed, as after a wrong input."""
+        say(self._state, "")
+        self.body.set_visibility(self._result.visible)
+
+    def fail(self, text: str) -> None:
+        """Show why there is no result."""
+        self.body.set_visibility(True)
+        self._result.set_visibility(False)
+        say(self._state, text)
