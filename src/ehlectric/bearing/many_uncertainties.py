@@ -10,9 +10,10 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.many_points import gathered, many_of, solved_parts
-from ehlectric.bearing.margin import margin_and_lambda
+from ehlectric.bearing.margin import TOUCHING_ALREADY, margin_and_lambda
 from ehlectric.bearing.solution import BearingSolution, film_error
 from ehlectric.bearing.uncertainty import (
+    NO_MARGINS,
     Design,
     MarginSpread,
     sobol_points,
@@ -43,6 +44,8 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     own, off = np.broadcast_to(own, coarse.shape), np.broadcast_to(film_error(solution), coarse.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
         factors = own / coarse
+    for place in np.flatnonzero(np.isfinite(own) & ~(coarse > 0.0)).tolist():
+        spreads[place] = InputError.worded(None, NO_MARGINS if np.isnan(coarse[place]) else TOUCHING_ALREADY)
     known = np.flatnonzero(np.isfinite(own) & (coarse > 0.0))
     designs = {place: Design.of_case(case.single(place), float(off[place])) for place in known.tolist()}
     for places in _alike(designs):

@@ -5,6 +5,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import BearingCase, InputError, read_sweep, solve_bearing
+from ehlectric.bearing import many_uncertainties
 from ehlectric.bearing.uncertainty import SEED, spread_of_result, uncertainty_of_result
 from ehlectric.commands.command_line import app
 from ehlectric.sweep.batches import batches_of, solve_batch
@@ -91,6 +92,7 @@ def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
     "changes",
     [
         {"ranges": {"bearing.radial_load": ["1500 N", "2500 N"], TEMPERATURE: ["60 degC", "75 degC"]}},
+        {"ranges": {TEMPERATURE: ["60 degC", "230 degC"]}},
         {"contacts": "formula"},
         {"lubricant.temperature": {"iso_vg": 46, "viscosity_index": 100, "density_15": 870.0}},
     ],
@@ -98,6 +100,17 @@ def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
 def test_ranges_laws_and_ways_are_those_of_the_bearing_alone(changes):
     for outcome, table in outcomes(swept({SPEED: ["1500 rpm", "6000 rpm"]}, with_motor(**changes))):
         check_alone(outcome, table)
+
+
+def test_a_point_without_samples_says_why(monkeypatch):
+    def refused(*_):
+        raise InputError.worded(None, "no sample has a result")
+
+    monkeypatch.setattr(many_uncertainties, "spread_at", refused)
+    for outcome, _ in outcomes(swept({SPEED: ["1500 rpm", "6000 rpm"]})):
+        assert outcome.status == "solved"
+        assert outcome.summary["uncertainty"] is None
+        assert outcome.summary["margin"]["left_out"] == ["probability of breakdown: no sample has a result"]
 
 
 def test_rollers_have_probabilities_too():
