@@ -36,11 +36,19 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
     "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),
+    "breakdown_probability_map": (
+        ("sweep", "breakdown_probability_map.toml"),
+        ("map_uncertainty.breakdown_probability.png",),
+    ),
     "traction_curve": (("sweep", "traction_curve.toml"), ("lines_film.traction_coefficient.png",)),
 }
 
 # Arguments of a second command, which draws figures in the folder that the first one wrote.
 _THEN = {
+    "breakdown_probability_map": (
+        *("--x", "bearing.inner_speed", "--y", "bearing.temperature"),
+        *("--value", "uncertainty.breakdown_probability"),
+    ),
     "traction_curve": (
         *("--x", "contact.slide_to_roll_ratio", "--y", "film.thermal"),
         *("--value", "film.traction_coefficient"),

@@ -201,3 +201,30 @@ def test_a_wrong_range_is_told_beside_its_field(open_page, app_server, tmp_path)
     shown = next(one for group in BEARING_GROUPS for one in group.fields if one.key == SPEED)
     assert " ".join(error.inner_text().split()) in in_field_unit(shown, " ".join(told.split()))
     assert page.get_by_test_id("solve").is_disabled()
+
+
+@pytest.mark.slow
+def test_the_probability_of_breakdown_is_asked_for_by_showing_it(open_page, app_server, tmp_path):
+    """Its samples are in the sweep file from then on; another result of the same points needs no new run."""
+    page = open_page(app_server, address_of("/sweep", sweep(2)))
+    page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
+    choose_result(page, "Probability of breakdown")
+    wait_for_address(page, "uncertainty_samples=256")
+    page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
+    run(page)
+    wait_for_points(page, "4 solved")
+    case = tomllib.loads(downloaded(page, "download-toml", tmp_path).read_text(encoding="utf-8"))
+    assert case["uncertainty_samples"] == 256
+    rows = rows_of(downloaded(page, "download-csv", tmp_path))
+    assert [row["uncertainty.samples [-]"] for row in rows] == ["256"] * 4
+    choose_result(page, "Lambda ratio")
+    wait_for_address(page, "show=bearing.lambda_ratio")
+    assert "uncertainty_samples=256" in page.url
+    assert page.get_by_test_id("solve").is_disabled()
+
+
+def choose_result(page, name):
+    """Choose what the map shows by the beginning of its name."""
+    page.get_by_test_id("show").click()
+    page.get_by_test_id("show").fill(name)
+    page.get_by_role("option", name=re.compile(f"^{name}", re.IGNORECASE)).first.click()

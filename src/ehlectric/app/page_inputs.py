@@ -457,6 +457,33 @@ def sweep_file(inputs: Inputs) -> Inputs:
     return inputs.changed({"show": None})
 
 
+# Table of the results that a sweep has only where it is asked for their samples, and their usual number.
+_UNCERTAINTY, _UNCERTAINTY_SAMPLES = "uncertainty.", 256
+
+
+def with_shown(inputs: Inputs, key: str, solved: Inputs | None) -> Inputs:
+    """Inputs of the sweep page that show another result of the points.
+
+    Those of ``uncertainty`` need samples, which are asked for. They stay for another result where the
+    ``solved`` sweep has them, whose map stays valid then.
+
+    Examples
+    --------
+    >>> shown = with_shown(Inputs(), "uncertainty.breakdown_probability", None)
+    >>> shown.value("uncertainty_samples")
+    256
+    >>> with_shown(shown, "bearing.margin", None) == Inputs({"show": "bearing.margin"})
+    True
+    >>> with_shown(shown, "bearing.margin", shown).value("uncertainty_samples")
+    256
+    """
+    name = "uncertainty_samples"
+    samples = None if solved is None else solved.value(name)
+    if key.startswith(_UNCERTAINTY):
+        samples = inputs.value(name) or samples or _UNCERTAINTY_SAMPLES
+    return inputs.changed({"show": key, name: samples})
+
+
 def same_sweep(one: Inputs, other: Inputs) -> bool:
     """Whether two sweeps have the same points in the same order.
 

@@ -112,6 +112,10 @@ def solved_parts(
     given; each error takes the time of a single bearing. Raises InputError where no point has a solution
     for a reason that all share, as an oil that needs solved contacts.
     """
+    if _SPEED not in case.arrays():
+        # Loads of elements then have an axis of points as all other numbers, also where temperatures or
+        # voltages alone differ.
+        case = case.with_values({_SPEED: np.full(case.shape, case.bearing.inner_speed)})
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         with one_blas_thread():
             part = _solved(case, points, positions, detail)

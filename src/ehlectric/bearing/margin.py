@@ -77,6 +77,10 @@ from ehlectric.quantities.units import rpm, rpm_text
 ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
 
+# Reason for which a bearing with a margin has none at changed inputs.
+TOUCHING_ALREADY = "without solved contacts the surfaces touch already in the case itself"
+
+
 @dataclass(frozen=True)
 class MarginPoint:
     """Margin and lambda ratio of a bearing."""
@@ -117,8 +121,7 @@ class QuickMargins:
         margin, ratio = several.columns(margin_and_lambda, 2)[:, OWN].tolist()
         whole = float(margin_and_lambda(quick)[0])
         if not margin * whole:
-            text = "without solved contacts the surfaces touch already in the case itself"
-            raise InputError.worded(None, text)
+            raise InputError.worded(None, TOUCHING_ALREADY)
         factors = own.margin / margin, own.lambda_ratio / ratio
         return cls(solution.case, own, *factors, case, quick, whole)
 

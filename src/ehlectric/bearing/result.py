@@ -19,7 +19,13 @@ from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.speed_curves import capacitive_speed
 from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
-from ehlectric.bearing.uncertainty import MarginBand, Uncertainty, margin_band, uncertainty_of_result
+from ehlectric.bearing.uncertainty import (
+    MarginBand,
+    Uncertainty,
+    margin_band,
+    uncertainty_of_result,
+    without_spread,
+)
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
@@ -172,7 +178,7 @@ class BearingResult(Shown):
         try:
             return uncertainty_of_result(self.solution), ()
         except InputError as error:
-            return None, (f"probability of breakdown: {error}",)
+            return None, (without_spread(error),)
 
     @cached_property
     def margin_band(self) -> MarginBand | None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
@@ -32,6 +32,9 @@ SAMPLES, SEED = 2048, 1
 # Points of the estimate at once, in which the films stay as they are.
 QUICK_SAMPLES = 256
 
+# Least and largest number of points of the design where it is asked for.
+LEAST_SAMPLES, MOST_SAMPLES = 32, 4096
+
 # Probabilities of the ends of the interval that is stated, and of its middle.
 INTERVAL = (0.05, 0.5, 0.95)
 
@@ -40,6 +43,9 @@ _CONFIDENCE = 1.959963984540054
 
 # Speeds at which the probability is computed for its curve, and points at each of them, a power of 2.
 _SPEEDS, _AT_EACH = 12, 128
+
+# Reason for which a bearing has no distribution of its margin.
+NO_MARGINS = "the margin has no value within the ranges of the inputs"
 
 # Names of what is uncertain beside the inputs of a file.
 FILMS, SCATTER = "films", "scatter"
@@ -75,7 +81,7 @@ class MarginBand:
 
 
 @dataclass(frozen=True)
-class Uncertainty:
+class MarginSpread:
     """Distribution of the margin of a bearing over what is uncertain of its inputs and its films.
 
     Inputs are independent and evenly distributed over their ranges. What follows from an input, such as the
@@ -84,11 +90,8 @@ class Uncertainty:
 
     # Margins of all points with a result, 0 where surfaces touch, dimensionless, shape (n,).
     margins: Array = field(repr=False)
-    inputs: tuple[UncertainInput, ...]  # the largest contribution first
     touching: float  # share of points whose surfaces touch
     failed: int  # number of points without a result
-    # Share of the variance of ln(margin) that the polynomial behind the shares of the inputs predicts.
-    predicted: float
     samples: int
     seed: int
     left_out: tuple[str, ...] = ()  # ranges that are not in the distribution, and why
@@ -119,7 +122,7 @@ class Uncertainty:
     @cached_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
-        return _chance(self.margins, self.inputs[0].label, self.inputs[0].total)
+        return _chance(self.margins)
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""
@@ -131,13 +134,33 @@ class Uncertainty:
             "breakdown_probability": self.probability,
             "breakdown_probability_error": self.probability_error,
             "touching_probability": self.touching,
-            "indices": [asdict(one) for one in self.inputs],
-            "predicted": self.predicted,
+            **self._shares(),
             "samples": self.samples,
             "failed": self.failed,
             "seed": self.seed,
             "left_out": list(self.left_out),
         }
+
+    def _shares(self) -> dict[str, Any]:
+        """Values of the table that are about single inputs; none without their shares of the variance."""
+        return {}
+
+
+@dataclass(frozen=True)
+class Uncertainty(MarginSpread):
+    """Distribution of the margin of a bearing, with the contribution of each input to its spread."""
+
+    inputs: tuple[UncertainInput, ...] = field(kw_only=True)  # the largest contribution first
+    # Share of the variance of ln(margin) that the polynomial behind the shares of the inputs predicts.
+    predicted: float = field(kw_only=True)
+
+    @cached_property
+    def chance(self) -> Chance:
+        """Probability and interval as a verdict says them."""
+        return _chance(self.margins, self.inputs[0].label, self.inputs[0].total)
+
+    def _shares(self) -> dict[str, Any]:
+        return {"indices": [asdict(one) for one in self.inputs], "predicted": self.predicted}
 
 
 def _chance(margins: Array, first: str = "", share: float = 0.0) -> Chance:
@@ -160,7 +183,7 @@ def sampling_error(probability: float, number: int) -> float:
     return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
 
 
-def _sobol(width: int, number: int, seed: int) -> Array:
+def sobol_points(width: int, number: int, seed: int) -> Array:
     """Points of a scrambled Sobol sequence from 0 to 1, shape (number, width)."""
     # scipy.stats takes longer to load than most of the rest of a command.
     from scipy.stats import qmc
@@ -170,7 +193,7 @@ def _sobol(width: int, number: int, seed: int) -> Array:
 
 
 @dataclass(frozen=True)
-class _Design:
+class Design:
     """Uncertain inputs of a bearing, and how its margin follows from numbers from 0 to 1 for each of them."""
 
     case: BearingCase
@@ -182,9 +205,14 @@ class _Design:
     left_out: tuple[str, ...]
 
     @classmethod
-    def of(cls, solution: BearingSolution, *, beside_films: bool = False) -> _Design:
+    def of(cls, solution: BearingSolution, *, beside_films: bool = False) -> Design:
         """Design of a solved bearing, with inputs ``beside_films`` only, on which they do not depend."""
-        case, left_out, computed, factors = solution.case, [], [], []
+        return cls.of_case(solution.case, film_error(solution), beside_films=beside_films)
+
+    @classmethod
+    def of_case(cls, case: BearingCase, off: Numbers, *, beside_films: bool = False) -> Design:
+        """Design of a bearing whose films are ``off`` by at most this part either way."""
+        left_out, computed, factors = [], [], []
         stated = {one.key for one in case.ranges or ()}
         changes = changes_of(case)
         for change in changes:
@@ -201,7 +229,7 @@ class _Design:
             case,
             tuple(computed),
             tuple(factors),
-            _film_factors(solution),
+            _film_factors(case, float(off)),
             None if weibull is None else weibull.shape,
             assumed,
             tuple(left_out),
@@ -233,12 +261,11 @@ class _Design:
         return np.stack(columns, axis=-1)
 
 
-def _film_factors(solution: BearingSolution) -> tuple[float, float]:
+def _film_factors(case: BearingCase, off: float) -> tuple[float, float]:
     """Ends of the factor on the margin by the error of the films, as they break down in proportion to it."""
-    if solution.case.contacts == "formula":
-        factor = formula_factor(solution.case.bearing.kind)
+    if case.contacts == "formula":
+        factor = formula_factor(case.bearing.kind)
         return 1.0 / factor, factor
-    off = float(film_error(solution))
     return 1.0 - off, 1.0 + off
 
 
@@ -257,22 +284,12 @@ def uncertainty_of(
 
     Raises InputError where no point has a result.
     """
-    design = _Design.of(solution)
-    at = _sobol(design.width, samples, seed)
+    design = Design.of(solution)
+    at = sobol_points(design.width, samples, seed)
     computed, solved = _computed(design, margins, at)
-    factors = design.log_factors(at)
-    margin = computed * np.exp(np.sum(factors, axis=-1))
+    spread = spread_at(design, np.where(solved, computed, np.nan), at, seed)
     inputs, predicted = _inputs(design, at, computed, solved)
-    return Uncertainty(
-        margin[solved],
-        inputs,
-        float(np.mean(computed[solved] == 0.0)),
-        int(np.count_nonzero(~solved)),
-        predicted,
-        samples,
-        seed,
-        design.left_out,
-    )
+    return Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
 
 
 def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
@@ -284,14 +301,45 @@ def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
     return uncertainty_of(solution, QuickMargins.of(solution))
 
 
+def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) -> MarginSpread | None:
+    """Distribution of the margin of a solved bearing as ``uncertainty_of_result``, without the shares of its
+    inputs, at so many points.
+    """
+    if not solution.converged or first_margin(solution) is None:
+        return None
+    design = Design.of(solution)
+    at = sobol_points(design.width, samples, seed)
+    computed, solved = _computed(design, QuickMargins.of(solution), at)
+    return spread_at(design, np.where(solved, computed, np.nan), at, seed)
+
+
+def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSpread:
+    """Distribution of the margin from those at points from 0 to 1, shape (n, width).
+
+    ``computed``, margins without the factors, 0 where surfaces touch, NaN without a result, shape (n,).
+    Raises InputError where no point has a result.
+    """
+    solved = np.isfinite(computed)
+    if not np.any(solved):
+        raise InputError.worded(None, NO_MARGINS)
+    margins = (computed * np.exp(np.sum(design.log_factors(at), axis=-1)))[solved]
+    touching, failed = float(np.mean(margins == 0.0)), int(np.count_nonzero(~solved))
+    return MarginSpread(margins, touching, failed, len(at), seed, design.left_out)
+
+
+def without_spread(error: InputError) -> str:
+    """Text that says why a bearing with a margin has no distribution of it."""
+    return f"probability of breakdown: {error}"
+
+
 def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> Chance | None:
     """Chance of a solved bearing at once, with its own films at all points: what changes them is left out, as
     temperature, load and clearance. None where there is no margin.
     """
     if not solution.converged or first_margin(solution) is None:
         return None
-    design = _Design.of(solution, beside_films=True)
-    at = _sobol(design.width, samples, SEED)
+    design = Design.of(solution, beside_films=True)
+    at = sobol_points(design.width, samples, SEED)
     arrays = design.arrays(at)
     case = solution.case.with_arrays(arrays) if arrays else solution.case
     found = first_margin(replace(solution, case=case))
@@ -300,7 +348,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
 
 
 def _computed(
-    design: _Design, margins: QuickMargins, at: Array, speed: Array | None = None
+    design: Design, margins: QuickMargins, at: Array, speed: Array | None = None
 ) -> tuple[Array, Mask]:
     """Margins without the factors, 0 where the surfaces touch, and which points have a result, shape (n,).
 
@@ -313,12 +361,12 @@ def _computed(
     margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
     solved = np.isfinite(margin)
     if not np.any(solved):
-        raise InputError.worded(None, "the margin has no value within the ranges of the inputs")
+        raise InputError.worded(None, NO_MARGINS)
     return margins.margin_factor * np.where(solved, margin, 0.0), solved
 
 
 def _inputs(
-    design: _Design, at: Array, computed: Array, solved: Mask
+    design: Design, at: Array, computed: Array, solved: Mask
 ) -> tuple[tuple[UncertainInput, ...], float]:
     """Uncertain inputs with their shares of the variance of ln(margin), the largest first, and the share of
     this variance that is predicted.
@@ -342,7 +390,7 @@ def _inputs(
     return tuple(sorted(inputs, key=lambda one: -one.total)), 1.0 - missed / whole
 
 
-def _names(design: _Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
+def _names(design: Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
     """Key, label, range and reason of each uncertain input, in the order of the design."""
     for change in (*design.computed, *design.factors):
         reason = design.assumed.get(change.key)
@@ -372,8 +420,8 @@ def margin_band(
     """
     own = solution.case.bearing.inner_speed
     speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
-    design = _Design.of(solution)
-    at = _sobol(design.width, _AT_EACH, seed)
+    design = Design.of(solution)
+    at = sobol_points(design.width, _AT_EACH, seed)
     many = np.tile(at, (speed.size, 1))
     computed, solved = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
     margin = computed * np.exp(np.sum(design.log_factors(many), axis=-1))

@@ -198,6 +198,8 @@ def sweep_toml(results: SweepResults) -> str:
     table: dict[str, Any] = {"title": results.title, "design": results.design}
     if results.design == "sobol":
         table |= {"samples": results.samples, "seed": results.seed}
+    if results.uncertainty_samples:
+        table["uncertainty_samples"] = results.uncertainty_samples
     ranges = {
         key: {"from": _written(key, one.start), "to": _written(key, one.stop), "spacing": one.spacing}
         for key, one in results.ranges.items()

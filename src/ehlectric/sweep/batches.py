@@ -13,8 +13,10 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.many_points import TOGETHER, SolvedPart, single_tables, solved_parts
+from ehlectric.bearing.many_uncertainties import spreads_of, tables_of_spread
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.summary import SCHEMA
+from ehlectric.bearing.uncertainty import SEED
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import by_table
@@ -35,6 +37,7 @@ class Batch:
     keys: tuple[str, ...]  # keys of their cases, from ``case_key``
     table: Mapping[str, Any]  # tables of the case of one of the points
     values: Mapping[str, Array]  # numbers of the quantities, by dotted key, in SI units, shape (n,)
+    uncertainty_samples: int | None = None  # samples of the probability of breakdown of each point, if any
 
     def table_of(self, place: int) -> dict[str, Any]:
         """Tables of the case of a point."""
@@ -61,6 +64,8 @@ def batches_of(
     group, in random order: the same interpolation tables of the gaps around the films then serve all batches.
     """
     batches, others = [], list[tuple[str, Inputs]]()
+    samples = sweep.uncertainty_samples
+    together = TOGETHER if samples is None else max(1, _SAMPLES_TOGETHER // samples)
     if not isinstance(sweep.case, BearingCase):
         return [], list(points)
     for group in groups_of(sweep, (inputs for _, inputs in points)):
@@ -71,12 +76,15 @@ def batches_of(
             continue
         columns = {key: np.array([inputs[key] for inputs in group.inputs]) for key in group.quantities}
         order = np.random.default_rng(0).permutation(count)
-        for some in np.array_split(order, -(-count // TOGETHER)):
+        for some in np.array_split(order, -(-count // together)):
             keys = tuple(points[group.places[k]][0] for k in some)
-            batches.append(
-                Batch(keys, case.to_dict(), {key: column[some] for key, column in columns.items()})
-            )
+            values = {key: column[some] for key, column in columns.items()}
+            batches.append(Batch(keys, case.to_dict(), values, samples))
     return batches, others
+
+
+# Samples of all points of a batch: some seconds, after which its points are saved.
+_SAMPLES_TOGETHER = 8 * TOGETHER
 
 
 def run_batches(
@@ -104,7 +112,7 @@ def _lost(_reason: str) -> None:
 
 def weight_of(batches: Sequence[Batch]) -> int:
     """Number of points in large batches that take as long as these batches."""
-    return sum(len(batch.keys) + _BEGINNING for batch in batches)
+    return sum(len(batch.keys) * (1 + (batch.uncertainty_samples or 0)) + _BEGINNING for batch in batches)
 
 
 # Points that take as long as the part of the time of a batch that does not depend on their number.
@@ -137,7 +145,7 @@ def solve_batch(batch: Batch) -> list[Outcome] | None:
             date=date,
         )
         if place in summaries
-        else solve_point(batch.table_of(place))
+        else solve_point(batch.table_of(place), batch.uncertainty_samples)
         for place in range(len(batch.keys))
     ]
 
@@ -147,8 +155,9 @@ def seconds_of(sweep: Sweep) -> float | None:
 
     None where these points are no valid cases.
     """
-    every = max(1, sweep.size // _TRIED)
-    some = islice(enumerate(sweep.points()), 0, _TRIED * every, every)
+    tried = _TRIED if sweep.uncertainty_samples is None else _UNCERTAIN_TRIED
+    every = max(1, sweep.size // tried)
+    some = islice(enumerate(sweep.points()), 0, tried * every, every)
     points = [point for point in (planned_point(sweep, *each) for each in some) if point.key is not None]
     if not points:
         return None
@@ -161,13 +170,13 @@ def seconds_of(sweep: Sweep) -> float | None:
         for batch in batches:
             solve_batch(batch)
         for table in tables:
-            solve_point(table)
+            solve_point(table, sweep.uncertainty_samples)
         seconds = time.perf_counter() - begun
     return seconds / len(places) * sweep.size
 
 
-# Most points that are tried for an estimate.
-_TRIED = 256
+# Most points that are tried for an estimate, and where each has the probability of its breakdown.
+_TRIED, _UNCERTAIN_TRIED = 256, 8
 
 
 def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
@@ -180,6 +189,9 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
     for code, where in codes_of(solution):
         for place in np.flatnonzero(np.broadcast_to(where, count)).tolist():
             codes[place][code] = CODES[code].meaning
+    samples, probable = batch.uncertainty_samples, list[dict[str, Any]]()
+    if samples is not None:
+        probable = [tables_of_spread(spread) for spread in spreads_of(solution, samples, SEED)]
     for place, (point, tables) in enumerate(zip(part.points.tolist(), single_tables(part), strict=True)):
         yield {
             "schema": SCHEMA,
@@ -190,4 +202,5 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
             CODES_OF_TEXTS: list(codes[place]),
             "inputs": batch.table_of(point),
             **tables,
+            **(probable[place] if probable else {}),
         }

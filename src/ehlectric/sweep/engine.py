@@ -16,15 +16,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
+from ehlectric.bearing.many_uncertainties import spread_alone, tables_of_spread
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing.uncertainty import SEED
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
@@ -70,11 +72,11 @@ class Outcome:
     date: str = ""
 
 
-def case_key(case: SweptCase) -> str:
-    """Hash of everything that the solution of a case depends on.
+def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
+    """Hash of everything that the result of a case depends on.
 
     The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
-    paths of files.
+    paths of files. ``uncertainty_samples``, those of the probability of breakdown, where it is asked for.
 
     Returns SHA-256 hash, hexadecimal. Raises InputError if a file of the case cannot be read.
 
@@ -95,14 +97,16 @@ def case_key(case: SweptCase) -> str:
             with regular(path) as file:
                 status = os.fstat(file.fileno())
             holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
-    return hash_of(text_of(table))
+    return hash_of(text_of(table, uncertainty_samples))
 
 
-def text_of(table: Mapping[str, Any]) -> str:
+def text_of(table: Mapping[str, Any], uncertainty_samples: int | None = None) -> str:
     """JSON text of the tables of a case without its title and its duty cycle, which no point of a sweep
     depends on; ``case_key`` is the hash of such a text.
     """
     known = {key: value for key, value in table.items() if key not in ("title", "duty")}
+    if uncertainty_samples is not None:
+        known["uncertainty_samples"] = uncertainty_samples
     return json.dumps(known, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
@@ -129,7 +133,7 @@ def planned_point(sweep: Sweep, number: int, inputs: Mapping[str, Any]) -> Plann
     try:
         case = sweep.case.replace(inputs)
         table = case.to_dict() if number < _TABLES_KEPT else None
-        return Planned(number, inputs, case_key(case), table=table)
+        return Planned(number, inputs, case_key(case, sweep.uncertainty_samples), table=table)
     except InputError as error:
         return Planned(number, inputs, None, str(error))
 
@@ -190,21 +194,24 @@ def _films(point: Planned) -> tuple[float, float]:
 Task = tuple[str, Mapping[str, Any]]
 
 
-def solve_point(table: Mapping[str, Any]) -> Outcome:
+def solve_point(table: Mapping[str, Any], uncertainty_samples: int | None = None) -> Outcome:
     """Solve a case given as plain data, in any process. Returns outcome of the point; no exception is raised:
-    an error becomes the reason of a failed point.
+    an error becomes the reason of a failed point. ``uncertainty_samples``, those of the probability of
+    breakdown of a bearing, which is not computed without them.
     """
     started = time.perf_counter()
-    status, reason, again, summary = _attempt(table)
+    status, reason, again, summary = _attempt(table, uncertainty_samples)
     # Messages of libraries may have several lines; the reason is a single one.
     reason = " ".join(reason.split())[:1000]
     return Outcome(status, reason, again, summary, time.perf_counter() - started, __version__, now())
 
 
-def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any] | None]:
+def _attempt(
+    table: Mapping[str, Any], samples: int | None
+) -> tuple[Status, str, bool, dict[str, Any] | None]:
     """Status and reason of a case, whether another try may succeed, and its summary."""
     try:
-        solved, summary, reason = _solved(table)
+        solved, summary, reason = _solved(table, samples)
     except MemoryLimitError as error:
         return "failed", str(error), True, None
     except InputError as error:
@@ -218,9 +225,11 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
     return ("solved", "", False, summary) if solved else ("not converged", reason, False, summary)
 
 
-def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
+def _solved(table: Mapping[str, Any], samples: int | None) -> tuple[bool, dict[str, Any], str]:
     """Whether a case converged, its summary, and the reason if it did not."""
     case = swept_case_of_dict(table)
+    if isinstance(case, BearingCase):
+        return _solve_bearing(case, samples)
     return _SOLVERS[type(case)](case)
 
 
@@ -231,11 +240,13 @@ def _solve_contact(case: Case) -> tuple[bool, dict[str, Any], str]:
     return result.converged, result.summary(), next(reasons, result.film.status)
 
 
-def _solve_bearing(case: BearingCase) -> tuple[bool, dict[str, Any], str]:
+def _solve_bearing(case: BearingCase, samples: int | None) -> tuple[bool, dict[str, Any], str]:
     bearing = solve_bearing(case, workers=1)
     # Without the analysis of the margin, which would solve twenty bearings for every point.
     summary = summary_of(bearing.solution)
     del summary["contacts"]  # with columns for every contact, the table would be too wide
+    if samples is not None:
+        summary |= tables_of_spread(spread_alone(bearing.solution, samples, SEED))
     return bearing.converged, summary, "a contact of the bearing is not converged"
 
 
@@ -249,19 +260,27 @@ def _solve_drive(case: DriveCase) -> tuple[bool, dict[str, Any], str]:
     return drive.converged, summary, "a contact of a bearing is not converged"
 
 
-# Solution of a case of each kind: whether it converged, its summary, and the reason if it did not.
+# Solution of a case of each other kind: whether it converged, its summary, and the reason if it did not.
 _SOLVERS: Mapping[type, Callable[[Any], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
-    {Case: _solve_contact, BearingCase: _solve_bearing, DriveCase: _solve_drive}
+    {Case: _solve_contact, DriveCase: _solve_drive}
 )
 
 
 def run_points(
-    tasks: Iterable[Task], crew: Crew, done: Callable[[Sequence[tuple[str, Outcome]]], None]
+    tasks: Iterable[Task],
+    crew: Crew,
+    done: Callable[[Sequence[tuple[str, Outcome]]], None],
+    uncertainty_samples: int | None = None,
 ) -> None:
-    """Solve points with a crew, as many at a time as it can take. Raises LostError if the crew cannot be
-    reached any more.
+    """Solve points with a crew, as many at a time as it can take, with their probability of breakdown where
+    it is asked for. Raises LostError if the crew cannot be reached any more.
     """
-    with closing(finished_tasks(tasks, crew, solve_point, _lost, _ran_out)) as batches:
+    solve = (
+        solve_point
+        if uncertainty_samples is None
+        else partial(solve_point, uncertainty_samples=uncertainty_samples)
+    )
+    with closing(finished_tasks(tasks, crew, solve, _lost, _ran_out)) as batches:
         for outcomes in batches:
             done(outcomes)
 

@@ -79,7 +79,7 @@ def _key_function(sweep: Sweep, group: PointGroup) -> Callable[[Inputs], str] | 
     table = cases[0].to_dict()
     set_keys(table, {key: _MARK.format(number) for number, key in enumerate(group.quantities)})
     # Texts, and between them the numbers of quantities.
-    pieces: list[Any] = _MARKS.split(text_of(table))
+    pieces: list[Any] = _MARKS.split(text_of(table, sweep.uncertainty_samples))
     pieces[1::2] = [group.quantities[int(number)] for number in pieces[1::2]]
 
     def key_of(inputs: Inputs) -> str:
@@ -88,12 +88,12 @@ def _key_function(sweep: Sweep, group: PointGroup) -> Callable[[Inputs], str] | 
         return hash_of("".join(values))
 
     # They differ where a case has further values that follow from the quantities.
-    same = is_quick(cases[0]) and all(map(_is_same(key_of), cases, corners))
+    same = is_quick(cases[0]) and all(map(_is_same(sweep, key_of), cases, corners))
     return key_of if same else None
 
 
-def _is_same(key_of: Callable[[Inputs], str]) -> Callable[[Any, Inputs], bool]:
-    return lambda case, inputs: key_of(inputs) == case_key(case)
+def _is_same(sweep: Sweep, key_of: Callable[[Inputs], str]) -> Callable[[Any, Inputs], bool]:
+    return lambda case, inputs: key_of(inputs) == case_key(case, sweep.uncertainty_samples)
 
 
 def _corners(group: PointGroup) -> list[Inputs]:

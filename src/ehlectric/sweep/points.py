@@ -104,6 +104,8 @@ class SweepPoints(Values):
         Seed of the random numbers of a "sobol" design.
     title : str
         Title of the sweep, for figures.
+    uncertainty_samples : int
+        Samples of the probability of breakdown at each point; 0 where it is not computed.
     """
 
     case: SweptCase
@@ -114,6 +116,7 @@ class SweepPoints(Values):
     points: tuple[Point, ...]
     seed: int = 0
     title: str = ""
+    uncertainty_samples: int = 0
 
     @property
     def varied(self) -> tuple[str, ...]:

@@ -123,6 +123,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
             "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
             "samples": results.samples,
             "seed": results.seed,
+            "uncertainty_samples": results.uncertainty_samples,
         },
     )
 
@@ -188,6 +189,8 @@ class SweepResults(Shown, SweepPoints):
         Seed of the random numbers of a "sobol" design.
     title : str
         Title of the sweep, for figures.
+    uncertainty_samples : int
+        Samples of the probability of breakdown at each point; 0 where it is not computed.
     """
 
     def values(self, key: str) -> Array:

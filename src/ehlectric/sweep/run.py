@@ -162,4 +162,4 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
     here = solvers.one_machine and weight_of(batches) < _HERE
     left = run_batches(batches, this_process() if here else solvers, done)
     alone = chain.from_iterable(batch.tasks() for batch in left)
-    run_points(chain(alone, tasks(others)), solvers, done)
+    run_points(chain(alone, tasks(others)), solvers, done, sweep.uncertainty_samples)

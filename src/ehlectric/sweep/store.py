@@ -54,6 +54,9 @@ SEALS = "seals"
 
 _DESIGNS = ("grid", "paired", "sobol")
 
+# Setting of the samples of the probability of breakdown.
+_UNCERTAINTY = "uncertainty_samples"
+
 # Most levels of a summary; those that are written have five.
 _DEEPEST = 20
 
@@ -143,6 +146,7 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
         points=tuple(_points(rows, case)),
         seed=settings["seed"],
         title=settings["title"],
+        uncertainty_samples=settings[_UNCERTAINTY],
     )
     _check_design(results)
     return results
@@ -187,13 +191,17 @@ _SETTINGS: Mapping[str, Callable[[Any], bool]] = MappingProxyType(
         "samples": _is_count,
         "seed": _is_count,
         "title": is_text,
+        _UNCERTAINTY: _is_count,
     }
 )
+
+# Settings that files of earlier versions do not have, as JSON.
+_ADDED = MappingProxyType({_UNCERTAINTY: "0"})
 
 
 def _settings(rows: Sequence[tuple[Any, Any]]) -> dict[str, Any]:
     """Settings of a sweep by name, checked."""
-    texts = dict(rows)
+    texts = _ADDED | dict(rows)
     settings = {}
     for name, right in _SETTINGS.items():
         if name not in texts:
@@ -410,6 +418,7 @@ class Store:
             "samples": sweep.samples or 0,
             "seed": sweep.seed,
             "title": sweep.title,
+            _UNCERTAINTY: sweep.uncertainty_samples or 0,
             "version": __version__,
             "date": now(),
         }

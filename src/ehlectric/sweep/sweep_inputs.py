@@ -16,6 +16,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.uncertainty import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import WRITTEN, Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
@@ -288,6 +289,10 @@ class Sweep(Tabled, Table):
     vary: Mapping[str, Any]
     samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
     seed: Annotated[int, Count(0, 2**32, "of the random numbers of a sobol design")] = 0
+    uncertainty_samples: (
+        Annotated[int, Count(LEAST_SAMPLES, MOST_SAMPLES, "of the probability of breakdown at each point")]
+        | None
+    ) = None
 
     @field_validator("case")
     @classmethod
@@ -336,7 +341,22 @@ class Sweep(Tabled, Table):
             raise InputError("vary", got=counts, takes="as many of each in a paired design")
         if self.size > MOST_POINTS:
             raise InputError("vary", got=f"{self.size} points", takes=f"at most {MOST_POINTS}")
+        if self.uncertainty_samples is not None:
+            self._check_uncertainty(self.uncertainty_samples)
         return self
+
+    def _check_uncertainty(self, samples: int) -> None:
+        """Check that points can have a probability of breakdown, and its number of samples."""
+        key, case = "uncertainty_samples", self.case
+        if not isinstance(case, BearingCase):
+            raise InputError.worded(key, "is only for the sweep of a bearing, whose margin has a probability")
+        for table, present in (("motor", case.motor is not None), ("discharge", case.discharge.has_strength)):
+            if not present and not any(varied.startswith(f"{table}.") for varied in self.vary):
+                what = "[motor]" if table == "motor" else "dielectric strength in [discharge]"
+                text = f"needs a margin, and the bearing has no {what}"
+                raise InputError.worded(key, text, takes="a bearing with [motor] and a dielectric strength")
+        if samples & (samples - 1):
+            raise InputError(key, got=samples, takes="a power of two, such as 256")
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

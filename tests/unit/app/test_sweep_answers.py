@@ -11,7 +11,7 @@ import pytest
 
 from ehlectric.app.calls import SWEEP_SOLVED
 from ehlectric.app.compute import sweep_answers
-from ehlectric.app.page_inputs import Inputs, Range, with_ranges
+from ehlectric.app.page_inputs import Inputs, Range, sweep_file, with_ranges, with_shown
 from ehlectric.app.pages.frame import SWEEP, start
 from ehlectric.app.work import Limits, Work
 from ehlectric.cases.drive_case import case_of_dict
@@ -292,3 +292,23 @@ def test_tables_of_an_unfinished_sweep_can_be_downloaded(folder, tmp_path):
     shutil.copy(folder / "sweep.sqlite", again)
     assert {"sweep.sqlite", "sweep.csv", "sweep.nc"} <= set(sweep_answers.files(str(again)))
     assert (again / "sweep.csv").read_bytes() == (folder / "sweep.csv").read_bytes()
+
+
+@pytest.mark.slow
+def test_a_probability_is_shown_of_points_that_were_asked_for_it(tmp_path):
+    """A sweep without the samples is another one, whose map is not that of the probability."""
+    key, place = "uncertainty.breakdown_probability", str(tmp_path / "sweep")
+    base = CASE | {"contacts": "atlas"}
+    assert sweep_answers.choices(base).values[key] == "Probability of breakdown"
+    ranges = [Range("bearing.inner_speed", "1000 rpm", "9000 rpm", 3)]
+    alone = with_ranges(Inputs({"case": base}), ranges)
+    asked = sweep_file(with_shown(alone, key, None))
+    sweep_answers.solved(dict(asked.table), place, 1, silent)
+    assert sweep_answers.seen(place, key, dict(alone.table)) is None
+    view = sweep_answers.seen(place, key, dict(asked.table))
+    assert view.chart.title == "Probability of breakdown"
+    drawn = [point.value for point in view.chart.points]
+    assert drawn == sorted(drawn, reverse=True)
+    assert drawn == read_sweep(place).values(key).tolist()
+    assert key in view.values
+    assert 0.0 < sweep_answers.planned(dict(asked.table), 1).seconds < 60.0

@@ -133,6 +133,7 @@ def test_kinds_of_the_examples():
         "bearing_greased": "bearing",
         "bearing_regime_map": "sweep",
         "bearing_thin_oil": "bearing",
+        "breakdown_probability_map": "sweep",
         "duty_wltc": "bearing",
         "duty_drive": "drive",
         "drive": "drive",

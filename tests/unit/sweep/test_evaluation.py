@@ -11,6 +11,7 @@ from ehlectric.runtime.values import is_number
 from tests.helpers.bearings import OIL as SHEET_OIL
 from tests.helpers.bearings import OTHERS
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 
 MOTOR = OTHERS["motor"]
 OIL = {**SHEET_OIL, "temperature": {**SHEET_OIL["temperature"], "thermal_conductivity": "0.14 W/m/K"}}
@@ -139,3 +140,20 @@ def test_both_bearings_of_a_drive_are_evaluated():
             assert found[f"{end}.converged"].values[k]
     with pytest.raises(InputError, match="a key of the drive itself"):
         evaluate(drive, {"source.dc_link_voltage": ["500 V"]})
+
+
+@each(
+    "inputs",
+    [
+        {"bearing.temperature": [300.0, 330.0]},
+        {"motor.common_mode_voltage": [100.0, 300.0]},
+        {"discharge.dielectric_strength": [1e7, 2e7]},
+    ],
+)
+def test_inputs_that_change_no_load_are_evaluated_alone(inputs):
+    """Elements without load lie outside the load zone of this bearing, with loads of their own."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"})
+    found = evaluate(case, inputs)
+    for place, margin in enumerate(found["bearing.margin"].values):
+        single = case.replace({key: values[place] for key, values in inputs.items()})
+        assert margin == pytest.approx(solve_bearing(single).margin, rel=1e-8)

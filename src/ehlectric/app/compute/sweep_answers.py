@@ -471,7 +471,8 @@ def is_stored(results: SweepResults, table: Mapping[str, Any]) -> bool:
     # A case compares by its file, whose numbers have all digits.
     same = (results.design, results.case.to_toml()) == (asked.design, asked.case.to_toml())
     axes = [[(key, list(axis)) for key, axis in one.axes.items()] for one in (results, asked)]
-    return same and axes[0] == axes[1]
+    samples = asked.uncertainty_samples or 0
+    return same and axes[0] == axes[1] and samples == results.uncertainty_samples
 
 
 def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:

@@ -38,6 +38,7 @@ from ehlectric.app.page_inputs import (
     sweep_file,
     sweep_inputs,
     with_ranges,
+    with_shown,
 )
 from ehlectric.app.pages import page_parts
 from ehlectric.app.pages.downloads import Downloads
@@ -561,7 +562,7 @@ class SweepPage:
         self._job: Job | None = None
         self._started = self._next = 0.0
         self._first = 0
-        # Time of a point in the last run, on all its processes together [s], and its base case.
+        # Time of a point in the last run, on all its processes together [s], and what it depends on.
         self._pace: tuple[Any, float] | None = None
         self._looking = self._valid = False
 
@@ -644,7 +645,7 @@ class SweepPage:
 
     def _paced(self, plan: SweepPlan) -> SweepPlan:
         """Plan with the time that the points of the same base case took, where some are solved."""
-        if self._pace is None or self._pace[0] != self.session.inputs.value("case"):
+        if self._pace is None or self._pace[0] != _work_of(self.session.inputs):
             return plan
         return replace(plan, seconds=plan.points * self._pace[1])
 
@@ -664,7 +665,12 @@ class SweepPage:
 
     async def _show(self, key: str) -> None:
         """Show another result of the points."""
-        self.session.history.push(self.session.inputs.changed({"show": key}))
+        before, inputs = sweep_file(self.session.inputs), with_shown(self.session.inputs, key, self._ran)
+        if sweep_file(inputs) != before:
+            # Points need other results, which takes another time.
+            await self._set(inputs)
+            return
+        self.session.history.push(inputs)
         show_address(self.session.inputs, _PATH)
         if self._ran is not None:
             await self._read()
@@ -774,7 +780,7 @@ class SweepPage:
         self.bar.value = job.done / job.of
         solved, passed = job.done - self._first, time.monotonic() - self._started
         if solved > 0 and self._wanted is not None:
-            self._pace = (self._wanted.value("case"), passed / solved)
+            self._pace = (_work_of(self._wanted), passed / solved)
         more = f" ({job.text})" if job.text else ""
         self.state.text = f"{job.done} of {job.of} points done{more}{self._left(job, 'about {} left')}"
 
@@ -836,6 +842,11 @@ class SweepPage:
         for button in self.downloads:
             button.set_enabled(not running and same)
         self.map.outdated(old=self._ran is not None and not same)
+
+
+def _work_of(inputs: Inputs) -> tuple[Any, Any]:
+    """Inputs on which the time of a point depends: its base case and its samples."""
+    return inputs.value("case"), inputs.value("uncertainty_samples")
 
 
 def duration(seconds: float) -> str:

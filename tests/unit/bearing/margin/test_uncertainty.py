@@ -13,8 +13,8 @@ from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.uncertainty import (
     FILMS,
     SCATTER,
+    Design,
     _computed,
-    _Design,
     margin_band,
     quick_chance,
     sampling_error,
@@ -71,7 +71,7 @@ def test_the_probability_is_that_of_plain_random_points(usual):
     """4000 points of an independent generator, whose own sampling error counts too."""
     solution, margins = usual
     found = uncertainty_of(solution, margins)
-    design = _Design.of(solution)
+    design = Design.of(solution)
     at = np.random.default_rng(11).random((4000, design.width))
     computed, solved = _computed(design, margins, at)
     assert solved.all()
@@ -85,7 +85,7 @@ def test_the_probability_is_that_of_plain_random_points(usual):
 def test_the_strength_alone_has_an_even_distribution(usual):
     """Ranges that close in on all other inputs leave the even distribution of the strength."""
     solution, margins = usual
-    design = _Design.of(solution)
+    design = Design.of(solution)
     narrow = {
         change.key: [change.value * (1.0 - 1e-6), change.value * (1.0 + 1e-6)] for change in design.computed
     }
@@ -169,7 +169,7 @@ def test_the_same_seed_gives_the_same_numbers(usual):
 def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
     solution, margins = usual
     found = uncertainty_of(solution, margins)
-    design, rng, below = _Design.of(solution), np.random.default_rng(7), 0.0
+    design, rng, below = Design.of(solution), np.random.default_rng(7), 0.0
     for _ in range(20):
         at = rng.random((10000, design.width))
         computed, _ = _computed(design, margins, at)

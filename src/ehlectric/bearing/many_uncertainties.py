@@ -1,0 +1,142 @@
+"""Distributions of the margins of bearings at many points of operation, computed together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, IntArray
+from ehlectric.bearing.bearing_discharges import first_margin
+from ehlectric.bearing.many_points import gathered, many_of, solved_parts
+from ehlectric.bearing.margin import TOUCHING_ALREADY, margin_and_lambda
+from ehlectric.bearing.solution import BearingSolution, film_error
+from ehlectric.bearing.uncertainty import (
+    NO_MARGINS,
+    Design,
+    MarginSpread,
+    sobol_points,
+    spread_at,
+    spread_of_result,
+    without_spread,
+)
+from ehlectric.errors import InputError
+from ehlectric.runtime.files import plain
+
+# Distribution of a point; None where it has no margin, and the error where it has none at any other inputs.
+Spread = MarginSpread | InputError | None
+
+
+def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Spread]:
+    """Distributions of the margins of a solution of m bearings with quick contacts.
+
+    Every bearing has the same Sobol points of its uncertain inputs, so that differences between bearings are
+    no differences between samples. ``samples``, number of points, a power of 2; ``seed`` of the design.
+    Each distribution is that of ``spread_of_result`` for the bearing alone.
+    """
+    case = solution.case
+    spreads: list[Spread] = [None] * case.shape[0]
+    own = first_margin(solution)
+    if own is None:
+        return spreads
+    coarse, _ = gathered(solved_parts(case, detail="coarse"), margin_and_lambda, (2, len(spreads)))
+    own, off = np.broadcast_to(own, coarse.shape), np.broadcast_to(film_error(solution), coarse.shape)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factors = own / coarse
+    for place in np.flatnonzero(np.isfinite(own) & ~(coarse > 0.0)).tolist():
+        spreads[place] = InputError.worded(None, NO_MARGINS if np.isnan(coarse[place]) else TOUCHING_ALREADY)
+    known = np.flatnonzero(np.isfinite(own) & (coarse > 0.0))
+    designs = {place: Design.of_case(case.single(place), float(off[place])) for place in known.tolist()}
+    for places in _alike(designs):
+        one = [designs[place] for place in places]
+        found = _spreads(solution, np.array(places), one, factors[places], samples=samples, seed=seed)
+        for place, spread in zip(places, found, strict=True):
+            spreads[place] = spread
+    return spreads
+
+
+def _alike(designs: dict[int, Design]) -> Iterator[list[int]]:
+    """Places of designs whose uncertain inputs change the same keys of a case."""
+    groups: dict[object, list[int]] = {}
+    for place, design in designs.items():
+        changed = tuple(tuple(change.changes(change.value)) for change in design.computed)
+        groups.setdefault((changed, design.width), []).append(place)
+    yield from groups.values()
+
+
+def _spreads(
+    solution: BearingSolution,
+    places: IntArray,
+    designs: Sequence[Design],
+    factors: Array,
+    *,
+    samples: int,
+    seed: int,
+) -> list[Spread]:
+    """Distributions of some points of a solution, whose designs change the same keys.
+
+    ``factors``, margins of the points over those of bearings that are solved together, shape (m,).
+    """
+    at = sobol_points(designs[0].width, samples, seed)
+    try:
+        margins = factors * _margins(solution, places, designs, at)
+    except InputError as error:
+        # It may be that of a single point.
+        if len(designs) == 1:
+            return [error]
+        alone = [
+            _spreads(
+                solution,
+                places[k : k + 1],
+                designs[k : k + 1],
+                factors[k : k + 1],
+                samples=samples,
+                seed=seed,
+            )
+            for k in range(len(designs))
+        ]
+        return [spread for (spread,) in alone]
+    return [_spread(design, margin, at, seed) for design, margin in zip(designs, margins.T, strict=True)]
+
+
+def _margins(solution: BearingSolution, places: IntArray, designs: Sequence[Design], at: Array) -> Array:
+    """Margins of m points at n samples, without the factors of their designs, shape (n, m); 0 where the
+    surfaces touch, NaN without a result.
+    """
+    count, case = len(at), solution.case
+    # All points next to each other for each sample: the parts of a case that are solved together then have
+    # points from the whole range, whose interpolation tables serve the next part, too.
+    columns = {key: np.tile(array[places], (count, 1)) for key, array in case.arrays().items()}
+    own = [design.arrays(at) for design in designs]
+    columns |= {key: np.stack([arrays[key] for arrays in own], axis=-1) for key in own[0]}
+    arrays = {key: column.ravel() for key, column in columns.items()}
+    many = many_of(case.single(int(places[0])), arrays, count * len(designs))
+    margins, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, count * len(designs)))
+    rows: Array = margins.reshape(count, len(designs))
+    return rows
+
+
+def _spread(design: Design, margins: Array, at: Array, seed: int) -> Spread:
+    """Distribution of one point from its margins at samples, shape (n,), or the reason why it has none."""
+    try:
+        return spread_at(design, margins, at, seed)
+    except InputError as error:
+        return error
+
+
+def spread_alone(solution: BearingSolution, samples: int, seed: int) -> Spread:
+    """Distribution of the margin of one solved bearing, or the reason why it has none."""
+    try:
+        return spread_of_result(solution, samples, seed)
+    except InputError as error:
+        return error
+
+
+def tables_of_spread(spread: Spread) -> dict[str, Any]:
+    """Table ``uncertainty`` of summary.json without the shares of the inputs, and where a bearing with a
+    margin has no such table, the reason as ``margin.left_out``.
+    """
+    if isinstance(spread, InputError):
+        return {"uncertainty": None, "margin": {"left_out": [without_spread(spread)]}}
+    return {"uncertainty": None if spread is None else plain(spread.summary())}
