@@ -3,6 +3,7 @@
 import csv
 import os
 import random
+import re
 import signal
 import sqlite3
 import subprocess
@@ -72,8 +73,9 @@ def told_of(rows, doubtful):
 
 
 def failures(stderr):
-    """What is on stderr beside the warnings of solved points."""
-    return "".join(line for line in stderr.splitlines(True) if " solved points have " not in line)
+    """What is on stderr beside the warnings of solved points and, on a slow machine, the progress."""
+    known = re.compile(r" solved points have |^\d+ of \d+ points, .* left$")
+    return "".join(line for line in stderr.splitlines(True) if not known.search(line.rstrip("\n")))
 
 
 def saved(folder):
