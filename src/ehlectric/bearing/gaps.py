@@ -41,7 +41,7 @@ from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius
 from ehlectric.formulas.hertz_outside import unit_deflection
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Raceway:
     """Groove of one ring, and the ball in it; numbers, or arrays of shape (...) for many points."""
 

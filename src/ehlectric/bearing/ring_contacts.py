@@ -158,6 +158,20 @@ class RingContacts(Generic[G_co]):
         return dry_contact(1.0, rx, ry, self.conditions.modulus)
 
     @cached_property
+    def raceway(self: RingContacts[BallBearing]) -> Raceway:
+        """Groove of the ring, with a ball at the contact angle."""
+        geometry, shoulder_height = self.conditions.geometry, self.conditions.bearing.shoulder_height
+        assert shoulder_height is not None
+        return Raceway.of(
+            geometry.ball_diameter,
+            geometry.pitch_diameter,
+            geometry.inner_groove if self.inner else geometry.outer_groove,
+            shoulder_height,
+            outer=not self.inner,
+            contact_angle=self.angle,
+        )
+
+    @cached_property
     def ratio(self) -> Numbers:
         """Ratio of the semi-axes of a ball's contact, across over along entrainment."""
         return self.unit_contact.semi_axis_y / self.unit_contact.semi_axis_x
@@ -301,7 +315,7 @@ class BallContact:
         rim = np.ones_like(thickness, dtype=bool)
         rim[1:-1, 1:-1] = False
         domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
-        raceway, modulus = raceway_of(self.ring), self.ring.conditions.modulus
+        raceway, modulus = self.ring.raceway, self.ring.conditions.modulus
         matched = match_film(raceway, self.dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
         return as_float(outside_capacitance(raceway, matched, domain)), as_float(matched.mismatch)
 
@@ -505,20 +519,6 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
     return error.retold("bearing", f"{where}: {text}")
 
 
-def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:
-    """Groove of one ring, with a ball at the contact angle."""
-    geometry, shoulder_height = ring.conditions.geometry, ring.conditions.bearing.shoulder_height
-    assert shoulder_height is not None
-    return Raceway.of(
-        geometry.ball_diameter,
-        geometry.pitch_diameter,
-        geometry.inner_groove if ring.inner else geometry.outer_groove,
-        shoulder_height,
-        outer=not ring.inner,
-        contact_angle=ring.angle,
-    )
-
-
 def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     """Raceway of one ring, with a roller on it."""
     radii = ring.radii
@@ -527,7 +527,7 @@ def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
 
 def rigid_ball(ring: RingContacts[BallBearing], gap: Numbers) -> Numbers:
     """Capacitance in vacuum [F] of a rigid ball and its groove, a gap [m] apart, shape (...)."""
-    return as_float(rigid_balls(raceway_of(ring), gap))
+    return as_float(rigid_balls(ring.raceway, gap))
 
 
 def rigid_roller(ring: RingContacts[RollerBearing], gap: Numbers) -> Numbers:
