@@ -148,7 +148,7 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
         if table is not None:
             found[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
     ends = -inlet[left], outlet[left], side[left]
-    found[left] = around_directly(contacts.races(left), b[left], ends, films[left])[0]
+    found[left] = around_directly(contacts.races(left), b[left], ends, films[left], nodes=law.nodes)[0]
     return found.reshape(contacts.shape)
 
 
@@ -271,7 +271,8 @@ def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> S
         inlet, outlet, side = law.ends(state, length, unit)
         b = np.exp(at[1]) / (unit.ratio * side)
         films = middle * b**2 / race.radius_x
-        return around_directly(race, b, (-inlet, outlet, side), films, shoulders=False)[0]
+        ends = -inlet, outlet, side
+        return around_directly(race, b, ends, films, shoulders=False, nodes=law.nodes)[0]
 
     return _normalised(capacitance, box, law.coarseness * (_LONG if state[0] else _SHORT))
 

@@ -294,7 +294,7 @@ def _around_all(quick: QuickContact) -> tuple[Array, Array]:
         return np.broadcast_to(contact.length * tails, shape), np.zeros(shape)
     race = contact.ring.raceway
     if not contact.ring.shape:
-        return around_directly(race, b, quick.domain, central)
+        return around_directly(race, b, quick.domain, central, nodes=contact.domains.nodes)
     return around_of_balls(race, b, (-inlet, outlet, side), central, contact.domains), np.full(shape, np.nan)
 
 

@@ -15,6 +15,7 @@ from ehlectric.bearing.ball_gaps import DomainLaw
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gap_tables import rigid_balls, rigid_rollers
 from ehlectric.bearing.gaps import (
+    COARSE,
     Raceway,
     RollerRaceway,
     match_film,
@@ -64,8 +65,9 @@ BALL_DOMAINS = DomainLaw(
     most=(_MOST[0], 0.1 * _MOST[0], _MOST[1]),
 )
 
-# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5.
-_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3)
+# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
+# those of integrals below 1e-6.
+_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, nodes=COARSE)
 
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
 # film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
