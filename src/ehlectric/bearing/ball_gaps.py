@@ -17,7 +17,9 @@ from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array, IntArray, Numbers
 from ehlectric.bearing.gaps import (
+    FINE,
     LoadedContact,
+    Nodes,
     Raceway,
     beside,
     missing_gap,
@@ -52,6 +54,7 @@ class DomainLaw:
     # Largest inlet, outlet and side.
     most: tuple[float, float, float]
     coarseness: float = 1.0  # factor on the errors of polynomials in place of integrals
+    nodes: Nodes = FINE  # nodes of the integrals around films
 
     def ends(self, state: tuple[int, ...], length: Numbers, unit: UnitContact) -> Ends:
         """Inlet, outlet and side that are default, follow from a length, or are largest: ``state`` 0, 1 or 2.
@@ -167,14 +170,16 @@ def around_directly(
     films: Numbers,
     *,
     shoulders: bool = True,
+    nodes: Nodes = FINE,
 ) -> tuple[Array, Array]:
     """Capacitance between balls and raceway outside the domains of films: dry gaps widened by a number.
 
     The gap continues the film at the edge of its domain. ``b``, semi-axis of the dry contact along
     entrainment [m]; ``domain``, inlet and outlet over b and side over the semi-axis across entrainment;
     ``films``, film thickness in the middle [m]; they broadcast with the numbers of ``race`` to the shape
-    (...). Returns the capacitance in vacuum [F], shape (...), and the largest relative difference, at the
-    edge of the domain, between the film thickness and the gap outside, shape (...).
+    (...); ``nodes``, numbers of quadrature nodes. Returns the capacitance in vacuum [F], shape (...), and the
+    largest relative difference, at the edge of the domain, between the film thickness and the gap outside,
+    shape (...).
     """
     varies = [name for name, value in vars(race).items() if np.ndim(value) > 0]
     numbers = (b, films, *domain, *(getattr(race, name) for name in varies))
@@ -185,11 +190,13 @@ def around_directly(
         columns = [values[start : start + _BLOCK] for values in flat]
         values: dict[str, Any] = dict(zip(varies, columns[5:], strict=True))
         part = replace(race, **values)
-        found[:, start : start + _BLOCK] = _around(part, *columns[:5], shoulders=shoulders)
+        found[:, start : start + _BLOCK] = _around(part, *columns[:5], shoulders=shoulders, nodes=nodes)
     return found[0].reshape(shape)[()], found[1].reshape(shape)[()]
 
 
-def _around(race: Raceway, b: Array, films: Array, *domain: Array, shoulders: bool) -> tuple[Array, Array]:
+def _around(
+    race: Raceway, b: Array, films: Array, *domain: Array, shoulders: bool, nodes: Nodes
+) -> tuple[Array, Array]:
     """As ``around_directly``, for arrays of shape (m,)."""
     unit = UnitContact.of(race.radius_x, race.radius_y)
     inlet, outlet, side = domain
@@ -205,7 +212,7 @@ def _around(race: Raceway, b: Array, films: Array, *domain: Array, shoulders: bo
         DryContact(b, a, unit.opening * scale / a, 0.0), 1.0, offset, mismatch, unit.ratio
     )
     ends = b * inlet, b * outlet, a * side
-    return outside_capacitance(race, contact, ends, shoulders=shoulders), mismatch
+    return outside_capacitance(race, contact, ends, shoulders=shoulders, nodes=nodes), mismatch
 
 
 # Nodes and weights on 0 to 1 with which the gap between two domains is integrated.

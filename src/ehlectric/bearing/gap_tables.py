@@ -56,6 +56,25 @@ _Box = tuple[tuple[float, ...], tuple[float, ...]]
 _Size = tuple[float, float, float, float, bool]
 
 
+# Raceways of which the points are kept: those of both rings of some bearings.
+_KEPT = 8
+
+
+@lru_cache(maxsize=_KEPT)
+def _points(race: Raceway) -> tuple[Raceway, UnitContact, tuple[int, ...]]:
+    """Raceways of all points in one row, their unit contacts, shape (n,), and the shape (...) of the points.
+
+    They are computed once for all loads and gaps of the same raceway.
+    """
+    shape = np.broadcast_shapes(*(np.shape(value) for value in vars(race).values()))
+    varies: dict[str, Any] = {
+        k: np.broadcast_to(v, shape).ravel() for k, v in vars(race).items() if np.ndim(v)
+    }
+    row, size = replace(race, **varies), int(np.prod(shape, dtype=int))
+    radii = (np.broadcast_to(radius, (size,)) for radius in (row.radius_x, row.radius_y))
+    return row, UnitContact.of(*radii), shape
+
+
 @dataclass(frozen=True)
 class _Contacts:
     """Contacts of many points in one row."""
@@ -68,17 +87,10 @@ class _Contacts:
     @classmethod
     def of(cls, race: Raceway, *numbers: Numbers) -> _Contacts:
         """Contacts with numbers that broadcast with those of their raceways."""
-        points = np.broadcast_shapes(*(np.shape(value) for value in vars(race).values()))
+        row, unit, points = _points(race)
         shape = np.broadcast_shapes(points, *map(np.shape, numbers))
-        varies: dict[str, Any] = {
-            k: np.broadcast_to(v, points).ravel() for k, v in vars(race).items() if np.ndim(v)
-        }
-        race = replace(race, **varies)
-        size = int(np.prod(points, dtype=int))
-        radii = (np.broadcast_to(radius, (size,)) for radius in (race.radius_x, race.radius_y))
-        unit = UnitContact.of(*radii)
-        point = np.broadcast_to(np.arange(size).reshape(points), shape).ravel()
-        return cls(race, unit, point, shape)
+        point = np.broadcast_to(np.arange(unit.ratio.size).reshape(points), shape).ravel()
+        return cls(row, unit, point, shape)
 
     @property
     def angles(self) -> Array:
@@ -136,7 +148,7 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
         if table is not None:
             found[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
     ends = -inlet[left], outlet[left], side[left]
-    found[left] = around_directly(contacts.races(left), b[left], ends, films[left])[0]
+    found[left] = around_directly(contacts.races(left), b[left], ends, films[left], nodes=law.nodes)[0]
     return found.reshape(contacts.shape)
 
 
@@ -259,7 +271,8 @@ def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> S
         inlet, outlet, side = law.ends(state, length, unit)
         b = np.exp(at[1]) / (unit.ratio * side)
         films = middle * b**2 / race.radius_x
-        return around_directly(race, b, (-inlet, outlet, side), films, shoulders=False)[0]
+        ends = -inlet, outlet, side
+        return around_directly(race, b, ends, films, shoulders=False, nodes=law.nodes)[0]
 
     return _normalised(capacitance, box, law.coarseness * (_LONG if state[0] else _SHORT))
 

@@ -41,7 +41,7 @@ from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius
 from ehlectric.formulas.hertz_outside import unit_deflection
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Raceway:
     """Groove of one ring, and the ball in it; numbers, or arrays of shape (...) for many points."""
 
@@ -214,10 +214,28 @@ def reach(race: Raceway, gap: Numbers, psi: Array, obliquity: float) -> Array:
 # Quadrature nodes along rolling and across the groove; tests check that the integral is accurate to 1e-8.
 _ALONG, _ACROSS = 40, 64
 
-# Quadrature nodes around a film: along rolling and across the groove beside it; along rolling ahead of it
-# and behind it; across the groove ahead of it, and in each of four parts behind it. The gap changes fastest
-# behind a film, which ends close to the Hertz ellipse. The error of each part is below 1e-9 of the whole.
-_BESIDE, _TAILS, _AHEAD, _BEHIND = (12, 8), 20, 14, 10
+
+@dataclass(frozen=True)
+class Nodes:
+    """Numbers of quadrature nodes around a film.
+
+    The gap changes fastest behind a film, which ends close to the Hertz ellipse.
+    """
+
+    beside: tuple[int, int]  # along rolling and across the groove, on either side of the film
+    tails: int  # along rolling, ahead of the film and behind it
+    ahead: int  # across the groove ahead of the film
+    behind: int  # across the groove in each of four parts behind the film
+
+    @property
+    def number(self) -> int:
+        """Number of all nodes."""
+        return 2 * self.beside[0] * self.beside[1] + self.tails * (self.ahead + 4 * self.behind)
+
+
+# With fine nodes the error of each part is below 1e-9 of the whole contact, with coarse ones the error of all
+# parts is below 1e-6 of them.
+FINE, COARSE = Nodes((12, 8), 20, 14, 10), Nodes((9, 6), 14, 10, 7)
 
 # Largest distance of the foci from the middle over the side of a film, for the nodes beside it.
 _INSIDE = 0.95
@@ -311,6 +329,7 @@ def outside_capacitance(
     *,
     obliquity: float = _HALF,
     shoulders: bool = True,
+    nodes: Nodes = FINE,
 ) -> Numbers:
     """Capacitance between a loaded ball and its raceway outside the domain of the solved film.
 
@@ -326,7 +345,8 @@ def outside_capacitance(
     shape (...); ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless;
     ``obliquity``, end of the integral along rolling, as in ``groove_capacitance`` [rad]; ``shoulders``, False
     for a groove that continues beyond its shoulders up to the side of a domain that is wider than the groove,
-    where the capacitance inside this domain is subtracted: an analytic function. The numbers of ``race`` and
+    where the capacitance inside this domain is subtracted: an analytic function; ``nodes``, numbers of
+    quadrature nodes. The numbers of ``race`` and
     of ``contact`` have the shape (...). Returns capacitance [F], shape (...).
     """
     dry = contact.dry
@@ -339,10 +359,9 @@ def outside_capacitance(
         a = ratio * b
         opening = _opening_of(DryContact(b, a, pressure, 0.0), modulus, 2, ratio)
         focus = np.sqrt(np.maximum(0.0, a**2 - b**2))
-        return _outside(race, offset, opening, (*domain, focus), obliquity, shoulders=shoulders)
+        return _outside(race, offset, opening, (*domain, focus), obliquity, nodes, shoulders=shoulders)
 
-    nodes = 2 * _BESIDE[0] * _BESIDE[1] + _TAILS * (_AHEAD + 4 * _BEHIND)
-    return epsilon_0 * relative_permittivity * _in_chunks(outside, shape, nodes, race, *numbers)
+    return epsilon_0 * relative_permittivity * _in_chunks(outside, shape, nodes.number, race, *numbers)
 
 
 def _outside(
@@ -351,6 +370,7 @@ def _outside(
     opening: Opening,
     lengths: tuple[Numbers, ...],
     obliquity: float,
+    nodes: Nodes,
     *,
     shoulders: bool,
 ) -> Array:
@@ -358,13 +378,14 @@ def _outside(
     inlet, outlet, side, focus = lengths
     rg = race.groove_radius
     total: Array = np.zeros(())
-    for (psi, weights), begins, number, nodes in (
+    along, across = nodes.beside
+    for (psi, weights), begins, number, count in (
         # Inlet and outlet are alike on both sides of the film.
-        (_sides(race, side / rg, focus / rg, shoulders=shoulders), None, 2.0, _BESIDE[0]),
-        _tails(race, tuple(end / rg for end in (-inlet, outlet, side, focus)), shoulders=shoulders),
+        (_sides(race, side / rg, focus / rg, across, shoulders=shoulders), None, 2.0, along),
+        _tails(race, tuple(end / rg for end in (-inlet, outlet, side, focus)), nodes, shoulders=shoulders),
     ):
         starts = None if begins is None else begins * beside(rg)
-        charges = _along(race, offset, psi, starts, obliquity, opening, nodes)
+        charges = _along(race, offset, psi, starts, obliquity, opening, count)
         total = total + number * np.add.reduce(weights * charges, axis=-1)
     return total
 
@@ -454,7 +475,9 @@ def _in_groove(race: Raceway, *, shoulders: bool) -> Callable[[Numbers], Numbers
     return lambda angle: np.minimum(np.maximum(angle, low), high) if shoulders else angle
 
 
-def _sides(race: Raceway, edge: Numbers, focus: Numbers, *, shoulders: bool) -> tuple[Array, Array]:
+def _sides(
+    race: Raceway, edge: Numbers, focus: Numbers, nodes: int, *, shoulders: bool
+) -> tuple[Array, Array]:
     """Nodes psi [rad] and weights from the sides of a film, at +-``edge`` [rad], to the shoulders.
 
     The deflection is singular at the foci of the ellipse, at +-``focus`` [rad].
@@ -462,15 +485,15 @@ def _sides(race: Raceway, edge: Numbers, focus: Numbers, *, shoulders: bool) -> 
     angle, within = race.contact_angle, _in_groove(race, shoulders=shoulders)
     focus = np.minimum(focus, _INSIDE * edge)
     scale = 0.5 * (edge - focus)
-    low = stretched(-race.shoulder_angle - angle + focus, within(-edge) + focus, scale, _BESIDE[1])
-    high = stretched(within(edge) - focus, race.shoulder_angle - angle - focus, scale, _BESIDE[1])
+    low = stretched(-race.shoulder_angle - angle + focus, within(-edge) + focus, scale, nodes)
+    high = stretched(within(edge) - focus, race.shoulder_angle - angle - focus, scale, nodes)
     middle = beside(angle)
     psi = middle - beside(focus) + low[0], middle + beside(focus) + high[0]
     return np.concatenate(psi, axis=-1), np.concatenate([low[1], high[1]], axis=-1)
 
 
 def _tails(
-    race: Raceway, angles: tuple[Numbers, ...], *, shoulders: bool
+    race: Raceway, angles: tuple[Numbers, ...], nodes: Nodes, *, shoulders: bool
 ) -> tuple[tuple[Array, Array], Array, float, int]:
     """Nodes psi [rad] and weights ahead of a film and behind it, and where the integrals along rolling begin.
 
@@ -481,17 +504,17 @@ def _tails(
     inlet, outlet, edge, focus = angles
     angle, within = race.contact_angle, _in_groove(race, shoulders=shoulders)
     focus = np.minimum(focus, edge)
-    parts = [stretched(within(-edge), within(edge), edge, _AHEAD)]
+    parts = [stretched(within(-edge), within(edge), edge, nodes.ahead)]
     for near, far in ((-focus, -edge), (-focus, 0.0), (focus, 0.0), (focus, edge)):
         middle = beside(near)
-        u, weights = stretched(within(near) - near, within(far) - near, outlet, _BEHIND)
+        u, weights = stretched(within(near) - near, within(far) - near, outlet, nodes.behind)
         parts.append((middle + u, np.abs(weights)))
     begins = [
         np.broadcast_to(beside(start), part[0].shape)
         for start, part in zip((inlet, outlet, outlet, outlet, outlet), parts, strict=True)
     ]
     u, weights = (np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True))
-    return (beside(angle) + u, weights), np.concatenate(begins, axis=-1), 1.0, _TAILS
+    return (beside(angle) + u, weights), np.concatenate(begins, axis=-1), 1.0, nodes.tails
 
 
 def _along(

@@ -23,7 +23,6 @@ from ehlectric.bearing.ring_contacts import (
     RollerContact,
     beyond_model,
     check_contact,
-    raceway_of,
     roller_raceway_of,
     without_regime,
 )
@@ -293,9 +292,9 @@ def _around_all(quick: QuickContact) -> tuple[Array, Array]:
         tails = around_of_rollers(roller_raceway_of(contact.ring), b, (-inlet, outlet), central)
         # The gap outside continues the film at both ends.
         return np.broadcast_to(contact.length * tails, shape), np.zeros(shape)
-    race = raceway_of(contact.ring)
+    race = contact.ring.raceway
     if not contact.ring.shape:
-        return around_directly(race, b, quick.domain, central)
+        return around_directly(race, b, quick.domain, central, nodes=contact.domains.nodes)
     return around_of_balls(race, b, (-inlet, outlet, side), central, contact.domains), np.full(shape, np.nan)
 
 
@@ -313,7 +312,7 @@ def _beyond(contact: Contact, domain: tuple[Numbers, Numbers, Numbers], central:
     inlet, outlet, side = domain
     if isinstance(contact, BallContact):
         middle, ends = central * radius / b**2, (-inlet, outlet, side)
-        return np.asarray(radius * between_domains(raceway_of(contact.ring), ends, middle, contact.domains))
+        return np.asarray(radius * between_domains(contact.ring.raceway, ends, middle, contact.domains))
     total, scale = np.zeros(central.shape), b**2 / radius
     for near, far in zip(LINE, (inlet, outlet), strict=True):
         x, weights = _geometric(abs(near), np.abs(far))
@@ -374,7 +373,7 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
     radius, b = contact.ring.radii.radius_x, contact.axes[0]
     middle = central * radius / b**2
     if isinstance(contact, BallContact):
-        inlet, outlet = around_ellipses(raceway_of(contact.ring), middle, contact.domains)
+        inlet, outlet = around_ellipses(contact.ring.raceway, middle, contact.domains)
         return radius * inlet, radius * outlet
     unit = contact.length * radius / b
     gaps = middle[..., np.newaxis]

@@ -15,6 +15,7 @@ from ehlectric.bearing.ball_gaps import DomainLaw
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
 from ehlectric.bearing.gap_tables import rigid_balls, rigid_rollers
 from ehlectric.bearing.gaps import (
+    COARSE,
     Raceway,
     RollerRaceway,
     match_film,
@@ -64,8 +65,9 @@ BALL_DOMAINS = DomainLaw(
     most=(_MOST[0], 0.1 * _MOST[0], _MOST[1]),
 )
 
-# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5.
-_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3)
+# The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
+# those of integrals below 1e-6.
+_COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, nodes=COARSE)
 
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
 # film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
@@ -156,6 +158,20 @@ class RingContacts(Generic[G_co]):
             # Points without radii have no equilibrium; their numbers are not used.
             rx, ry = (np.where(np.isfinite(radius), radius, 1.0) for radius in (rx, ry))
         return dry_contact(1.0, rx, ry, self.conditions.modulus)
+
+    @cached_property
+    def raceway(self: RingContacts[BallBearing]) -> Raceway:
+        """Groove of the ring, with a ball at the contact angle."""
+        geometry, shoulder_height = self.conditions.geometry, self.conditions.bearing.shoulder_height
+        assert shoulder_height is not None
+        return Raceway.of(
+            geometry.ball_diameter,
+            geometry.pitch_diameter,
+            geometry.inner_groove if self.inner else geometry.outer_groove,
+            shoulder_height,
+            outer=not self.inner,
+            contact_angle=self.angle,
+        )
 
     @cached_property
     def ratio(self) -> Numbers:
@@ -301,7 +317,7 @@ class BallContact:
         rim = np.ones_like(thickness, dtype=bool)
         rim[1:-1, 1:-1] = False
         domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
-        raceway, modulus = raceway_of(self.ring), self.ring.conditions.modulus
+        raceway, modulus = self.ring.raceway, self.ring.conditions.modulus
         matched = match_film(raceway, self.dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
         return as_float(outside_capacitance(raceway, matched, domain)), as_float(matched.mismatch)
 
@@ -505,20 +521,6 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
     return error.retold("bearing", f"{where}: {text}")
 
 
-def raceway_of(ring: RingContacts[BallBearing]) -> Raceway:
-    """Groove of one ring, with a ball at the contact angle."""
-    geometry, shoulder_height = ring.conditions.geometry, ring.conditions.bearing.shoulder_height
-    assert shoulder_height is not None
-    return Raceway.of(
-        geometry.ball_diameter,
-        geometry.pitch_diameter,
-        geometry.inner_groove if ring.inner else geometry.outer_groove,
-        shoulder_height,
-        outer=not ring.inner,
-        contact_angle=ring.angle,
-    )
-
-
 def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     """Raceway of one ring, with a roller on it."""
     radii = ring.radii
@@ -527,7 +529,7 @@ def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
 
 def rigid_ball(ring: RingContacts[BallBearing], gap: Numbers) -> Numbers:
     """Capacitance in vacuum [F] of a rigid ball and its groove, a gap [m] apart, shape (...)."""
-    return as_float(rigid_balls(raceway_of(ring), gap))
+    return as_float(rigid_balls(ring.raceway, gap))
 
 
 def rigid_roller(ring: RingContacts[RollerBearing], gap: Numbers) -> Numbers:

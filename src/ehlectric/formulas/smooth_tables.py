@@ -25,8 +25,8 @@ from ehlectric.arrays import Array, IntArray, Mask
 # Function of several variables at m points, shape (variables, m) -> (m,).
 Function = Callable[[Array], Array]
 
-# Most nodes along a variable, and most nodes in all.
-_MOST_ALONG, _MOST = 60, 2500
+# Most nodes along a variable, and most nodes in all; largest sum of the numbers of the first products.
+_MOST_ALONG, _MOST, _FIRST = 60, 2500, 3
 
 # Coefficient over the tolerance beyond which products are added, its part that is expected of the next
 # product, and points between the nodes at which a table is compared with its function. The coefficient is
@@ -190,7 +190,8 @@ class _Known:
         self.function, self.low, self.high = function, low, high
         self.numbers: list[tuple[int, ...]] = []
         self.values = np.empty(0)
-        self._add(product(*(range(3 if end > start else 1) for start, end in zip(low, high, strict=True))))
+        each = product(*(range(3 if end > start else 1) for start, end in zip(low, high, strict=True)))
+        self._add(numbers for numbers in each if sum(numbers) <= _FIRST)
 
     def at(self, scaled: Array) -> Array:
         """Values of the function at points from -1 to 1, shape (variables, m)."""

@@ -10,7 +10,6 @@ from functools import partial
 from typing import Any
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.input_keys import unit_of
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.result import PointResult, Result
@@ -190,6 +189,9 @@ def _constants(case: object) -> str:
     """Note with the constants of the rheology of a case."""
     if not isinstance(case, Case) or case.film is None:
         return ""
+    # Units of keys are those of the tables of all kinds of files, which take longer to load than to print.
+    from ehlectric.cases.input_keys import unit_of
+
     given = case.film.constants(case.lubricant).items()
     texts = (f"{key} {amount(value, unit_of(f'lubricant.{key}'))}".rstrip() for key, value in given)
     return "".join(f", {text}" for text in texts)

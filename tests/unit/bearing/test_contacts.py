@@ -16,7 +16,7 @@ from ehlectric.bearing.gaps import (
     roller_tails,
 )
 from ehlectric.bearing.result import check_bearing
-from ehlectric.bearing.ring_contacts import ContactCurve, raceway_of, without_regime
+from ehlectric.bearing.ring_contacts import ContactCurve, without_regime
 from ehlectric.bearing.solution import ring_state
 from ehlectric.contact.conditions import resolve_point
 from ehlectric.errors import ResultWarning
@@ -255,7 +255,7 @@ def around(ring, result):
     rim[1:-1, 1:-1] = False
     modulus = ring.conditions.modulus
     dry = dry_contact(conditions.load, conditions.radius_x, conditions.radius_y, modulus)
-    raceway = raceway_of(ring)
+    raceway = ring.raceway
     contact = match_film(raceway, dry, modulus, x=x[rim], y=y[rim], thickness=film.thickness[rim])
     ends = float(film.x[0]), float(film.x[-1]), float(film.y[-1])
     return outside_capacitance(raceway, contact, ends), contact.mismatch
@@ -397,7 +397,7 @@ def test_elements_without_load_are_rigid_bodies_apart(inner):
         load, gap = np.array([100.0, 0.0, 0.0]), np.array([0.0, 5e-6, 20e-6])
         state = ring_state(ring, powers([1.0, 1000.0]), load=load, gap=gap)
         if tables is BALLS:
-            expected = [groove_capacitance(raceway_of(ring), g) for g in gap[1:]]
+            expected = [groove_capacitance(ring.raceway, g) for g in gap[1:]]
         else:
             around_roller = RollerRaceway(5.5e-3, 24.5e-3 if inner else 35.5e-3, outer=not inner)
             expected = [0.01 * roller_capacitance(around_roller, g) for g in gap[1:]]

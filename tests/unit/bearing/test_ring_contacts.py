@@ -18,7 +18,6 @@ from ehlectric.bearing.gaps import (
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     RollerContact,
-    raceway_of,
 )
 from ehlectric.formulas.hertz import dry_contact, point_deflection
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, rigid_capacitance, ring_of
@@ -47,7 +46,7 @@ def radii(groove, sign, angle):
 def test_balls_contacts_by_hand(inner, groove, sign):
     """Radii, modulus of steel, and oil of 70 degC; the raceway's arc ends arccos(1 - 0.2/f) up the groove."""
     ring = of(UNLIKE, inner=inner, angle=0.3)
-    contact, raceway = BallContact(ring, 600.0).conditions.contact, raceway_of(ring)
+    contact, raceway = BallContact(ring, 600.0).conditions.contact, ring.raceway
     rx, ry = radii(groove, sign, 0.3)
     found = [contact.radius_x, contact.radius_y, contact.reduced_modulus, contact.load]
     assert found == pytest.approx([rx, ry, MODULUS, 600.0], rel=1e-12, abs=0.0)

@@ -11,7 +11,10 @@ from scipy.integrate import dblquad
 
 from ehlectric.bearing import gaps as capacitances
 from ehlectric.bearing.gaps import (
+    COARSE,
+    FINE,
     LoadedContact,
+    Nodes,
     Raceway,
     groove_capacitance,
     groove_gap,
@@ -307,19 +310,18 @@ def test_inside_and_outside_add_up(outer, angle, gap):
 
 @each("outer", [False, True])
 @each("load, film", [(20.0, 1e-8), (600.0, 1e-7), (600.0, 2e-6), (5000.0, 1e-6)])
-def test_twice_the_nodes_change_nothing_outside(outer, load, film, monkeypatch):
+def test_errors_of_quadrature_nodes_outside(outer, load, film):
     race = race_of(outer=outer, angle=0.2)
     dry = loaded(race, load)
     ends = (-4.5 * dry.semi_axis_x, 1.5 * dry.semi_axis_x)
     domains = [(*ends, side * dry.semi_axis_y) for side in (1.2, 1.75)]
     contact = LoadedContact(dry, E, film - dry.approach, 0.0)
-    found = [outside_capacitance(race, contact, domain) for domain in domains]
-    with monkeypatch.context() as patch:
-        for name in ("_BESIDE", "_TAILS", "_AHEAD", "_BEHIND"):
-            nodes = getattr(capacitances, name)
-            patch.setattr(capacitances, name, (24, 20) if name == "_BESIDE" else 2 * nodes)
-        finer = [outside_capacitance(race, contact, domain) for domain in domains]
-    assert found == pytest.approx(finer, rel=1e-8, abs=0.0)
+    finest = Nodes((24, 20), 2 * FINE.tails, 2 * FINE.ahead, 2 * FINE.behind)
+    for domain in domains:
+        expected = outside_capacitance(race, contact, domain, nodes=finest)
+        for nodes, error in ((FINE, 1e-8), (COARSE, 1e-6)):
+            found = outside_capacitance(race, contact, domain, nodes=nodes)
+            assert found == pytest.approx(expected, rel=error, abs=0.0)
 
 
 def test_nothing_outside_what_reaches_everywhere():
