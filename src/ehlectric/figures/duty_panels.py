@@ -22,11 +22,12 @@ from ehlectric.quantities.units import RPM
 # Longest cycle whose time is in seconds; that of a longer one is in hours [s].
 _LONGEST = 7200.0
 
-# Bands of the states: number, name, colour and opacity. A full film has none.
+# Bands of the states: number, name with the lambda ratio up to which surfaces touch, colour and opacity. A
+# full film has none.
 _BANDS = (
     (STANDSTILL, "standstill", MIDDLE_GREY, 0.35),
-    (TOUCHING, "touching, λ < 1", ORANGE, 0.35),
-    (PARTIAL_FILM, "partial film, λ from 1 to 3", OCHRE, 0.15),
+    (TOUCHING, "touching, λ < {touching:g}", ORANGE, 0.35),
+    (PARTIAL_FILM, "partial film, λ from {touching:g} to 3", OCHRE, 0.15),
 )
 
 
@@ -41,7 +42,7 @@ def duty_panels(duty: DutyResult) -> Iterator[Panel]:
     """Speed, lambda ratio and, where any row has one, margin over time."""
     rows = duty.rows
     yield _panel(duty, "speed", "rpm", rows.speed / RPM, BLACK)
-    yield _panel(duty, "lambda ratio", "", rows.lambda_ratio, BLUE, (CONDUCTING, PARTIAL))
+    yield _panel(duty, "lambda ratio", "", rows.lambda_ratio, BLUE, (_touching(duty), PARTIAL))
     if rows.has_margin:
         yield _panel(duty, "margin", "", rows.margin, BLACK, (1.0,))
 
@@ -71,7 +72,12 @@ def _bands(duty: DutyResult) -> Iterator[Area]:
     for state, name, colour, opacity in _BANDS:
         within = np.repeat(duty.rows.state == state, 2)
         if np.any(within):
-            yield Area(name, edges, within, colour, opacity)
+            yield Area(name.format(touching=_touching(duty)), edges, within, colour, opacity)
+
+
+def _touching(duty: DutyResult) -> float:
+    """Lambda ratio up to which surfaces are called touching."""
+    return CONDUCTING if duty.touching_ratio is None else duty.touching_ratio
 
 
 def _unit(duty: DutyResult) -> tuple[float, str]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touching_ratio
 from ehlectric.bearing.speed_curves import (
     Curves,
     Speed,
@@ -152,11 +152,13 @@ def _mark(speed: float, value: float, colour: str, marker: str) -> Curve:
 
 
 def _contacts_open(curves: Curves) -> Iterator[Area]:
-    """Speeds with a lambda ratio below 1 and, fainter, below 3: they must not read as safe."""
+    """Speeds at which surfaces touch, nearly always or at times, or may touch: they must not read as safe."""
     nodes, ratio = curves.between("lambda_ratio")
+    touching = float(touching_ratio(curves.summit_height))
     for low, high, name, colour, opacity in (
         (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
-        (CONDUCTING, PARTIAL, "λ from 1 to 3: contacts at times", MIDDLE_GREY, 0.15),
+        (CONDUCTING, touching, f"λ from 1 to {touching:g}: touching at times, no voltage", ORANGE, 0.1),
+        (touching, PARTIAL, f"λ from {touching:g} to 3: contacts at times", MIDDLE_GREY, 0.15),
     ):
         within = (ratio >= low) & (ratio < high)
         # Up to the next node, so that no gap is left between both.
