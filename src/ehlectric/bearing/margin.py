@@ -100,12 +100,13 @@ class QuickMargins:
     case: BearingCase
     own: MarginPoint  # margin and lambda ratio of the solution
     # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of bearings
-    # that are solved together, dimensionless. Quick films are taken to be ``lambda_factor`` times as thick.
+    # that are solved together, dimensionless. Their films are taken to be ``lambda_factor`` times as thick.
     margin_factor: float
     lambda_factor: float
     quick_case: BearingCase = field(repr=False)  # case with quick contacts, whose films are scaled
     quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
-    quick_margin: float  # its margin, dimensionless
+    quick_scale: float  # lambda ratio of the solution divided by that of ``quick``, dimensionless
+    quick_margin: float  # margin of ``quick`` with films so much thicker, dimensionless
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
@@ -118,15 +119,15 @@ class QuickMargins:
         if OWN in several.reasons:
             raise InputError.worded(None, several.reasons[OWN])
         ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
-        scale = float(own.lambda_ratio / ratio)
+        quick = solution if is_quick(solution.case) else quick_solution(case)
+        scale, quick_scale = float(own.lambda_ratio / ratio), float(own.lambda_ratio / lambda_ratio(quick))
         case = with_films_scaled(case, scale)
         margin = float(over_parts(case)[1].columns(margin_and_lambda, 2)[0, OWN])
-        quick = replace(solution, case=case) if is_quick(solution.case) else quick_solution(case)
-        whole = float(margin_and_lambda(quick)[0])
+        whole = float(margin_and_lambda(replace(quick, case=with_films_scaled(quick.case, quick_scale)))[0])
         if not margin * whole:
             text = "without solved contacts the surfaces touch already in the case itself"
             raise InputError.worded(None, text)
-        return cls(solution.case, own, own.margin / margin, scale, case, quick, whole)
+        return cls(solution.case, own, own.margin / margin, scale, case, quick, quick_scale, whole)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
@@ -166,7 +167,7 @@ class QuickMargins:
 
     def _beside_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays on which the films do not depend."""
-        margin, _ = margin_and_lambda(replace(self.quick, case=with_films_scaled(case, self.lambda_factor)))
+        margin, _ = margin_and_lambda(replace(self.quick, case=with_films_scaled(case, self.quick_scale)))
         ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
         columns = self.own.margin / self.quick_margin * margin, ratio, np.ones(case.shape)
         return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]

@@ -326,7 +326,7 @@ def _computed(
     arrays = design.arrays(at, margins.lambda_factor)
     if speed is not None:
         arrays["bearing.inner_speed"] = speed
-    many = many_of(margins.quick.case, arrays, len(at))
+    many = many_of(margins.quick_case, arrays, len(at))
     margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
     solved = np.isfinite(margin)
     if not np.any(solved):

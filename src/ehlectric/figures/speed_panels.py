@@ -34,6 +34,10 @@ THROUGH: Look = (OCHRE, "solid", 3.0)
 SHAFT: Look = (GREEN, "dash", 1.4)
 
 
+# Smallest margin that is drawn: films break down at any smaller one, however small.
+_LEAST_MARGIN = 0.05
+
+
 class BreakdownLine(NamedTuple):
     """Line of a breakdown voltage of a bearing."""
 
@@ -90,11 +94,11 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
     """Margin over the speed within what is uncertain, and that of the bearing itself at its speed [rad/s]."""
     rpm, ones = band.speed / RPM, np.ones_like(band.speed)
     # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
-    least = 0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0))
+    least = max(0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0)), _LEAST_MARGIN)
     low, median, high = (np.maximum(values, least) for values in (band.low, band.median, band.high))
     drawn = [
         Curve("margin 1", rpm, ones, MIDDLE_GREY, "dash"),
-        Curve("median", rpm, np.where(band.median > 0.0, median, np.nan), BLACK, width=1.4),
+        Curve("median", rpm, np.where(band.median > least, median, np.nan), BLACK, width=1.4),
     ]
     if own is not None:
         drawn.append(_mark(own[0], own[1], BLACK, "star"))

@@ -109,8 +109,10 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
     errors = [_film_error(point, results.case) for point, _ in known]
     off = max(errors)
     near = sum(
-        margin / (1.0 + error) < 1.0 <= margin * (1.0 + error)
-        for error, (_, margin) in zip(errors, known, strict=True)
+        margin / (1.0 + part * error) < 1.0 <= margin * (1.0 + part * error)
+        for error, part, (_, margin) in zip(
+            errors, (_over_summits(point, results.case) for point, _ in known), known, strict=True
+        )
     )
     if near:
         yield f"At {near} of the points the margin is within the {percent(off)} that films may be off."
@@ -136,6 +138,15 @@ def _film_error(point: Point, case: SweptCase) -> float:
     if contacts == "formula":
         return formula_factor(case.bearing.kind) - 1.0
     return float(value_at(summary, "bearing.film_error") or 0.0)
+
+
+def _over_summits(point: Point, case: SweptCase) -> float:
+    """Relative change of a margin over that of all films, of a small one: more than 1 under summits."""
+    if not isinstance(case, BearingCase):
+        return 1.0
+    height = point.inputs.get("bearing.summit_height", case.bearing.summit_height)
+    ratio = value_at(point.summary or {}, "bearing.lambda_ratio")
+    return ratio / (ratio - height) if is_number(ratio) and is_number(height) and ratio > height else 1.0
 
 
 def _strength_varies(results: SweepPoints) -> bool:
