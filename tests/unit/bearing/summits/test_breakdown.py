@@ -9,6 +9,7 @@ from ehlectric import BearingCase, InputError, evaluate, solve_bearing
 from ehlectric.bearing.bearing_discharges import breakdown_of, margin_with_films, shaft_voltage
 from ehlectric.bearing.impedance import film_share
 from ehlectric.bearing.solution import insulating, lambda_ratio, lubrication
+from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import contact_rows
 from ehlectric.quantities.result_bounds import breakdown_words
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
@@ -204,3 +205,17 @@ def test_words_say_whether_voltages_are_bounds(factor, height, words):
     for word in films.split(", "):
         assert word.split(" ")[0] in result.verdict.text
     assert ("≤" in repr(result)) == (kind == "upper bound")
+
+
+def test_a_stored_result_that_knows_no_summits_keeps_the_voltages_of_smooth_films():
+    solution = solved(bearing__film_factor=0.9)
+    dataset = dataset_of(solution)
+    assert first_break(solution_of(dataset)) == first_break(solution)
+    lines = dataset.attrs["case"].splitlines()
+    without = [line for line in lines if not line.startswith("summit_height")]
+    assert len(without) == len(lines) - 1
+    dataset.attrs["case"] = "\n".join(without)
+    loaded = solution_of(dataset)
+    assert loaded.case.bearing.summit_height == 0.0
+    assert first_break(loaded) == first_break(with_summits(solution, 0.0))
+    assert first_break(loaded) > 1.3 * first_break(solution)
