@@ -5,7 +5,7 @@ leakage.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import mul, truediv
 from typing import Any
 
@@ -22,6 +22,7 @@ from ehlectric.bearing.solution import (
     insulating,
     lubrication,
 )
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
@@ -151,13 +152,33 @@ def first_margin(solution: BearingSolution) -> Numbers | None:
     return None if breakdown is None else known(truediv, breakdown.shaft_first_break, shaft_voltage(solution))
 
 
+# Roughness of both surfaces: films that are f times as thick have the lambda ratios of 1/f of it.
+ROUGHNESS = "bearing.composite_rq"
+
+
+def with_films_scaled(case: BearingCase, scale: Numbers) -> BearingCase:
+    """Case that has the lambda ratios of films that are ``scale`` times as thick, shape (...)."""
+    return case.with_values({ROUGHNESS: case.bearing.composite_rq / scale})
+
+
+def margin_with_films(solution: BearingSolution, scale: Array) -> Array:
+    """Margins of a single bearing with all films ``scale`` times as thick, shape (n,); 0 where it touches.
+
+    Breakdown voltages follow the films and what summits leave of them; capacitances stay as they are.
+    """
+    found = first_margin(replace(solution, case=with_films_scaled(solution.case, scale)))
+    margins: Array = np.zeros_like(scale) if found is None else scale * np.nan_to_num(found)
+    return margins
+
+
 def strength_per_volt(solution: BearingSolution) -> Numbers | None:
-    """Maximum field strength per volt across the films, of all contacts and positions of the cage [1/m].
+    """Maximum field strength per volt across the films, of all contacts and positions of the cage [1/m]:
+    that under the highest summits.
 
     None for ceramic elements, and where surfaces touch; of many points NaN where surfaces touch.
     """
     strengths = [
-        np.max(share * ring.values.strength_per_volt, axis=-1)
+        np.max(share * ring.values.strength_per_volt / ring.part_left(solution.summits), axis=-1)
         for position, circuit in zip(solution.positions, solution.circuits(), strict=True)
         for share, ring in (
             (circuit.inner_share, position.inner),

@@ -160,8 +160,8 @@ def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDut
 
 def regime_of(share: Numbers, *, touching: Any = False) -> Any:
     """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive". ``share``, share of time
-    in which the bearing conducts, dimensionless, shape (...); ``touching``, whether its least lambda ratio is
-    below 1, where no voltage is computed, shape (...).
+    in which the bearing conducts, dimensionless, shape (...); ``touching``, whether its surfaces touch and no
+    voltage is computed, shape (...).
 
     Examples
     --------

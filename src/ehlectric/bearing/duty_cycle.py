@@ -12,7 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.duty_points import NAMES, PointValues, values_at
 from ehlectric.bearing.quick_contacts import required_quick_case
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touches, touching_ratio
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
@@ -111,6 +111,8 @@ class DutyResult(Values):
         Number of operating points that were solved.
     interpolation_error : float or None
         Largest relative error of lambda ratio and margin by interpolation; None where every point was solved.
+    touching_ratio : float
+        Lambda ratio up to which surfaces are called touching, as no voltage is computed for them.
     warnings : tuple of ResultWarning
         Warnings about the file and about rows that are not computed.
     """
@@ -121,6 +123,7 @@ class DutyResult(Values):
     contacts: str = field(metadata=number(QUICK))
     points: int = field(metadata=number("whole"))
     interpolation_error: float | None = field(metadata=number())
+    touching_ratio: float | None = field(default=CONDUCTING, metadata=number())
     warnings: tuple[ResultWarning, ...] = ()
 
     @property
@@ -203,6 +206,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
         contacts=quick.contacts,
         points=found.solved,
         interpolation_error=found.error,
+        touching_ratio=float(touching_ratio(quick.bearing.summit_height)),
         warnings=tuple(_warnings(quick, cycle, found, refused)),
     )
 
@@ -263,9 +267,9 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
     if found is not None:
         for name in NAMES:
             values[name][moves] = found.values[name]
-    ratio = values["lambda_ratio"]
+    ratio, height = values["lambda_ratio"], case.bearing.summit_height
     state = np.select(
-        [~moves, np.isnan(ratio), ratio < CONDUCTING, ratio < PARTIAL],
+        [~moves, np.isnan(ratio), touches(ratio, height), ratio < PARTIAL],
         [STANDSTILL, LEFT_OUT, TOUCHING, PARTIAL_FILM],
         FULL_FILM,
     )

@@ -11,7 +11,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.many_points import gathered, solved_parts
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, capacitance, lambda_ratio
+from ehlectric.bearing.solution import BearingSolution, capacitance, lambda_ratio, touches, touching_ratio
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
 
@@ -21,8 +21,9 @@ NAMES = ("lambda_ratio", "capacitance", "first_break", "shaft_voltage", "margin"
 # Largest number of points that are solved, which take some seconds; more are interpolated.
 MOST_SOLVED = 4000
 
-# Quantities that touching surfaces do not have.
+# Quantities that touching surfaces do not have, and those that fall to 0 where summits begin to touch.
 _VOLTAGES = ("first_break", "shaft_voltage", "margin")
+_OVER_SUMMITS = ("first_break", "margin")
 
 # Interpolated lambda ratio, over that of touching surfaces, from which a point may have a voltage after all.
 _NEARLY = 0.95
@@ -89,11 +90,16 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     points[:, varied] = ends[0] + nodes * (ends[1] - ends[0])
     points[:, varied] = np.where(log[varied], np.exp(points[:, varied]), points[:, varied])
     design = _solved(case, keys, np.clip(points, low, high))
-    values = {name: _between(column, corners, weights) for name, column in design.values.items()}
+    height = case.bearing.summit_height
+    smooth = _smooth(design.values, height)
+    values = {name: _between(column, corners, weights) for name, column in smooth.items()}
     # No voltage is computed where surfaces touch. Points next to those with touching surfaces are solved.
+    touching = touches(values["lambda_ratio"], height)
     for name in _VOLTAGES:
-        values[name] = np.where(values["lambda_ratio"] >= CONDUCTING, values[name], np.nan)
-    edge = _next_to_touching(design.values, corners) & (values["lambda_ratio"] > _NEARLY * CONDUCTING)
+        part = 1.0 - height / values["lambda_ratio"] if name in _OVER_SUMMITS else 1.0
+        values[name] = np.where(touching, np.nan, values[name] * part)
+    edge = _next_to_touching(design.values, corners, height)
+    edge &= values["lambda_ratio"] > _NEARLY * touching_ratio(height)
     places = np.flatnonzero(edge)[:MOST_SOLVED]
     compared = np.setdiff1d(np.linspace(0, len(table) - 1, _COMPARED).astype(int), places)
     exact = _solved(case, keys, table[np.concatenate([places, compared])])
@@ -105,9 +111,18 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     return PointValues(values, dict.fromkeys(unknown, reason), design.solved + exact.solved, error)
 
 
-def _next_to_touching(design: Mapping[str, Array], corners: IntArray) -> Mask:
+def _smooth(values: Mapping[str, Array], height: float) -> dict[str, Array]:
+    """Quantities with the voltages of smooth films, which are powers of the inputs, in place of those over
+    summits of a height in units of the composite Rq.
+    """
+    part = 1.0 - height / values["lambda_ratio"]
+    part = np.where(part > 0.0, part, np.nan)
+    return {name: column / part if name in _OVER_SUMMITS else column for name, column in values.items()}
+
+
+def _next_to_touching(design: Mapping[str, Array], corners: IntArray, height: float) -> Mask:
     """Points some of whose corners have touching surfaces and no voltage, and some have one, shape (n,)."""
-    insulates = (design["lambda_ratio"] >= CONDUCTING)[corners]
+    insulates = ~touches(design["lambda_ratio"], height)[corners]
     mixed: Mask = np.any(insulates, axis=-1) & ~np.all(insulates, axis=-1)
     return mixed
 

@@ -381,14 +381,20 @@ def film_note(solution: BearingSolution) -> Iterator[Flag]:
     bearing, whole = solution.case.bearing, solution.conditions.film_factor == 1.0
     factor = bearing.film_factor
     name = factor if isinstance(factor, str) else f"{factor:g}"
+    smooth = not np.any(bearing.summit_height)
+    surfaces = "smooth" if smooth else "rough"
     unknown = factor == "none" and not viscosity_follows(solution.case.lubricant)
-    yield Flag.of(whole, "isothermal-film", "viscosity" if unknown else "given", factor=name)
+    yield Flag.of(
+        whole, "isothermal-film", "viscosity" if unknown else "given", factor=name, surfaces=surfaces
+    )
     yield Flag.of(
         np.logical_not(whole),
         "smooth-film",
-        "bound" if bearing.isothermal else "estimate",
+        "bound" if bearing.bounding else "estimate",
         factor=lambda: _film_words(solution)[0],
         neglected=lambda: _film_words(solution)[1],
+        height=bearing.summit_height,
+        roughness=" as well as roughness" if smooth else "",
     )
 
 

@@ -22,6 +22,10 @@ from ehlectric.quantities.rows import value_at
 # is seldom known better in a machine.
 LOAD, TEMPERATURE, CLEARANCE, ANGLE, RELATIVE = 0.2, 10.0, 5e-6, math.radians(5.0), 0.5
 
+# Change of the height of the summits, in units of the composite Rq. Contact is said to begin at lambda ratios
+# from 1 to 3, and no case has higher summits than the last number.
+SUMMITS, HIGHEST = 1.0, 6.0
+
 # Relative change of the capacitances of the motor, which data sheets do not have and few users measure.
 MOTOR = 0.5
 
@@ -42,6 +46,7 @@ _OF_CLASS = "limits of the clearance class, ISO 5753-1"
 _OF_CLEARANCE = _JUDGED + "fits and warm rings change the clearance"
 _OF_ANGLE = _JUDGED + "makers state nominal contact angles"
 _OF_LOAD = _JUDGED + "loads in operation differ from those of the design"
+_OF_SUMMITS = "contact of run-in surfaces is said to begin at lambda ratios from 1 to 3; measured at 2"
 _OF_MOTOR = _JUDGED + "data sheets do not have it, and few measure it"
 
 
@@ -93,7 +98,7 @@ def temperature_is_unused(case: BearingCase) -> bool:
 
 
 def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Change]:
-    """Changes of strength, temperature, clearance or contact angle, load, and motor."""
+    """Changes of strength, temperature, clearance or contact angle, load, summits, and motor."""
     bearing = case.bearing
     for key in STRENGTHS:
         strength = value_at(table, key)
@@ -114,6 +119,11 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
         key, angle = "bearing.contact_angle", bearing.contact_angle
         yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)
     yield _load(bearing)
+    if bearing.summit_height > 0.0:
+        # Smooth films, of a height of 0, are asked for as a bound.
+        key, height = "bearing.summit_height", bearing.summit_height
+        low, high = _around(height, SUMMITS)
+        yield Change(key, _label(key), height, (low, min(high, HIGHEST)), _OF_SUMMITS)
     for name in ("winding_rotor", "rotor_frame"):
         key = f"motor.{name}_capacitance"
         capacitance = value_at(table, key)

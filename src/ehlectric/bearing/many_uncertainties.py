@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.bearing.bearing_discharges import first_margin
+from ehlectric.bearing.bearing_discharges import first_margin, with_films_scaled
 from ehlectric.bearing.many_points import gathered, many_of, solved_parts
 from ehlectric.bearing.margin import TOUCHING_ALREADY, margin_and_lambda
-from ehlectric.bearing.solution import BearingSolution, film_error
+from ehlectric.bearing.solution import BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.uncertainty import (
     NO_MARGINS,
     Design,
@@ -40,7 +40,13 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     own = first_margin(solution)
     if own is None:
         return spreads
-    coarse, _ = gathered(solved_parts(case, detail="coarse"), margin_and_lambda, (2, len(spreads)))
+    # Films of the coarse solutions are taken to be as thick as those of the solution.
+    (ratio,) = gathered(
+        solved_parts(case, detail="coarse"), lambda at: (lambda_ratio(at),), (1, len(spreads))
+    )
+    scales = lambda_ratio(solution) / ratio
+    scaled = solved_parts(with_films_scaled(case, scales), detail="coarse")
+    coarse, _ = gathered(scaled, margin_and_lambda, (2, len(spreads)))
     own, off = np.broadcast_to(own, coarse.shape), np.broadcast_to(film_error(solution), coarse.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
         factors = own / coarse
@@ -50,7 +56,8 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     designs = {place: Design.of_case(case.single(place), float(off[place])) for place in known.tolist()}
     for places in _alike(designs):
         one = [designs[place] for place in places]
-        found = _spreads(solution, np.array(places), one, factors[places], samples=samples, seed=seed)
+        factor = np.stack([factors[places], scales[places]])
+        found = _spreads(solution, np.array(places), one, factor, samples=samples, seed=seed)
         for place, spread in zip(places, found, strict=True):
             spreads[place] = spread
     return spreads
@@ -61,7 +68,7 @@ def _alike(designs: dict[int, Design]) -> Iterator[list[int]]:
     groups: dict[object, list[int]] = {}
     for place, design in designs.items():
         changed = tuple(tuple(change.changes(change.value)) for change in design.computed)
-        groups.setdefault((changed, design.width), []).append(place)
+        groups.setdefault((changed, design.rough, design.width), []).append(place)
     yield from groups.values()
 
 
@@ -76,11 +83,12 @@ def _spreads(
 ) -> list[Spread]:
     """Distributions of some points of a solution, whose designs change the same keys.
 
-    ``factors``, margins of the points over those of bearings that are solved together, shape (m,).
+    ``factors``, margins and lambda ratios of the points over those of bearings that are solved together,
+    shape (2, m).
     """
     at = sobol_points(designs[0].width, samples, seed)
     try:
-        margins = factors * _margins(solution, places, designs, at)
+        margins = factors[0] * _margins(solution, places, designs, factors[1], at)
     except InputError as error:
         # It may be that of a single point.
         if len(designs) == 1:
@@ -90,7 +98,7 @@ def _spreads(
                 solution,
                 places[k : k + 1],
                 designs[k : k + 1],
-                factors[k : k + 1],
+                factors[:, k : k + 1],
                 samples=samples,
                 seed=seed,
             )
@@ -100,20 +108,23 @@ def _spreads(
     return [_spread(design, margin, at, seed) for design, margin in zip(designs, margins.T, strict=True)]
 
 
-def _margins(solution: BearingSolution, places: IntArray, designs: Sequence[Design], at: Array) -> Array:
+def _margins(
+    solution: BearingSolution, places: IntArray, designs: Sequence[Design], scales: Array, at: Array
+) -> Array:
     """Margins of m points at n samples, without the factors of their designs, shape (n, m); 0 where the
-    surfaces touch, NaN without a result.
+    surfaces touch, NaN without a result. ``scales``, factors on the films of the points, shape (m,).
     """
     count, case = len(at), solution.case
     # All points next to each other for each sample: the parts of a case that are solved together then have
     # points from the whole range, whose interpolation tables serve the next part, too.
     columns = {key: np.tile(array[places], (count, 1)) for key, array in case.arrays().items()}
-    own = [design.arrays(at) for design in designs]
+    own = [design.arrays(at, scale) for design, scale in zip(designs, scales.tolist(), strict=True)]
     columns |= {key: np.stack([arrays[key] for arrays in own], axis=-1) for key in own[0]}
     arrays = {key: column.ravel() for key, column in columns.items()}
     many = many_of(case.single(int(places[0])), arrays, count * len(designs))
     margins, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, count * len(designs)))
-    rows: Array = margins.reshape(count, len(designs))
+    films = np.stack([np.broadcast_to(design.film_scale(at), count) for design in designs], axis=-1)
+    rows: Array = films * margins.reshape(count, len(designs))
     return rows
 
 

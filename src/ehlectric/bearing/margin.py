@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     first_margin,
     leakage_flags,
+    margin_with_films,
     shaft_leakage,
     shaft_voltage,
+    with_films_scaled,
 )
 from ehlectric.bearing.bearing_touching import duty_of, time_text
 from ehlectric.bearing.changed_bearings import (
@@ -49,6 +52,7 @@ from ehlectric.bearing.solution import (
     lambda_ratio,
     lambda_text,
     lubrication,
+    touching_ratio,
 )
 from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
 from ehlectric.bearing.warnings import bearing_warnings
@@ -100,12 +104,13 @@ class QuickMargins:
     case: BearingCase
     own: MarginPoint  # margin and lambda ratio of the solution
     # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of bearings
-    # that are solved together, dimensionless.
+    # that are solved together, dimensionless. Their films are taken to be ``lambda_factor`` times as thick.
     margin_factor: float
     lambda_factor: float
-    quick_case: BearingCase = field(repr=False)  # case with quick contacts
+    quick_case: BearingCase = field(repr=False)  # case with quick contacts, whose films are scaled
     quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
-    quick_margin: float  # its margin, dimensionless
+    quick_scale: float  # lambda ratio of the solution divided by that of ``quick``, dimensionless
+    quick_margin: float  # margin of ``quick`` with films so much thicker, dimensionless
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
@@ -114,16 +119,18 @@ class QuickMargins:
         """
         own = MarginPoint(_margin_of(solution), lambda_ratio(solution))
         case = _quick(solution.case)
-        quick = solution if is_quick(solution.case) else quick_solution(case)
         _, several = over_parts(case)
         if OWN in several.reasons:
             raise InputError.worded(None, several.reasons[OWN])
-        margin, ratio = several.columns(margin_and_lambda, 2)[:, OWN].tolist()
-        whole = float(margin_and_lambda(quick)[0])
+        ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+        quick = solution if is_quick(solution.case) else quick_solution(case)
+        scale, quick_scale = float(own.lambda_ratio / ratio), float(own.lambda_ratio / lambda_ratio(quick))
+        case = with_films_scaled(case, scale)
+        margin = float(over_parts(case)[1].columns(margin_and_lambda, 2)[0, OWN])
+        whole = float(margin_and_lambda(replace(quick, case=with_films_scaled(quick.case, quick_scale)))[0])
         if not margin * whole:
             raise InputError.worded(None, TOUCHING_ALREADY)
-        factors = own.margin / margin, own.lambda_ratio / ratio
-        return cls(solution.case, own, *factors, case, quick, whole)
+        return cls(solution.case, own, own.margin / margin, scale, case, quick, quick_scale, whole)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
@@ -163,14 +170,14 @@ class QuickMargins:
 
     def _beside_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays on which the films do not depend."""
-        margin, _ = margin_and_lambda(replace(self.quick, case=case))
+        margin, _ = margin_and_lambda(replace(self.quick, case=with_films_scaled(case, self.quick_scale)))
         ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
         columns = self.own.margin / self.quick_margin * margin, ratio, np.ones(case.shape)
         return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
 
     def _with_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays, whose films are solved."""
-        several = solve_several(case)
+        several = solve_several(with_films_scaled(case, self.lambda_factor))
         points = [MarginPoint(*one) for one in self._scaled(several).T.tolist()]
         return [
             InputError.worded(None, several.reasons[k]) if k in several.reasons else point
@@ -197,7 +204,7 @@ class QuickMargins:
 
     def _scaled(self, several: Several) -> Array:
         """Margins and lambda ratios, scaled to the solution, shape (2, n); NaN without a solution."""
-        factors = np.array([[self.margin_factor], [self.lambda_factor]])
+        factors = np.array([[self.margin_factor], [1.0]])
         return np.asarray(factors * several.columns(margin_and_lambda, 2))
 
 
@@ -290,20 +297,22 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     # The bearing itself has a result, which is exact.
     known[OWN] = True
     points[:, OWN] = margins.own.margin, margins.own.lambda_ratio
+    logarithms = partial(_logarithms, summit_height=margins.case.bearing.summit_height)
     sampled = Sampled(
-        lambda log: _logarithms(margins.at_speeds(np.exp(log))),
+        lambda log: logarithms(margins.at_speeds(np.exp(log))),
         np.log(speeds[known]),
-        _logarithms(points[:, known]),
+        logarithms(points[:, known]),
         last=frozenset({_TOUCHING}),
     )
     sampled.refine()
     return _range_of(sampled, left_out)
 
 
-def _logarithms(points: Array) -> Array:
+def _logarithms(points: Array, summit_height: float) -> Array:
     """Quantities that cross 0, shape (3, n), from margins and lambda ratios, shape (2, n)."""
     margin, ratio = points
-    return np.stack([log_of(margin), log_of(ratio / PARTIAL), log_of(ratio / CONDUCTING)])
+    limits = np.maximum(PARTIAL, summit_height), touching_ratio(summit_height)
+    return np.stack([log_of(margin), *(log_of(ratio / limit) for limit in limits)])
 
 
 def _range_of(sampled: Sampled, left_out: tuple[str, ...]) -> SpeedRange:
@@ -517,8 +526,9 @@ def bearing_verdict(
         # A thinner film than one that breaks down is not safer.
         return Verdict(
             "yellow" if solution.case.motor is None else "red",
-            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_text(solution)}), "
-            f"and contacts are intermittent; they short the bearing {_time(solution)}. {_OPENING}, and no "
+            f"Discharges likely: {_how_touching(solution)} {_at(solution)} (lambda ratio "
+            f"{lambda_text(solution)}), and contacts are intermittent; they short the bearing "
+            f"{_time(solution)}. {_OPENING}, and no "
             "voltage is computed for that. This is no protection: current passes, and arcs are likely.",
         )
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
@@ -625,12 +635,26 @@ def _stated(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
 
 
 def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float, float]:
-    """Interval of margins, widened by the accuracy of the films."""
-    if solution.case.contacts == "formula":
-        factor = formula_factor(solution.case.bearing.kind)
-        return low / factor, high * factor
-    off = film_error(solution)
-    return low * (1.0 - off), high * (1.0 + off)
+    """Interval of margins, widened by the accuracy of the films.
+
+    Over summits a margin falls faster than its film. What it loses beyond that is taken off in full from the
+    low end, and in proportion added to the high end, so that the interval is rather too wide.
+    """
+    thin, thick = film_factors(solution.case, float(film_error(solution)))
+    if not solution.case.bearing.summit_height:
+        return low * thin, high * thick
+    margins, own = margin_with_films(solution, np.array([thin, thick])), first_margin(solution)
+    assert own is not None
+    lowest = low * thin - (own * thin - float(margins[0]))
+    return max(lowest, 0.0), high * float(margins[1]) / own
+
+
+def film_factors(case: BearingCase, off: float) -> tuple[float, float]:
+    """Ends of the factor on all films of a bearing, which are ``off`` by at most this part, dimensionless."""
+    if case.contacts == "formula":
+        factor = formula_factor(case.bearing.kind)
+        return 1.0 / factor, factor
+    return 1.0 - off, 1.0 + off
 
 
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
@@ -644,7 +668,7 @@ def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
     if solution.case.ranges and analysis.low is None:
         yield "The range of the margin could not be computed from the stated ranges of inputs."
     if analysis.low == 0.0:
-        yield "At the unfavourable ends of the stated ranges the surfaces touch."
+        yield "At the unfavourable ends of the stated ranges the surfaces touch, at times at least."
     weibull = solution.case.discharge.weibull
     if weibull is not None:
         unlikely = margin * weibull_part(weibull.shape, UNLIKELY)
@@ -687,8 +711,8 @@ def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:
         yield f"{_intervals(speeds.partial)} surfaces may touch, and discharge as they part."
     if speeds.touching is not None:
         yield (
-            f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch: contacts open and close, "
-            "discharges are likely, and no voltage is computed."
+            f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch, at times at least: contacts "
+            "open and close, discharges are likely, and no voltage is computed."
         )
 
 
@@ -707,6 +731,11 @@ def _interval(low: float | None, high: float | None) -> str:
     return f"between about {rpm_text(low)} and {rpm_text(high)} rpm"
 
 
+def _how_touching(solution: BearingSolution) -> str:
+    """Clause of a bearing without a voltage: its surfaces touch nearly always, or its highest summits do."""
+    return "surfaces touch" if lambda_ratio(solution) < CONDUCTING else "the highest summits touch at times"
+
+
 def _time(solution: BearingSolution) -> str:
     """Share of time in which an element touches both rings, as text."""
     return time_text(duty_of(solution).touching_time_share)
@@ -722,15 +751,16 @@ def _at(solution: BearingSolution) -> str:
 def _assumptions(solution: BearingSolution) -> str:
     """Sentence about the assumptions behind the breakdown voltage."""
     case, factor = solution.case, solution.conditions.film_factor
-    films = f"smooth film with the given film factor {factor:.3g}, which alone stands for starvation and heat"
+    film = f"{'rough' if case.bearing.summit_height else 'smooth'} film"
+    films = f"{film} with the given film factor {factor:.3g}, which alone stands for starvation and heat"
     if factor == 1.0:
-        films = "isothermal, fully flooded, smooth film"
+        films = f"isothermal, fully flooded, {film}"
     elif case.bearing.supply != "flooded":
-        films = f"smooth film with {supply_words(solution)}"
+        films = f"{film} with {supply_words(solution)}"
     elif case.bearing.film_factor == "inlet-shear":
-        films = "fully flooded, smooth film with inlet shear heating"
+        films = f"fully flooded, {film} with inlet shear heating"
     elif case.bearing.film_factor == "solved":
-        films = "fully flooded, smooth film with the solved heat of pure rolling"
+        films = f"fully flooded, {film} with the solved heat of pure rolling"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
-    return f"{'Upper bound' if case.bearing.isothermal else 'Best estimate'}: {films}; {clause}."
+    return f"{'Upper bound' if case.bearing.bounding else 'Best estimate'}: {films}; {clause}."

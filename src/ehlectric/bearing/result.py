@@ -287,7 +287,7 @@ class BearingResult(Shown):
         if capacitance_is_bound(self.solution):
             capacitance = BEARING_KEYS["bearing.capacitance"].with_sign(capacitance)
         breaks = None if voltage is None else f"{voltage:.4g} V"
-        if breaks and (self.case.bearing.isothermal or "partial-film" in {one.code for one in self.warnings}):
+        if breaks and (self.case.bearing.bounding or "partial-film" in {one.code for one in self.warnings}):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return headline(
             self.case.title,

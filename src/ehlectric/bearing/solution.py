@@ -22,8 +22,11 @@ from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 from ehlectric.version import __version__
 
-# Lambda ratios below which surfaces touch, and below which they touch at times.
+# Lambda ratios below which surfaces touch nearly always, and below which they touch at times.
 CONDUCTING, PARTIAL = 1.0, 3.0
+
+# Part of a film that is left under its summits at least: no number is divided by 0 where there is no voltage.
+_LEAST_PART = 1e-9
 
 # Part of the area around the films that is filled with oil, by the name of the filling.
 _PARTS = {"oil": 1.0, "air": 0.0}
@@ -56,6 +59,14 @@ class RingState(Values):
         values, part = self.values, oil_part(fill)
         whole: Array = values.inside + part * values.outside_oil + (1.0 - part) * values.outside_air
         return whole
+
+    def part_left(self, summits: Numbers) -> Array:
+        """Gap under the highest summits over the minimum film of each contact, shape (..., n); at least
+        ``_LEAST_PART``. ``summits``, their height [m], shape (...).
+        """
+        height = np.asarray(summits)[..., np.newaxis]
+        part: Array = np.maximum(1.0 - height / self.values.minimum_thickness, _LEAST_PART)
+        return part
 
     def oil_capacitance(self, fill: Numbers | str) -> Array:
         """Part of ``capacitance`` that is filled with oil, and leaks as it does, shape (..., n) [F]."""
@@ -147,13 +158,16 @@ class Position(Values):
         """Contacts with the inner and with the outer ring."""
         return self.inner, self.outer
 
-    def circuit(self, fill: Numbers | str) -> Circuit:
-        """Circuit of the bearing with "oil" or "air" around the films, or a part of it oil."""
+    def circuit(self, fill: Numbers | str, summits: Numbers = 0.0) -> Circuit:
+        """Circuit of the bearing with "oil" or "air" around the films, or a part of it oil.
+
+        ``summits``, height of the highest summits [m], shape (...), under which films break down.
+        """
         return Circuit(
             self.inner.capacitance(fill),
             self.outer.capacitance(fill),
-            self.inner.values.breakdown_voltage,
-            self.outer.values.breakdown_voltage,
+            self.inner.values.breakdown_voltage * self.inner.part_left(summits),
+            self.outer.values.breakdown_voltage * self.outer.part_left(summits),
             self.shape,
         )
 
@@ -197,7 +211,12 @@ class BearingSolution(Values):
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
         if fill is None:
             return self._own_circuits
-        return tuple(position.circuit(fill) for position in self.positions)
+        return tuple(position.circuit(fill, self.summits) for position in self.positions)
+
+    @property
+    def summits(self) -> Numbers:
+        """Height of the highest summits in the contacts [m], shape (...); 0 for smooth films."""
+        return self.case.bearing.summit_height * self.case.bearing.composite_rq
 
     @cached_property
     def _own_circuits(self) -> tuple[Circuit, ...]:
@@ -216,10 +235,37 @@ def lambda_ratio(solution: BearingSolution) -> Numbers:
     return solution.least_film / solution.case.bearing.composite_rq
 
 
+def touching_ratio(summit_height: Numbers) -> Numbers:
+    """Lambda ratio up to which no voltage is given: the highest summits touch at times, or nearly always.
+
+    ``summit_height`` in units of the composite Rq, shape (...).
+
+    Examples
+    --------
+    >>> float(touching_ratio(2.0)), float(touching_ratio(0.0))
+    (2.0, 1.0)
+    """
+    return np.maximum(CONDUCTING, summit_height)
+
+
+def touches(ratio: Numbers, summit_height: Numbers) -> Any:
+    """Whether surfaces touch so that no voltage is given, by their lambda ratio, shape (...).
+
+    The voltage falls to 0 where the film is as thin as the highest summits are high.
+
+    Examples
+    --------
+    >>> [bool(touches(ratio, height)) for ratio, height in ((0.9, 0.0), (1.0, 0.0), (2.0, 2.0), (2.1, 2.0))]
+    [True, False, True, False]
+    """
+    return (np.asarray(ratio) < CONDUCTING) | (ratio <= np.asarray(summit_height))
+
+
 def lambda_text(solution: BearingSolution) -> str:
-    """Lambda ratio with two digits, and with three near 1, where the state of lubrication changes."""
-    ratio = lambda_ratio(solution)
-    return f"{ratio:.3g}" if 0.9 < ratio < 1.1 else f"{ratio:.2g}"
+    """Lambda ratio with two digits, and with three where the state of lubrication changes nearby."""
+    ratio, limits = lambda_ratio(solution), (CONDUCTING, solution.case.bearing.summit_height)
+    near = any(0.9 * limit < ratio < 1.1 * limit for limit in limits)
+    return f"{ratio:.3g}" if near else f"{ratio:.2g}"
 
 
 def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
@@ -227,38 +273,42 @@ def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
 
     ``film_scale`` is a factor on all films, for those of quick contacts that are scaled to solved ones.
 
-    Below a lambda ratio of 1 contacts close and open all the time: the bearing is called "conducting", as no
-    voltage is computed for it, or "touching" with ceramic elements, which insulate. Below 3 it has a "partial
-    film", whose asperities touch at times, and otherwise a "full film". Many points have an array of texts.
+    Up to the lambda ratio of ``touches`` contacts close and open at times, and below 1 nearly always: the
+    bearing is called "conducting", as no voltage is computed for it. With ceramic elements, which insulate,
+    it is "touching" below 1. Below 3 it has a "partial film", whose asperities may touch at times, and
+    otherwise a "full film". Many points have an array of texts.
     """
-    ratio = film_scale * lambda_ratio(solution)
-    conducts = (ratio < CONDUCTING) & (not solution.conditions.ceramic)
-    return labels((conducts, "conducting"), *_regimes(ratio))
+    ratio, height = film_scale * lambda_ratio(solution), solution.case.bearing.summit_height
+    conducts = touches(ratio, height) & (not solution.conditions.ceramic)
+    return labels((conducts, "conducting"), *_regimes(ratio, height))
 
 
-def regime(ratio: Numbers, *, loaded: Any = True) -> Any:
+def regime(ratio: Numbers, summit_height: Numbers = 0.0, *, loaded: Any = True) -> Any:
     """Regime of one contact by its lambda ratio: "full film", "partial film", "touching", or "gap".
 
-    A contact without load is a "gap". From a lambda ratio of 3 on, surfaces are separated. Below 3,
-    asperities touch at times ("partial film"), and below 1 most of the time ("touching"). Contacts that open
-    and close discharge at a low voltage, for which there is no law here.
+    A contact without load is a "gap". From a lambda ratio of 3 on, or that of the highest summits if this is
+    larger, surfaces are separated. Below it, asperities touch at times ("partial film"), and below 1 most of
+    the time ("touching"). Contacts that open and close discharge at a low voltage, for which there is no law
+    here.
 
     Examples
     --------
     >>> regime(3.2), regime(1.5), regime(0.4), regime(90.0, loaded=False)
     ('full film', 'partial film', 'touching', 'gap')
     """
-    return labels((np.logical_not(loaded), "gap"), *_regimes(ratio))
+    return labels((np.logical_not(loaded), "gap"), *_regimes(ratio, summit_height))
 
 
-def _regimes(ratio: Numbers) -> tuple[Any, ...]:
+def _regimes(ratio: Numbers, summit_height: Numbers) -> tuple[Any, ...]:
     """Regimes of a loaded contact with their conditions, as ``labels`` takes them."""
-    return (ratio < CONDUCTING, "touching"), (ratio < PARTIAL, "partial film"), "full film"
+    partial = np.maximum(PARTIAL, summit_height)
+    return (ratio < CONDUCTING, "touching"), (ratio < partial, "partial film"), "full film"
 
 
 def insulating(solution: BearingSolution) -> Any:
     """Whether the films carry voltages: the elements conduct, and the surfaces do not touch, shape (...)."""
-    return (not solution.conditions.ceramic) & (lambda_ratio(solution) >= CONDUCTING)
+    touching = touches(lambda_ratio(solution), solution.case.bearing.summit_height)
+    return (not solution.conditions.ceramic) & ~touching
 
 
 def capacitance(solution: BearingSolution, fill: Numbers | str | None = None) -> Numbers:

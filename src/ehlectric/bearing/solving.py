@@ -152,11 +152,12 @@ def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int
     return [solutions[k] for k in range(len(tasks))]
 
 
-# Tables and keys on which neither films nor breakdown voltages of contacts depend.
+# Tables and keys on which neither films nor breakdown voltages of smooth contacts depend.
 NOT_IN_FILMS = (
     "motor.",
     "discharge.conductivity",
     "bearing.composite_rq",
+    "bearing.summit_height",
     "bearing.summits",
     "bearing.contact_resistance",
     "bearing.fill",

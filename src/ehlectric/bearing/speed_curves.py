@@ -23,14 +23,15 @@ from ehlectric.bearing.changed_bearings import (
 )
 from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio
+from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio, touching_ratio
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 
-# Logarithm of the lambda ratio that is looked for where surfaces part, and how often it is.
-_ABOVE, _TRIES = 1e-3, 4
+# Logarithm of the lambda ratio that is looked for where surfaces part, for smooth films and above summits,
+# where the voltage begins at 0, and how often it is.
+_ABOVE, _ABOVE_SUMMITS, _TRIES = 1e-3, 0.05, 4
 
 
 def over_speed(case: BearingCase, count: int | None = None) -> tuple[list[Speed], list[ResultWarning]]:
@@ -102,13 +103,18 @@ def _is_conducting(summary: dict[str, Any]) -> bool:
 
 
 def _parted(case: BearingCase, low: Speed, high: Speed) -> Speed | None:
-    """Point just above a lambda ratio of 1 between two speeds on either side of it; None where not found.
+    """Point just above the lambda ratio up to which surfaces touch, between two speeds on either side of it;
+    None where not found.
 
     Between two speeds the lambda ratio is nearly a power of the speed.
     """
+    touching = float(touching_ratio(case.bearing.summit_height))
+    above = _ABOVE_SUMMITS if touching > CONDUCTING else _ABOVE
     for _ in range(_TRIES):
-        ratios = [math.log(summary["bearing"]["lambda_ratio"] / CONDUCTING) for _, summary in (low, high)]
-        part = (_ABOVE - ratios[0]) / (ratios[1] - ratios[0])
+        ratios = [math.log(summary["bearing"]["lambda_ratio"] / touching) for _, summary in (low, high)]
+        if ratios[1] <= above:
+            return None
+        part = (above - ratios[0]) / (ratios[1] - ratios[0])
         found = _points(case, at_speeds(case, np.array([low[0] * (high[0] / low[0]) ** part])))
         if not found or not _is_conducting(found[0][1]):
             return found[0] if found else None
@@ -122,6 +128,9 @@ Speeds = Sequence[Speed]
 
 # Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
 _ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
+
+# Voltages that fall to 0 where the film is as thin as its highest summits.
+_OVER_SUMMITS = tuple(_ON_SHAFT)
 
 # Number of nodes of a curve between two speeds.
 _PARTS = 32
@@ -150,13 +159,29 @@ class Curves:
     # Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
     critical: float | None = None
     touching: float | None = None  # speed of this summary below which the surfaces touch [rad/s]
+    summit_height: float = 0.0  # of the highest summits, in units of the composite Rq
 
     def __getitem__(self, key: str) -> Array:
         return self.values[key]
 
     def at(self, key: str, speed: float | Array) -> Any:
-        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN beside a missing value."""
-        known = self.values[key]
+        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN beside a missing value.
+
+        Of a breakdown voltage that of the smooth film is a power, times what the summits leave of the film.
+        """
+        if key not in _OVER_SUMMITS or not self.summit_height:
+            return self._between(speed, self.values[key])
+        ratio = self.values["lambda_ratio"] / self.scaled.get("lambda_ratio", 1.0)
+        smooth = self.values[key] / self._left(ratio)
+        return self._between(speed, smooth) * self._left(self._between(speed, ratio))
+
+    def _left(self, ratio: Array) -> Array:
+        """Part of a film of a lambda ratio that its highest summits leave; NaN where they leave none."""
+        part = 1.0 - self.summit_height / ratio
+        return np.where(part > 0.0, part, np.nan)
+
+    def _between(self, speed: float | Array, known: Array) -> Any:
+        """Value at a speed [rad/s] that is a power of it between two speeds with known values."""
         return np.exp(np.interp(np.log(speed), np.log(self.speed), np.log(known)))
 
     def between(self, key: str) -> tuple[Array, Array]:
@@ -179,13 +204,16 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     """
     ordered = sorted(points, key=lambda point: point[0])
     speed = np.array([at for at, _ in ordered])
-    plain = Curves(speed, {key: _column(ordered, key) for key in _KEYS}, dict.fromkeys(_KEYS, 1.0))
+    height = ordered[0][1]["inputs"]["bearing"].get("summit_height", 0.0) if ordered else 0.0
+    columns = {key: _column(ordered, key) for key in _KEYS}
+    plain = Curves(speed, columns, dict.fromkeys(_KEYS, 1.0), summit_height=height)
     if own is None:
         return plain
     factors = {key: _factor(plain, key, own) for key in _KEYS}
     analysis = own[1].get("margin") or {}
-    ends = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
-    return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, *ends)
+    critical, touching = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
+    values = {key: factors[key] * plain[key] for key in _KEYS}
+    return Curves(speed, values, factors, critical, touching, height)
 
 
 def value_of(summary: Mapping[str, Any], key: str) -> Any:
@@ -247,7 +275,7 @@ def _last_rise(speed: Array, value: Array) -> float | None:
 
 
 def opening_speed_of(curves: Curves) -> float | None:
-    """Speed below which the lambda ratio is below 1, so that contacts open and close [rad/s], or None.
+    """Speed below which contacts open and close, as the highest summits touch [rad/s], or None.
 
     It is that of the summary of the bearing itself or, where this has none, that of the curves.
 
@@ -261,7 +289,7 @@ def opening_speed_of(curves: Curves) -> float | None:
     """
     if curves.touching is not None:
         return curves.touching
-    ratio = np.log(curves["lambda_ratio"] / CONDUCTING)
+    ratio = np.log(curves["lambda_ratio"] / touching_ratio(curves.summit_height))
     return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
 
 
@@ -288,10 +316,10 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     """Speed of the inner ring from which a bearing is capacitive at its temperature.
 
     Returns speed [rad/s] at which the bearing becomes capacitive, to 0.2 %: it conducts ``CAPACITIVE`` of the
-    time, or its least lambda ratio is 1 if that speed is higher; of a bearing that is capacitive it is the
-    next lower one, of another the next higher one. None where there is none from a 27th to 27 times the speed
-    of the case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick
-    contact describes; and where a film of the solution is not converged.
+    time, or its surfaces part and voltages are computed, if that speed is higher; of a bearing that is
+    capacitive it is the next lower one, of another the next higher one. None where there is none from a 27th
+    to 27 times the speed of the case; for ceramic elements and coatings, which insulate at any speed; for an
+    oil that no quick contact describes; and where a film of the solution is not converged.
 
     Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
     scaled to the least lambda ratio of the solution at its own speed. The temperature is that of the case at
@@ -314,7 +342,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
         The logarithm of a share of time is nearly a power of the speed.
         """
         share = np.clip(duty_of(at, film_scale=scale).contact_time_share, _SHARE, 1.0 - _SHARE)
-        room = np.log(scale * lambda_ratio(at) / CONDUCTING)
+        room = np.log(scale * lambda_ratio(at) / touching_ratio(at.case.bearing.summit_height))
         return (np.minimum(np.log(np.log(share) / math.log(CAPACITIVE)), room),)
 
     def beyond(log: Array) -> Array:

@@ -179,7 +179,7 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
     missing, or is not as it was written; InputError where its case cannot be resolved.
     """
     attributes = dataset.attrs
-    case = case_of(attributes, BearingCase.from_dict)
+    case = case_of(attributes, _case)
     kind, warnings = _check(dataset)
     values = values_of(dataset)
     conditions = _heated(resolve_bearing(case), case, attributes)
@@ -202,6 +202,13 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
         seconds=number_of(attributes, "seconds"),
         version=text_of(attributes, "version"),
     )
+
+
+def _case(table: dict[str, Any]) -> BearingCase:
+    """Case of the tables of a stored file; the films of a file that knows no summits are smooth."""
+    if isinstance(table.get("bearing"), dict):
+        table["bearing"].setdefault("summit_height", 0.0)
+    return BearingCase.from_dict(table)
 
 
 def _curve_of(values: Mapping[str, Array], ring: int, warnings: list[Any]) -> ContactCurve:

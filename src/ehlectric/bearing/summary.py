@@ -211,7 +211,8 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
     """
     position, circuit, across = solution.positions[0], solution.circuits()[0], film_voltage(solution)
     at, insulates, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
-    fill, rq = solution.case.bearing.fill, solution.case.bearing.composite_rq
+    bearing = solution.case.bearing
+    fill, rq, height = bearing.fill, bearing.composite_rq, bearing.summit_height
     inner_duty, outer_duty = (duty or duty_of(solution)).rings[0]
     rows = []
     for k in range(at.position.size):
@@ -219,9 +220,9 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
             ("inner", position.inner, circuit.inner_share, inner_duty),
             ("outer", position.outer, 1.0 - circuit.inner_share, outer_duty),
         ):
-            values = ring.values
-            strength = share[k] * values.strength_per_volt[k] if insulates else None
-            own = values.breakdown_voltage[k] if insulates else None
+            values, part = ring.values, ring.part_left(solution.summits)[k]
+            strength = share[k] * values.strength_per_volt[k] / part if insulates else None
+            own = part * values.breakdown_voltage[k] if insulates else None
             rows.append(
                 {
                     "element": k,
@@ -235,7 +236,7 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
                     "minimum_thickness": values.minimum_thickness[k],
                     "central_thickness": values.central_thickness[k],
                     "lambda_ratio": values.minimum_thickness[k] / rq,
-                    "regime": regime(values.minimum_thickness[k] / rq, loaded=bool(ring.solved[k])),
+                    "regime": regime(values.minimum_thickness[k] / rq, height, loaded=bool(ring.solved[k])),
                     **contact_duty(asperities, k),
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,

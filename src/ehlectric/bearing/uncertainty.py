@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.bearing.bearing_discharges import first_margin
+from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin
 from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
 from ehlectric.bearing.many_points import gathered, many_of, solved_parts
-from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, margin_and_lambda
-from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, margin_and_lambda
 from ehlectric.bearing.solution import BearingSolution, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.cases.bearing_case import BearingCase
@@ -57,7 +56,7 @@ class UncertainInput:
 
     key: str  # dotted key; "films" for their error, "scatter" for that of a Weibull law
     label: str
-    # low and high: ends of the range, SI units; factors on the margin for "films"; None for "scatter".
+    # low and high: ends of the range, SI units; factors on all films for "films"; None for "scatter".
     low: float | None
     high: float | None
     assumed: bool  # whether the range is the usual one, as the file states none
@@ -199,7 +198,7 @@ class Design:
     case: BearingCase
     computed: tuple[Change, ...]  # inputs for which films or circuits are computed
     factors: tuple[Change, ...]  # inputs to which the margin is proportional
-    films: tuple[float, float]  # ends of the factor on the margin by the error of the films
+    films: tuple[float, float]  # ends of the factor on all films by their error
     shape: float | None  # shape of a Weibull law of the strength
     assumed: Mapping[str, str]  # reasons of usual ranges by their key
     left_out: tuple[str, ...]
@@ -229,7 +228,7 @@ class Design:
             case,
             tuple(computed),
             tuple(factors),
-            _film_factors(case, float(off)),
+            film_factors(case, float(off)),
             None if weibull is None else weibull.shape,
             assumed,
             tuple(left_out),
@@ -240,33 +239,51 @@ class Design:
         """Number of uncertain inputs, with the films and the scatter of the strength."""
         return len(self.computed) + len(self.factors) + 1 + (self.shape is not None)
 
-    def arrays(self, at: Array) -> dict[str, Array]:
-        """Inputs of the case by key at points from 0 to 1, shape (n, width)."""
+    @property
+    def rough(self) -> bool:
+        """Whether the films have summits, over which the margin is not proportional to the film: then the
+        error of the films stands behind the computed inputs, and otherwise behind the factors.
+        """
+        return self.case.bearing.summit_height > 0.0 or any(
+            change.key == "bearing.summit_height" for change in self.computed
+        )
+
+    @property
+    def number(self) -> int:
+        """Number of columns for which margins are computed."""
+        return len(self.computed) + self.rough
+
+    def film_scale(self, at: Array) -> Numbers:
+        """Factor on all films of which the margin is no simple factor, shape (n,); 1 for smooth films."""
+        low, high = self.films
+        return low + (high - low) * at[:, len(self.computed)] if self.rough else 1.0
+
+    def arrays(self, at: Array, scale: Numbers = 1.0) -> dict[str, Array]:
+        """Inputs of the case by key at points from 0 to 1, shape (n, width). ``scale``, further factor on all
+        films that summits are compared with, shape (...).
+        """
         arrays: dict[str, Array] = {}
         for k, change in enumerate(self.computed):
             low, high = change.ends
             arrays |= change.changes(low + (high - low) * at[:, k])
+        if self.rough or ROUGHNESS in arrays:
+            given = arrays.get(ROUGHNESS, np.full(len(at), self.case.bearing.composite_rq))
+            arrays[ROUGHNESS] = given / (scale * self.film_scale(at))
         return arrays
 
     def log_factors(self, at: Array) -> Array:
-        """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - computed)."""
-        columns, k = [], len(self.computed)
+        """Logarithms of the factors on the margin at points from 0 to 1, shape (n, width - number)."""
+        columns, k = [], self.number
         ends = [(change.ends, change.value) for change in self.factors]
-        for (low, high), value in [*ends, (self.films, 1.0)]:
+        if not self.rough:
+            ends.append((self.films, 1.0))
+        for (low, high), value in ends:
             columns.append(np.log((low + (high - low) * at[:, k]) / value))
             k += 1
         if self.shape is not None:
             # Part of the strength at 63.2 % at which a share of equal films has broken down.
             columns.append(np.log(-np.log1p(-at[:, k])) / self.shape)
         return np.stack(columns, axis=-1)
-
-
-def _film_factors(case: BearingCase, off: float) -> tuple[float, float]:
-    """Ends of the factor on the margin by the error of the films, as they break down in proportion to it."""
-    if case.contacts == "formula":
-        factor = formula_factor(case.bearing.kind)
-        return 1.0 / factor, factor
-    return 1.0 - off, 1.0 + off
 
 
 def uncertainty_of(
@@ -343,8 +360,9 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     arrays = design.arrays(at)
     case = solution.case.with_arrays(arrays) if arrays else solution.case
     found = first_margin(replace(solution, case=case))
-    assert found is not None
-    return _chance(found * np.exp(np.sum(design.log_factors(at), axis=-1)))
+    # Points whose surfaces touch count as breakdown.
+    margin = design.film_scale(at) * np.nan_to_num(np.zeros(len(at)) if found is None else found)
+    return _chance(margin * np.exp(np.sum(design.log_factors(at), axis=-1)))
 
 
 def _computed(
@@ -354,15 +372,15 @@ def _computed(
 
     ``speed`` of the inner ring at the points [rad/s], by default that of the case.
     """
-    arrays = design.arrays(at)
+    arrays = design.arrays(at, margins.lambda_factor)
     if speed is not None:
         arrays["bearing.inner_speed"] = speed
-    many = many_of(margins.quick.case, arrays, len(at))
+    many = many_of(margins.quick_case, arrays, len(at))
     margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
     solved = np.isfinite(margin)
     if not np.any(solved):
         raise InputError.worded(None, NO_MARGINS)
-    return margins.margin_factor * np.where(solved, margin, 0.0), solved
+    return margins.margin_factor * design.film_scale(at) * np.where(solved, margin, 0.0), solved
 
 
 def _inputs(
@@ -371,7 +389,7 @@ def _inputs(
     """Uncertain inputs with their shares of the variance of ln(margin), the largest first, and the share of
     this variance that is predicted.
     """
-    number = len(design.computed)
+    number = design.number
     separated = solved & (computed > 0.0)
     own = np.var(design.log_factors(at), axis=0)
     first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
@@ -392,17 +410,24 @@ def _inputs(
 
 def _names(design: Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
     """Key, label, range and reason of each uncertain input, in the order of the design."""
-    for change in (*design.computed, *design.factors):
-        reason = design.assumed.get(change.key)
-        yield change.key, change.label, *change.ends, reason is not None, reason or ""
     by = {"atlas": "stated error of the atlas", "formula": "stated error of the formula"}
-    yield (
-        FILMS,
-        "films",
-        *design.films,
-        True,
-        by.get(design.case.contacts, "estimated error of the solved films"),
+    films = (
+        (
+            FILMS,
+            "films",
+            *design.films,
+            True,
+            by.get(design.case.contacts, "estimated error of the solved films"),
+        ),
     )
+    computed, factors = (
+        [
+            (one.key, one.label, *one.ends, one.key in design.assumed, design.assumed.get(one.key, ""))
+            for one in changes
+        ]
+        for changes in (design.computed, design.factors)
+    )
+    yield from (*computed, *films, *factors) if design.rough else (*computed, *factors, *films)
     if design.shape is not None:
         yield SCATTER, "scatter of the dielectric strength", None, None, False, ""
 

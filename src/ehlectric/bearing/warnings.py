@@ -25,12 +25,14 @@ from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
+    CONDUCTING,
     BearingSolution,
     Position,
     RingState,
     capacitance_is_bound,
     error_text,
     insulating,
+    lambda_ratio,
     lambda_text,
     lubrication,
     with_light,
@@ -257,7 +259,10 @@ def _assumed_text(coating: Coating) -> str:
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of surfaces that touch all or some of the time."""
     state, ratio = lubrication(solution), partial(lambda_text, solution)
-    yield Flag.of(state == "conducting", "touching", "steel", ratio=ratio)
+    conducts, nearly_always = state == "conducting", lambda_ratio(solution) < CONDUCTING
+    yield Flag.of(conducts & nearly_always, "touching", "steel", ratio=ratio)
+    height = solution.case.bearing.summit_height
+    yield Flag.of(conducts & ~np.asarray(nearly_always), "touching", "summits", ratio=ratio, height=height)
     yield Flag.of(state == "touching", "touching", "ceramic", ratio=ratio)
     partly = state == "partial film"
     if solution.conditions.ceramic:

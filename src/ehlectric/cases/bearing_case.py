@@ -20,7 +20,7 @@ from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_he
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
-from ehlectric.cases.defaults import DEFAULT_FILM, Contacts
+from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
@@ -295,7 +295,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             if getattr(self.discharge, key) is not None:
                 raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
         self._check_connected()
-        self._set_default_film()
+        self._set_defaults()
         check_heat(self.bearing, self.lubricant)
         if (
             self.bearing.by_supply_rule
@@ -309,13 +309,16 @@ class BearingCase(CaseFile, book="bearing_file"):
         self._check_ranges()
         return self
 
-    def _set_default_film(self) -> None:
-        """Set a film factor that is not given: the best estimate that the oil allows."""
-        if "film_factor" in self.bearing.model_fields_set:
-            return
-        # It is not among the given keys, so that ``replace`` sets it anew for another oil.
-        bearing = self.bearing.model_copy()
-        bearing.__dict__["film_factor"] = DEFAULT_FILM if viscosity_follows(self.lubricant) else "none"
+    def _set_defaults(self) -> None:
+        """Set a film factor that is not given, the best estimate that the oil allows, and a height of the
+        summits that is not given: 0 for an isothermal film, whose voltages are upper bounds.
+        """
+        given, bearing = self.bearing.model_fields_set, self.bearing.model_copy()
+        # They are not among the given keys, so that ``replace`` sets them anew for another oil.
+        if "film_factor" not in given:
+            bearing.__dict__["film_factor"] = DEFAULT_FILM if viscosity_follows(self.lubricant) else "none"
+        if "summit_height" not in given:
+            bearing.__dict__["summit_height"] = 0.0 if bearing.isothermal else DEFAULT_SUMMITS
         self.__dict__["bearing"] = bearing
 
     def _check_ranges(self) -> None:
@@ -501,10 +504,11 @@ class BearingCase(CaseFile, book="bearing_file"):
 
 
 def open_tables(case: BearingCase) -> dict[str, Any]:
-    """Tables of a case to be changed, in which a film factor that follows from the oil is left open."""
+    """Tables of a case to be changed, in which keys that follow from other inputs are left open."""
     table = case.to_dict()
-    if "film_factor" not in case.bearing.model_fields_set:
-        del table["bearing"]["film_factor"]
+    for key in ("film_factor", "summit_height"):
+        if key not in case.bearing.model_fields_set:
+            del table["bearing"][key]
     return table
 
 

@@ -16,7 +16,7 @@ from ehlectric.cases import library
 from ehlectric.cases.amounts import amount_at
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.coating_inputs import Coating
-from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS, ISOTHERMAL
+from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, FILM_FACTORS, ISOTHERMAL
 from ehlectric.cases.film_inputs import check_thermal_oil
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.library.bearing_catalogue import (
@@ -198,6 +198,7 @@ class Bearing(Table, book="bearing"):
     inner_ring_temperature: float | None = None
     outer_ring_temperature: float | None = None
     composite_rq: float
+    summit_height: float = DEFAULT_SUMMITS
     summits: Summits | None = None
     contact_resistance: float | None = None
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
@@ -264,6 +265,11 @@ class Bearing(Table, book="bearing"):
     def isothermal(self) -> bool:
         """Whether the films have no heat, neither computed nor in a given factor: they are upper bounds."""
         return self.film_factor in ISOTHERMAL
+
+    @property
+    def bounding(self) -> bool:
+        """Whether the breakdown voltages are upper bounds: those of isothermal or of smooth films."""
+        return self.isothermal or (is_number(self.summit_height) and self.summit_height == 0.0)
 
     @property
     def by_supply_rule(self) -> bool:
@@ -412,6 +418,7 @@ class BearingKeys(TypedDict, total=False):
     inner_ring_temperature: Value
     outer_ring_temperature: Value
     composite_rq: Value
+    summit_height: Value
     summits: Keys
     contact_resistance: Value
     fill: float | str

@@ -33,6 +33,10 @@ FILM_FACTORS = ("none", "inlet-shear", "solved")
 DEFAULT_FILM = "inlet-shear"
 ISOTHERMAL = ("none", 1.0)
 
+# Height of the highest summits over the composite Rq: contact of rolling surfaces was measured to begin at a
+# lambda ratio of 2 (electrical contact resistance of discs, Clarke et al.).
+DEFAULT_SUMMITS = 2.0
+
 
 def quick_way(contacts: object) -> str:
     """Quick way of a bearing with contacts as its file has them: its own one, or the atlas.

@@ -13,12 +13,16 @@ from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.circuit import Path
 from ehlectric.bearing.impedance import oil_relaxation_time, shaft_path
 from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.errors import InputError
 from ehlectric.runtime.stored import stored
 
 # Contacts in series between both rings, which a touching element closes.
 _IN_SERIES = 2.0
+
+# Voltage of a discharge over the lowest one at which its arc burns: just above it.
+_BURNS = 1.001
 
 # Share of time with metallic contact below which it is left out: a second in a week.
 _NEVER = 1e-6
@@ -34,7 +38,7 @@ class BearingElement:
     # Conductance of the oil of the films, mean over the positions [S].
     conductance: float = field(metadata=stored("", "S", "not negative"))
     # Voltage across the films at which one element breaks down from ring to ring [V]; infinite for ceramic
-    # elements, shape (p,).
+    # elements, shape (p,). Under summits it is at least that of an arc.
     breakdown: Array = field(
         metadata=stored(
             "position", "V", "positive or infinite", name="position_breakdown", count="position_count"
@@ -79,7 +83,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
             takes="the resistance of one closed contact; about 0.1 to 1 ohm",
         )
     circuits = solution.circuits()
-    strengths = np.array([circuit.through_breakdown for circuit in circuits])
+    strengths = _breakdown(solution, breakdown.lowest_voltage)
     if not ceramic and not np.all(np.isfinite(strengths)):
         raise InputError.missing(f"{end}.discharge.dielectric_strength", "the strength of the oil")
     films = np.array([circuit.capacitance for circuit in circuits])
@@ -102,3 +106,19 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
         transit=2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed,
         real_area=(duty.real_area or 0.0) if touching else 0.0,
     )
+
+
+def _breakdown(solution: BearingSolution, lowest: float) -> Array:
+    """Voltage from ring to ring at which an element breaks down at each position of the cage, shape (p,) [V].
+
+    Films under high summits break down below the ``lowest`` voltage [V] at which an arc burns, and to no
+    effect: they discharge as soon as an arc burns. That holds for summits that touch, too.
+    """
+    least = _BURNS * lowest
+    smooth = [position.circuit(solution.case.bearing.fill) for position in solution.positions]
+    without, found = (
+        np.array([circuit.through_breakdown for circuit in circuits])
+        for circuits in (smooth, solution.circuits())
+    )
+    # Arcs that a smooth film would not feed either are refused with the drive.
+    return np.where(without > least, np.maximum(found, least), found)

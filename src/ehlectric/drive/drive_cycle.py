@@ -32,6 +32,7 @@ from ehlectric.bearing.duty_cycle import (
     file_warnings,
     rows_of,
 )
+from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
@@ -144,6 +145,8 @@ class DriveDuty(Values):
         Number of simulated rows.
     simulated : float
         Time that was simulated at all of them together [s].
+    touching_ratio : float
+        Lambda ratio up to which the surfaces of either bearing are called touching.
     warnings : tuple of ResultWarning
         Warnings about the file and about rows that are not computed.
     """
@@ -155,6 +158,7 @@ class DriveDuty(Values):
     source: str = field(metadata=number("text"))
     points: int = field(metadata=number("whole"))
     simulated: float = field(metadata=number())
+    touching_ratio: float = field(metadata=number())
     warnings: tuple[ResultWarning, ...] = ()
 
     def summary(self) -> dict[str, Any]:
@@ -258,6 +262,7 @@ def run_drive_cycle(
         source=ready.cycle.source,
         points=found.simulation.done,
         simulated=found.simulation.time,
+        touching_ratio=max(float(touching_ratio(one.bearing.summit_height)) for one in case.bearings),
         warnings=tuple(_warnings(ready, found)),
     )
 

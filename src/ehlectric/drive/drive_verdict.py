@@ -198,8 +198,9 @@ def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
 
 
 def _bound(case: DriveCase, codes: set[str]) -> str:
-    films = "isothermal, fully flooded, smooth films" if "isothermal-film" in codes else "smooth films"
-    kind = "Upper bound" if any(one.bearing.isothermal for one in case.bearings) else "Best estimate"
+    films = f"{'rough' if all(one.bearing.summit_height for one in case.bearings) else 'smooth'} films"
+    films = f"isothermal, fully flooded, {films}" if "isothermal-film" in codes else films
+    kind = "Upper bound" if any(one.bearing.bounding for one in case.bearings) else "Best estimate"
     return f"{kind}: the voltages at which films break down are those of {films}."
 
 

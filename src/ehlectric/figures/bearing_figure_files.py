@@ -80,7 +80,7 @@ def loads(result: BearingResult) -> str:
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
     text = f"Largest load {most['load']:.3g} N ({_contact(most)})"
     text += f"; minimum film {least} ({_contact(thinnest)}), λ {lambda_text(result.solution)}"
-    return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
+    return text + (": surfaces touch, at times at least" if lubrication(result.solution) in _TOUCHING else "")
 
 
 def _contact(row: Mapping[str, Any]) -> str:
@@ -230,8 +230,8 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
-        return text + ": surfaces touch"
-    return text + (": voltages are upper bounds" if voltages and solution.case.bearing.isothermal else "")
+        return text + ": surfaces touch, at times at least"
+    return text + (": voltages are upper bounds" if voltages and solution.case.bearing.bounding else "")
 
 
 def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:

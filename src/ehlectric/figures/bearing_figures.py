@@ -19,7 +19,7 @@ from ehlectric.bearing.bearing_discharges import shaft_leakage
 from ehlectric.bearing.circuit import shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
+from ehlectric.bearing.solution import PARTIAL, RingState, touching_ratio
 from ehlectric.figures.contact_findings import with_unit
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.draw import line_look
@@ -127,17 +127,18 @@ def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
     axes on which the radial load points down.
     """
     ax = _polar_or_new(result, ax)
-    rq = result.solution.case.bearing.composite_rq
+    bearing = result.solution.case.bearing
+    rq, touching = bearing.composite_rq, float(touching_ratio(bearing.summit_height))
     films = np.concatenate(
         [race.values.minimum_thickness[race.solved] for ring in _RINGS for race in _races(result, ring)]
     )
     factor, unit = unit_for(float(films.min()), "m")
     # Circles far below the films are left out, because they would leave little room for the films.
-    ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
+    ratios = [ratio for ratio in (touching, max(PARTIAL, touching)) if films.min() < _FAR * ratio * rq]
     everything = factor * np.concatenate([films, rq * np.array(ratios)])
     angles = np.linspace(0.0, 2.0 * np.pi, 181)
     for ratio in ratios:
-        line = ":" if ratio == CONDUCTING else "--"
+        line = ":" if ratio == touching else "--"
         label = rf"$\lambda$ = {ratio:g}"
         ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
     for ring in reversed(_RINGS):

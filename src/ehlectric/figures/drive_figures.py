@@ -605,8 +605,8 @@ def over_time(result: DriveResult, ax: Axes, *, number: int) -> None:
 def over_cycle_time(result: DriveResult, ax: Axes, *, number: int) -> None:
     """Draw one of the quantities over the duty cycle."""
     assert result.duty is not None
-    rows = result.duty.rows
-    draw_panel(list(drive_duty_panels(rows))[number], ax, time_axis_of_cycle(rows))
+    panels = list(drive_duty_panels(result.duty))
+    draw_panel(panels[number], ax, time_axis_of_cycle(result.duty.rows))
 
 
 def legend_of_cycle(axes: list[Axes]) -> None:

@@ -16,7 +16,7 @@ from ehlectric.bearing.duty_cycle import (
     edges_of,
 )
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
-from ehlectric.drive.drive_cycle import DriveDutyRows
+from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.results import NAMES_OF_ENDS
@@ -25,11 +25,12 @@ from ehlectric.quantities.units import RPM
 # Longest cycle whose time is in seconds; that of a longer one is in hours [s].
 _LONGEST = 7200.0
 
-# Bands of the states: number, name, colour and opacity. A full film has none.
+# Bands of the states: number, name with the lambda ratio up to which surfaces touch, colour and opacity. A
+# full film has none.
 _BANDS = (
     (STANDSTILL, "standstill", MIDDLE_GREY, 0.35),
-    (TOUCHING, "touching, λ < 1", ORANGE, 0.35),
-    (PARTIAL_FILM, "partial film, λ from 1 to 3", OCHRE, 0.15),
+    (TOUCHING, "touching, λ < {touching:g}", ORANGE, 0.35),
+    (PARTIAL_FILM, "partial film, λ from {touching:g} to 3", OCHRE, 0.15),
 )
 
 
@@ -47,24 +48,28 @@ def time_axis(rows: DutyRows | DriveDutyRows) -> Along:
 def duty_panels(duty: DutyResult) -> Iterator[Panel]:
     """Speed, lambda ratio and, where any row has one, margin over time."""
     rows = duty.rows
-    yield _panel(rows, "speed", "rpm", rows.speed / RPM)
-    yield _panel(rows, "lambda ratio", "", rows.lambda_ratio, limits=(CONDUCTING, PARTIAL), colours=(BLUE,))
+    touching = _touching(duty)
+    limits = (touching, PARTIAL)
+    yield _panel(rows, touching, "speed", "rpm", rows.speed / RPM)
+    yield _panel(rows, touching, "lambda ratio", "", rows.lambda_ratio, limits=limits, colours=(BLUE,))
     if rows.has_margin:
-        yield _panel(rows, "margin", "", rows.margin, limits=(1.0,))
+        yield _panel(rows, touching, "margin", "", rows.margin, limits=(1.0,))
 
 
-def drive_duty_panels(rows: DriveDutyRows) -> Iterator[Panel]:
+def drive_duty_panels(duty: DriveDuty) -> Iterator[Panel]:
     """Speed, and lambda ratios and discharges per second of both bearings over time; equal curves once."""
-    yield _panel(rows, "speed", "rpm", rows.speed / RPM)
+    rows, touching = duty.rows, duty.touching_ratio
+    yield _panel(rows, touching, "speed", "rpm", rows.speed / RPM)
     same = np.array_equal(rows.lambda_ratio[:, 0], rows.lambda_ratio[:, 1], equal_nan=True)
     ratios = rows.lambda_ratio[:, :1] if same else rows.lambda_ratio
-    limits = (CONDUCTING, PARTIAL)
-    yield _panel(rows, "lambda ratio", "", ratios, limits=limits, colours=(BLACK,) if same else _ENDS)
-    yield _panel(rows, "discharges", "1/s", rows.discharge_rate, colours=_ENDS)
+    colours = (BLACK,) if same else _ENDS
+    yield _panel(rows, touching, "lambda ratio", "", ratios, limits=(touching, PARTIAL), colours=colours)
+    yield _panel(rows, touching, "discharges", "1/s", rows.discharge_rate, colours=_ENDS)
 
 
 def _panel(
     rows: DutyRows | DriveDutyRows,
+    touching: float,
     title: str,
     unit: str,
     values: Array,
@@ -73,7 +78,7 @@ def _panel(
     colours: tuple[str, ...] = (BLACK,),
 ) -> Panel:
     """Panel of a quantity over time, shape (n,), or of both bearings, shape (n, 2), with dashed lines at
-    limits.
+    limits. ``touching``, lambda ratio up to which surfaces are called touching.
     """
     time = _unit(rows)[0] * rows.time
     columns = values.reshape(time.size, -1).T
@@ -93,19 +98,24 @@ def _panel(
         ],
         1.08 * high,
         1.08 * low,
-        areas=tuple(_bands(rows)),
+        areas=tuple(_bands(rows, touching)),
         log=bool(limits) and is_wide(values),
     )
 
 
-def _bands(rows: DutyRows | DriveDutyRows) -> Iterator[Area]:
+def _bands(rows: DutyRows | DriveDutyRows, touching: float) -> Iterator[Area]:
     """Bands of the times in each state, of the thinner film of two, between the edges of the rows."""
     edges = np.repeat(_unit(rows)[0] * edges_of(rows.time), 2)[1:-1]
     thinner = np.min(rows.state.reshape(rows.time.size, -1), axis=1)
     for state, name, colour, opacity in _BANDS:
         within = np.repeat(thinner == state, 2)
         if np.any(within):
-            yield Area(name, edges, within, colour, opacity)
+            yield Area(name.format(touching=touching), edges, within, colour, opacity)
+
+
+def _touching(duty: DutyResult) -> float:
+    """Lambda ratio up to which surfaces are called touching."""
+    return CONDUCTING if duty.touching_ratio is None else duty.touching_ratio
 
 
 def _unit(rows: DutyRows | DriveDutyRows) -> tuple[float, str]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touching_ratio
 from ehlectric.bearing.speed_curves import (
     Curves,
     Speed,
@@ -32,6 +32,10 @@ Look = tuple[str, str, float]
 FIRST: Look = (BLACK, "solid", 1.1)
 THROUGH: Look = (OCHRE, "solid", 3.0)
 SHAFT: Look = (GREEN, "dash", 1.4)
+
+
+# Smallest margin that is drawn: films break down at any smaller one, however small.
+_LEAST_MARGIN = 0.05
 
 
 class BreakdownLine(NamedTuple):
@@ -90,11 +94,11 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
     """Margin over the speed within what is uncertain, and that of the bearing itself at its speed [rad/s]."""
     rpm, ones = band.speed / RPM, np.ones_like(band.speed)
     # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
-    least = 0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0))
+    least = max(0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0)), _LEAST_MARGIN)
     low, median, high = (np.maximum(values, least) for values in (band.low, band.median, band.high))
     drawn = [
         Curve("margin 1", rpm, ones, MIDDLE_GREY, "dash"),
-        Curve("median", rpm, np.where(band.median > 0.0, median, np.nan), BLACK, width=1.4),
+        Curve("median", rpm, np.where(band.median > least, median, np.nan), BLACK, width=1.4),
     ]
     if own is not None:
         drawn.append(_mark(own[0], own[1], BLACK, "star"))
@@ -152,11 +156,13 @@ def _mark(speed: float, value: float, colour: str, marker: str) -> Curve:
 
 
 def _contacts_open(curves: Curves) -> Iterator[Area]:
-    """Speeds with a lambda ratio below 1 and, fainter, below 3: they must not read as safe."""
+    """Speeds at which surfaces touch, nearly always or at times, or may touch: they must not read as safe."""
     nodes, ratio = curves.between("lambda_ratio")
+    touching = float(touching_ratio(curves.summit_height))
     for low, high, name, colour, opacity in (
         (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
-        (CONDUCTING, PARTIAL, "λ from 1 to 3: contacts at times", MIDDLE_GREY, 0.15),
+        (CONDUCTING, touching, f"λ from 1 to {touching:g}: touching at times, no voltage", ORANGE, 0.1),
+        (touching, PARTIAL, f"λ from {touching:g} to 3: contacts at times", MIDDLE_GREY, 0.15),
     ):
         within = (ratio >= low) & (ratio < high)
         # Up to the next node, so that no gap is left between both.

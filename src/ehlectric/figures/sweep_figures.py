@@ -71,7 +71,7 @@ def _of_time(shares: Array) -> str:
 def _intermittent(selection: Slice) -> str:
     """Clause: the number of points at which contacts open and close, so that no voltage is computed."""
     count = int(np.sum(selection.intermittent))
-    return f"; at {count} more, contacts open and close (λ < 1), discharges are likely" if count else ""
+    return f"; at {count} more, contacts open and close, discharges are likely" if count else ""
 
 
 def _of_margins(results: SweepResults, selection: Slice, margin: Array) -> str:

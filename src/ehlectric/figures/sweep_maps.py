@@ -237,7 +237,7 @@ def _intermittent(between: _Between, whole: Mask, ax: Axes) -> list[Artist]:
     ones = np.ones_like(between.surface.x)
     look: dict[str, Any] = {"colors": [ORANGE], "alpha": 0.25, "hatches": [_OPENING]}
     ax.tricontourf(between.triangles(some & ~whole), ones, levels=[0.5, 1.5], **look)
-    label = r"at or near $\lambda$ < 1: discharges likely, no voltage computed"
+    label = "surfaces touch there or nearby: discharges likely, no voltage computed"
     return [Patch(facecolor=(ORANGE, 0.25), edgecolor=GREY, hatch=_OPENING, lw=0.0, label=label)]
 
 

@@ -191,7 +191,7 @@ LESS_ACCURATE = frozenset(code for code, cause in CODES.items() if cause.less_ac
 _NAMES = {
     "solved": "points",
     "do not use": "must not be used",
-    "intermittent": r"with $\lambda$ < 1: contacts open and close",
+    "intermittent": "without a voltage: contacts open and close",
 }
 
 

@@ -67,7 +67,7 @@ def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """
     inputs = summary.get("inputs", {})
     ends = (inputs[end]["bearing"] for end in ("drive_end", "non_drive_end") if end in inputs)
-    ideal = any(_isothermal(end) for end in ends) or _parting(summary)
+    ideal = any(_isothermal(end) or _smooth(end) for end in ends) or _parting(summary)
     return _holding(book, lambda _: ideal)
 
 
@@ -81,8 +81,13 @@ def _isothermal(bearing: Mapping[str, Any]) -> bool:
     return bearing.get("film_factor") in ("none", 1.0)
 
 
+def _smooth(bearing: Mapping[str, Any]) -> bool:
+    """Whether films of a table ``bearing`` break down as smooth ones; so do all of a file without the key."""
+    return not bearing.get("summit_height")
+
+
 def _parting(summary: Summary) -> bool:
-    """Whether surfaces may touch, and break down below the voltage of their smooth films as they part."""
+    """Whether surfaces may touch, and break down below the voltage of their films as they part."""
     return "partial-film" in summary.get("warning_codes", ())
 
 
@@ -91,17 +96,18 @@ def breakdown_words(summary: Summary) -> str:
 
     Examples
     --------
-    >>> inputs = {"bearing": {"film_factor": "inlet-shear"}}
+    >>> inputs = {"bearing": {"film_factor": "inlet-shear", "summit_height": 2.0}}
     >>> breakdown_words({"inputs": inputs, "warning_codes": ["smooth-film"]})
-    'best estimate: smooth film'
+    'best estimate: rough film'
     >>> breakdown_words({"inputs": inputs, "warning_codes": ["partial-film"]})
-    'upper bound: smooth film, whose surfaces may touch'
+    'upper bound: rough film, whose surfaces may touch'
     """
-    codes, parting = summary["warning_codes"], _parting(summary)
-    films = "isothermal, fully flooded, smooth film" if "isothermal-film" in codes else "smooth film"
+    codes, parting, bearing = summary["warning_codes"], _parting(summary), summary["inputs"]["bearing"]
+    film = f"{'smooth' if _smooth(bearing) else 'rough'} film"
+    films = f"isothermal, fully flooded, {film}" if "isothermal-film" in codes else film
     touch = ", whose surfaces may touch" if parting else ""
     scatter = ", at a probability of 63.2 %" if "weibull-voltage" in codes else ""
-    bound = parting or _isothermal(summary["inputs"]["bearing"])
+    bound = parting or _isothermal(bearing) or _smooth(bearing)
     return f"{'upper bound' if bound else 'best estimate'}: {films}{touch}{scatter}"
 
 
@@ -127,14 +133,14 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a bearing, by dotted key.
 
     Isothermal films are bounds: real films are thinner, break down at lower voltages and higher speeds, and
-    have higher fields. So are smooth films whose surfaces may touch. All others are best estimates. The shaft
-    voltage falls with the film, but less than it. The energy of a breakdown voltage that is an upper bound is
-    one too, although a thinner film has a higher capacitance: it grows as 1/h at most, and the square of the
-    voltage falls as h^2.
+    have higher fields. So are smooth films, and films whose surfaces may touch. All others are best
+    estimates. The shaft voltage falls with the film, but less than it. The energy of a breakdown voltage that
+    is an upper bound is one too, although a thinner film has a higher capacitance: it grows as 1/h at most,
+    and the square of the voltage falls as h^2.
     """
     codes = summary["warning_codes"]
     leaks, isothermal = "shaft-leaks" in codes, _isothermal(summary["inputs"]["bearing"])
-    ideal = isothermal or _parting(summary)
+    ideal = isothermal or _smooth(summary["inputs"]["bearing"]) or _parting(summary)
     holds = {
         **dict.fromkeys(_CERAMIC, "capacitance-bound" in codes),
         **dict.fromkeys(_DISCHARGED, leaks),

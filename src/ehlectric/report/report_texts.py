@@ -136,6 +136,7 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
         "formula": case.contacts == "formula",
         "atlas": case.contacts == "atlas",
         "coated": bearing.coating is not None,
+        "summits": bearing.summit_height > 0.0,
         "inlet heat": bearing.heated,
         "solved heat": solved_heat,
         f"rheology {'eyring' if thinning else 'newtonian'}": True,

@@ -57,9 +57,9 @@ def _bounds(case: SweptCase) -> bool:
     """Whether the films of a case are upper bounds; those of a bearing with heat are best estimates."""
     match case:
         case BearingCase():
-            return case.bearing.isothermal
+            return case.bearing.bounding
         case DriveCase():
-            return any(one.bearing.isothermal for one in case.bearings)
+            return any(one.bearing.bounding for one in case.bearings)
         case _:
             return True
 

@@ -272,7 +272,7 @@ class Slice:
 
     @property
     def intermittent(self) -> Mask:
-        """Mask of bearings with a lambda ratio below 1, whose contacts open and close, shape (points,)."""
+        """Mask of bearings whose contacts open and close, so that they have no voltage, shape (points,)."""
         states = [value_at(point.summary or {}, "bearing.lubrication") for point in self.points]
         return np.asarray(self.of("solved") & np.array([state == "conducting" for state in states]))
 

@@ -29,7 +29,10 @@ from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point, SweepPoints
 
-# Reason for which a bearing with a lambda ratio below 1 has no margin.
+# Inputs of a bearing with which its films are ideal.
+_IDEAL = ("film_factor", "summit_height")
+
+# Reason for which a bearing whose surfaces touch, at times at least, has no margin.
 _TOUCH = "surfaces touch (discharges likely as contacts open)"
 
 
@@ -91,7 +94,7 @@ def _without_voltages(results: SweepPoints) -> Verdict | None:
     everywhere = sure and count == len(states) and driven
     return Verdict(
         "red" if everywhere else "yellow",
-        f"Discharges likely: at {count} of {len(states)} points surfaces touch (lambda ratio below 1), and "
+        f"Discharges likely: at {count} of {len(states)} points surfaces touch, at times at least, and "
         "contacts discharge at a low voltage as they open; no voltage is computed for that.",
     )
 
@@ -106,8 +109,10 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
     errors = [_film_error(point, results.case) for point, _ in known]
     off = max(errors)
     near = sum(
-        margin / (1.0 + error) < 1.0 <= margin * (1.0 + error)
-        for error, (_, margin) in zip(errors, known, strict=True)
+        margin / (1.0 + part * error) < 1.0 <= margin * (1.0 + part * error)
+        for error, part, (_, margin) in zip(
+            errors, (_over_summits(point, results.case) for point, _ in known), known, strict=True
+        )
     )
     if near:
         yield f"At {near} of the points the margin is within the {percent(off)} that films may be off."
@@ -135,6 +140,15 @@ def _film_error(point: Point, case: SweptCase) -> float:
     return float(value_at(summary, "bearing.film_error") or 0.0)
 
 
+def _over_summits(point: Point, case: SweptCase) -> float:
+    """Relative change of a margin over that of all films, of a small one: more than 1 under summits."""
+    if not isinstance(case, BearingCase):
+        return 1.0
+    height = point.inputs.get("bearing.summit_height", case.bearing.summit_height)
+    ratio = value_at(point.summary or {}, "bearing.lambda_ratio")
+    return ratio / (ratio - height) if is_number(ratio) and is_number(height) and ratio > height else 1.0
+
+
 def _strength_varies(results: SweepPoints) -> bool:
     """Whether the strength is among the varied inputs."""
     return any(key.startswith("discharge.") for key in results.varied)
@@ -148,11 +162,17 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     kind = "Upper bound"
     if isinstance(case, BearingCase):
         factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
-        kinds = ["isothermal", "fully flooded", "smooth"] if factors & {1.0} else ["smooth"]
-        taken = (
-            point.inputs.get("bearing.film_factor", case.bearing.film_factor) for point in results.points
-        )
-        kind = "Upper bound" if any(factor in ISOTHERMAL for factor in taken) else "Best estimate"
+        taken = [
+            tuple(point.inputs.get(f"bearing.{key}", getattr(case.bearing, key)) for key in _IDEAL)
+            for point in results.points
+        ]
+        smooth = any(not height for _, height in taken)
+        kinds = [
+            *(["isothermal", "fully flooded"] if factors & {1.0} else []),
+            "smooth" if smooth else "rough",
+        ]
+        ideal = smooth or any(factor in ISOTHERMAL for factor, _ in taken)
+        kind = "Upper bound" if ideal else "Best estimate"
     else:
         supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
         heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 
-# Heat of a film factor, laws of the share of time of a contact, and what a lambda ratio below 1 means.
+# Heat of a film factor, laws of the share of time of a contact, and what surfaces that touch mean.
 _HEAT, _LAWS, _TOUCH = (VALUES[name] for name in ("heat", "contact_model", "touching"))
 
 
@@ -279,9 +279,7 @@ def _shaft_note(summary: Summary) -> str:
 def _first_break(summary: Summary) -> Noted:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
     if _state(summary) == "conducting":
-        return Noted(
-            "not computed", ", lambda below 1: contacts open and close and discharge at a low voltage"
-        )
+        return Noted("not computed", ", contacts open and close, and discharge at a low voltage")
     found = summary["bearing"]
     return Noted(found["first_break"], f", {found['first_break_at']}; {breakdown_words(summary)}")
 

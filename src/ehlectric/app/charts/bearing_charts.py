@@ -10,16 +10,13 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack
-from ehlectric.bearing.solution import regime
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, regime, touches, touching_ratio
 from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
 from ehlectric.quantities.units import rpm, rpm_text
-
-# Lambda ratios below which surfaces touch, and below which they touch at times.
-_RATIOS = (1.0, 3.0)
 
 # A circle of a lambda ratio is left out where the smallest film is above this many times its thickness.
 _FAR = 4.0
@@ -110,22 +107,31 @@ def film_figure(
     around: Mapping[str, Around],
     roughness: float,
     *,
+    summit_height: float = 0.0,
     radial: bool = True,
 ) -> Plot:
     """Figure of the minimum films of the loaded contacts with both rings around the shaft.
 
-    The circles of lambda ratios are those of the combined root-mean-square roughness [m]. Contacts without
-    load have a gap instead of a film, and are left out.
+    The circles of lambda ratios are those of the combined root-mean-square roughness [m]; ``summit_height``
+    is that of the highest summits over it. Contacts without load have a gap instead of a film, and are left
+    out.
     """
+    touching = float(touching_ratio(summit_height))
     films = [
         film
         for ring in around.values()
         for film, on in zip(ring.film, ring.loaded, strict=True)
         if on and math.isfinite(film)
     ]
-    ratios = [ratio for ratio in _RATIOS if min(films) < _FAR * ratio * roughness]
+    limits = {touching: "touch at times", max(PARTIAL, touching): "may touch"}
+    if touching == CONDUCTING:
+        limits[touching] = "touch"
+    ratios = [ratio for ratio in limits if min(films) < _FAR * ratio * roughness]
     everything = [1e6 * film for film in [*films, *(ratio * roughness for ratio in ratios)]]
-    data = [_circle(ratio, 1e6 * ratio * roughness) for ratio in ratios]
+    data = [
+        _circle(ratio, 1e6 * ratio * roughness, limits[ratio], "dot" if ratio == touching else "dash")
+        for ratio in ratios
+    ]
     for name in _LOOKS:
         ring = around[name]
         values = np.where(ring.loaded, 1e6 * np.array(ring.film), np.nan).tolist()
@@ -161,9 +167,8 @@ def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], sy
     }
 
 
-def _circle(ratio: float, radius: float) -> Plot:
-    """Circle of a lambda ratio, with its film thickness [µm]."""
-    words, dash = ("touch", "dot") if ratio == _RATIOS[0] else ("may touch", "dash")
+def _circle(ratio: float, radius: float, words: str, dash: str) -> Plot:
+    """Circle of a lambda ratio, with its film thickness [µm] and what surfaces do inside, in words."""
     return scatter(
         range(0, 361, 5),
         [radius] * 73,
@@ -227,15 +232,16 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
                 f"{lambda_ratio:.3g}",
                 *(f"{value:.4g}" for value in capacitances),
                 *(f"{value:.4g}" if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
-                _state(lambda_ratio, summary["bearing"]["lubrication"]),
+                _state(lambda_ratio, summary["bearing"]["lubrication"], over.curves.summit_height),
             )
         )
     return rows
 
 
-def _state(lambda_ratio: float, quick: str) -> str:
+def _state(lambda_ratio: float, quick: str, summit_height: float) -> str:
     """State of lubrication at a scaled lambda ratio; ``quick`` is that of the quick ratio."""
     if not math.isfinite(lambda_ratio):
         return quick
-    state = regime(lambda_ratio)
-    return "conducting" if state == "touching" and quick != "touching" else state
+    if touches(lambda_ratio, summit_height) and quick != "touching":
+        return "conducting"
+    return str(regime(lambda_ratio, summit_height))

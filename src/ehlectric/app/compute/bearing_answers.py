@@ -400,7 +400,8 @@ def _how(result: BearingResult) -> str:
 def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
     """Figures around the shaft."""
     rows, around = summary["contacts"], _around(result)
-    rq, radial = result.case.bearing.composite_rq, result.case.bearing.radial_load > 0.0
+    bearing = result.case.bearing
+    rq, radial = bearing.composite_rq, bearing.radial_load > 0.0
     table = contacts_table(summary)
     loaded = [row for row in rows if row["solved"]]
     most = max(loaded, key=lambda row: row["load"])
@@ -421,7 +422,7 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
         "film": Figure(
             "Minimum film thickness [µm]",
             f"Minimum film of the loaded contacts around the shaft: {film}",
-            film_figure(rows, around, rq, radial=radial),
+            film_figure(rows, around, rq, summit_height=bearing.summit_height, radial=radial),
             table,
             _gaps(around),
         ),
