@@ -78,8 +78,8 @@ def test_a_warning_of_both_ends_stands_once():
 
 
 def level(**changes):
-    """Level and text of the verdict before a simulation, and its margin by the divider."""
-    case = case_of(DRIVE.changed(changes))
+    """Level and text of the verdict with smooth films before a simulation, and its margin by the divider."""
+    case = case_of(DRIVE.changed(changes | {"drive_end.bearing.summit_height": 0.0}))
     found = check(case).summary
     verdict = expected(case, found)
     return verdict.level, verdict.text, verdict.margin

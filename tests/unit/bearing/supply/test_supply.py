@@ -88,7 +88,8 @@ def test_summary_of_a_greased_bearing():
     greased = result.summary()
     assert summary_of(solution_of(dataset_of(result.solution)))["bearing"] == greased["bearing"]
     factor = greased["bearing"]["supply_factor"]
-    given = solve_bearing(case(bearing__film_factor=factor)).summary()
+    # The height of the summits that is not given follows the factor: isothermal films are smooth.
+    given = solve_bearing(case(bearing__film_factor=factor, bearing__summit_height=0.0)).summary()
     assert greased["bearing"]["film_factor"] == factor == pytest.approx(0.94, abs=0.005)
     for key in ("capacitance", "first_break", "lambda_ratio"):
         assert greased["bearing"][key] == given["bearing"][key]

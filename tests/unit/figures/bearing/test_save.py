@@ -562,9 +562,9 @@ def test_a_doubtful_margin_is_no_promise(result, monkeypatch):
 
 
 def example_at(n):
-    """The example with contacts by formula at a speed [rpm]."""
+    """The example with smooth films and contacts by formula at a speed [rpm]."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
-    changes = {"contacts": "formula", "bearing.inner_speed": f"{n} rpm"}
+    changes = {"contacts": "formula", "bearing.inner_speed": f"{n} rpm", "bearing.summit_height": 0.0}
     return solve_bearing(case.replace(changes), workers=1)
 
 
