@@ -269,7 +269,7 @@ def check_table(results: Sequence[BearingResult]) -> None:
         told = ", ".join(f"{rpm_text(speed)} rpm" for speed in sorted(touching))
         raise InputError(
             "bearing.inner_speed",
-            got=f"{told}, where surfaces touch, at times at least,",
+            got=f"{told}, whose lambda ratio is so low that surfaces touch, at times at least,",
             takes="in a table over the speed, speeds at which films part the surfaces",
         )
 

@@ -35,7 +35,7 @@ HEADS = "time [s],speed [rpm],radial load [N],temperature [degC],gear"
 ROWS = """\
 0,0,1800,70,1
 10,15,1800,90,1
-20,600,2500,85,2
+20,900,2500,80,2
 30,1000,1800,80,2
 40,-3000,1200,60,3
 100,6000,900,40,4
@@ -135,7 +135,7 @@ def test_the_figure_has_the_rows_of_the_cycle(answer, duty):
     lines = {trace["name"]: trace for trace in plot["data"] if "fill" not in trace and trace.get("name")}
     assert set(lines) == {"speed", "lambda ratio", "margin"}
     assert lines["speed"]["x"] == [0.0, 10.0, 20.0, 30.0, 40.0, 100.0]
-    assert lines["speed"]["y"] == pytest.approx([0.0, 15.0, 600.0, 1000.0, -3000.0, 6000.0])
+    assert lines["speed"]["y"] == pytest.approx([0.0, 15.0, 900.0, 1000.0, -3000.0, 6000.0])
     assert lines["lambda ratio"]["y"][0] is None, "there is no film at a standstill"
     assert lines["margin"]["y"][1] is None, "there is no voltage where surfaces touch"
     legend = [trace["name"] for trace in plot["data"] if trace["showlegend"]]

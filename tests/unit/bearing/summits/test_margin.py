@@ -15,7 +15,7 @@ from ehlectric.bearing.margin import QuickMargins, speed_range
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.speed_curves import Curves, curves_of, opening_speed_of, over_speed
-from ehlectric.bearing.uncertainty import FILMS, _Design, quick_chance, uncertainty_of
+from ehlectric.bearing.uncertainty import FILMS, Design, quick_chance, uncertainty_of
 from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.solver import prepare
 from tests.helpers.bearings import BALLS, bearing_case, with_values
@@ -84,7 +84,7 @@ def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, chang
 def test_the_error_of_the_films_acts_on_the_gap_that_summits_leave(rough):
     """By plain points: the margin at films of a random thickness, each by hand from least film and height."""
     solution, margins = rough
-    design = _Design.of(solution)
+    design = Design.of(solution)
     number = len(design.computed)
     at = np.full((5, design.width), 0.5)
     at[:, number] = [0.0, 0.25, 0.5, 0.75, 1.0]
