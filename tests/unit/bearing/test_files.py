@@ -14,6 +14,7 @@ from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.run import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, save
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.result_names import DUTY
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
 # With a wide clearance some balls do not touch the inner ring.
@@ -116,7 +117,7 @@ def test_a_bearing_without_strength_and_conductivity(tmp_path):
     result = solve_bearing(bearing_case(BALLS, contacts="formula", discharge=None))
     files = save(result, tmp_path)
     assert IMPEDANCE not in {file.name for file in files}
-    assert {path.name for path in tmp_path.iterdir()} == {*FILES} - {IMPEDANCE}
+    assert {path.name for path in tmp_path.iterdir()} == {*FILES} - {IMPEDANCE, DUTY}
     loaded = load(tmp_path / NETCDF)
     assert np.all(loaded.solution.positions[0].inner.values.breakdown_voltage == np.inf)
     assert loaded.summary() == result.summary()

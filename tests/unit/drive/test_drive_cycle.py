@@ -16,6 +16,7 @@ from ehlectric.drive.solver import solve
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import DRIVE_KEYS
 from ehlectric.quantities.units import RPM
 from ehlectric.tables.drive_tables import drive_rows
 from tests.helpers.drives import small_drive
@@ -190,6 +191,16 @@ def test_summary_and_files(solved, tmp_path):
     assert summary["duty"]["rows"] == 4
     assert summary["duty"]["discharges"] == sum(summary[end]["duty_discharges"] for end in ENDS)
     assert summary["duty"]["standstill_share"] == pytest.approx(0.5 / 3.0)
+    parts = {"duty": "duty.", **{end: f"{end}.duty_" for end in ENDS}}
+    for table, prefix in parts.items():
+        keys = {f"{table}.{key}" for key in summary[table] if f"{table}.{key}".startswith(prefix)}
+        listed = {
+            key for key in DRIVE_KEYS if key.startswith(prefix) and not key.startswith("duty.stretches.")
+        }
+        assert keys == listed
+    assert {f"duty.stretches.{key}" for key in summary["duty"]["stretches"][0]} == {
+        key for key in DRIVE_KEYS if key.startswith("duty.stretches.")
+    }
     save(result, tmp_path)
     head, *rows = (tmp_path / "duty.csv").read_text().splitlines()
     assert "drive_end.discharge_rate [1/s]" in head.split(",")

@@ -168,7 +168,7 @@ def sheared():
         "contacts": "formula",
         "bearing.film_factor": "inlet-shear",
         "bearing.temperature": "20 degC",
-        "discharge.dielectric_strength": "2.24 V/um",
+        "discharge.dielectric_strength": "2.4 V/um",
         "lubricant.temperature.thermal_conductivity": "0.14 W/m/K",
     }
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(changes)
@@ -179,15 +179,14 @@ def sheared():
 @pytest.mark.slow
 def test_a_margin_that_falls_at_high_speed_has_two_critical_speeds(sheared):
     """Inlet shear heating: the margin is below 1 on both sides of a band, from whichever speed one looks."""
-    for rpm, word in ((9000, "likely"), (36000, "expected")):
-        result = sheared[rpm]
+    for result in sheared.values():
         speeds = result.margin_analysis.speeds
         for at in (speeds.critical, speeds.upper):
             assert margin_at(result, **{"bearing.inner_speed": at}) == pytest.approx(1.0, abs=1e-2)
         assert speeds.critical < speeds.upper
         for end in (speeds.critical, speeds.upper):
             assert f" {rpm_text(end)} rpm" in result.verdict.text
-        assert f"breakdown is {word}" in result.verdict.text
+        assert "breakdown is likely" in result.verdict.text
         assert result.margin_analysis.summary()["upper_critical_speed"] == speeds.upper
     inside = (speeds.critical * speeds.upper) ** 0.5
     assert margin_at(sheared[9000], **{"bearing.inner_speed": inside}) > 1.0
@@ -359,7 +358,8 @@ def test_a_range_that_formulas_cannot_follow_is_said(balls):
         discharge__dielectric_strength="100 V/um", ranges={"bearing.composite_rq": ["0.02 um", "50 um"]}
     )
     assert result.margin_analysis.low == 0.0
-    assert result.verdict.level == "yellow"
+    # Nearly all of the range leaves no film.
+    assert result.verdict.level == "red"
 
 
 def test_without_a_margin_there_is_no_analysis():
