@@ -174,7 +174,7 @@ def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
 
 
 def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
-    """Sentence: at which speeds breakdown is expected, and the margin of the bearing itself."""
+    """Sentence: at which speeds the margin is below 1, and the margin of the bearing itself."""
     margin = curves["first_break"] / curves["shaft_voltage"]
     known = np.isfinite(margin)
     at_own = ""
@@ -194,18 +194,18 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
 
 
 def _where(curves: Curves, margin: Array, speed: Array) -> str:
-    """Clause: the speeds at which breakdown is expected."""
+    """Clause: the speeds at which the margin is below 1."""
     critical = critical_speed_of(curves)
     lowest = curves.touching or max(float(speed[0]), opening_speed_of(curves) or 0.0)
     span = f"from {rpm_text(lowest)} to {rpm_text(float(speed[-1]))}"
     if critical is None:
         if np.all(margin >= 1.0):
-            return f"No breakdown expected {span}"
+            return f"Margin above 1 {span}"
         if np.all(margin < 1.0):
-            return f"Breakdown expected at all speeds {span}"
-        return f"Breakdown expected above {rpm_text(float(speed[margin >= 1.0][-1]))}"
+            return f"Margin below 1 at all speeds {span}"
+        return f"Margin below 1 above {rpm_text(float(speed[margin >= 1.0][-1]))}"
     some = "" if np.all(margin[speed < critical] < 1.0) else " at some speeds"
-    return f"Breakdown expected{some} below about {rpm_text(critical)}"
+    return f"Margin below 1{some} up to about {rpm_text(critical)}"
 
 
 def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:

@@ -62,8 +62,8 @@ def speed_axis(curves: Curves) -> Along:
     return Along("speed of the inner ring", "rpm", log=is_wide(curves.speed))
 
 
-def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely: str = "expected") -> Panel:
-    """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
+def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
+    """First and ring-to-ring breakdown with the shaft voltage, and where the margin is below 1."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
     drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
     for line in breakdown_lines(first, through):
@@ -77,7 +77,7 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely
         drawn.append(_mark(own[0], value, BLACK, "star"))
     nodes, low = curves.between("first_break")
     _, high = curves.between("shaft_voltage")
-    danger = Area(f"breakdown {likely}", nodes / RPM, high > low, ORANGE, 0.2, (low, high))
+    danger = Area("margin below 1", nodes / RPM, high > low, ORANGE, 0.2, (low, high))
     everything = np.concatenate([first, through, shaft])
     return Panel(
         f"{'shaft' if is_coated(points) else 'bearing'} voltage",

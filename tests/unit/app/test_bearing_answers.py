@@ -338,9 +338,7 @@ def test_the_words_of_a_margin_below_one_are_those_of_the_level():
         )
         assert word in told.meaning
         names = [str(trace.get("name")) for trace in answer.figures["breakdown"].plot["data"]]
-        assert [name for name in names if name in ("breakdown likely", "breakdown expected")] == [
-            f"breakdown {word}"
-        ]
+        assert "margin below 1" in names
         assert answer.effects.caption.endswith(word)
 
 

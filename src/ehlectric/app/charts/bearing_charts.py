@@ -186,13 +186,11 @@ class OverSpeed:
     points: Speeds
     own: Speed
     curves: Curves
-    # Level of the verdict, which is no surer at other speeds.
-    level: str = ""
 
     @classmethod
-    def of(cls, points: Speeds, own: Speed, *, level: str = "") -> OverSpeed:
+    def of(cls, points: Speeds, own: Speed) -> OverSpeed:
         """Curves through points, scaled to the bearing itself."""
-        return cls(points, own, curves_of(points, own), level)
+        return cls(points, own, curves_of(points, own))
 
     @property
     def contacts(self) -> str:
@@ -202,8 +200,7 @@ class OverSpeed:
 
 def breakdown_figure(over: OverSpeed) -> Plot:
     """First and ring-to-ring breakdown over the speed, with the shaft voltage."""
-    likely = "likely" if over.level == "yellow" else "expected"
-    return _figure(over, breakdown_panel(over.points, over.curves, over.own, likely=likely))
+    return _figure(over, breakdown_panel(over.points, over.curves, over.own))
 
 
 def capacitance_figure(over: OverSpeed) -> Plot:

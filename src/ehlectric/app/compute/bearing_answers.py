@@ -352,7 +352,7 @@ def answer_of(
         warnings += tuple(left_out)
         own = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)
-        over = OverSpeed.of(points, own, level=verdict.level)
+        over = OverSpeed.of(points, own)
         figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
     placed = limited_to(page_warnings_of(warnings, verdict.level), BEARING_CARDS)
     return BearingAnswer(

@@ -374,8 +374,10 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         ({}, "isothermal, fully flooded film, minimum λ 6.7, contacts solved: voltages are upper bounds"),
         (
             {"film": 0.02e-6},
-            "isothermal, fully flooded film, minimum λ 0.67, contacts solved: "
-            "surfaces touch, at times at least",
+            (
+                "isothermal, fully flooded film, minimum λ 0.67, contacts solved: "
+                "surfaces touch, at times at least"
+            ),
         ),
         (
             {"bearing": {"film_factor": 0.6}},
@@ -519,7 +521,7 @@ def test_the_crossing_is_marked_named_and_in_the_title(points):
     named = f"{float(f'{CROSSING:.3g}'):g} rpm"
     assert named in [text.get_text().strip() for text in ax.texts]
     assert title_of(drawn) == [
-        f"Breakdown expected below about {named}; contacts open and close below 774 rpm",
+        f"Margin below 1 up to about {named}; contacts open and close below 774 rpm",
         "By hand",
         "curves: contacts by formula",
     ]
@@ -530,7 +532,7 @@ def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
     own[1]["margin"] = {"critical_speed": 1234.0 / RPM}
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
     assert said(drawn).startswith(
-        "Breakdown expected below about 1230 rpm; contacts open and close below 774 rpm (margin 1.40"
+        "Margin below 1 up to about 1230 rpm; contacts open and close below 774 rpm (margin 1.40"
     )
     (mark,) = [found for found in drawn.axes[0].get_lines() if found.get_markerfacecolor() == "white"]
     assert mark.get_xdata()[0] == pytest.approx(1234.0)
@@ -549,7 +551,7 @@ def test_the_critical_speed_of_table_title_and_picture_is_one():
     assert critical is not None
     named = f"{float(f'{critical * RPM:.3g}'):g} rpm"
     drawn = figure(found, SPEED_FIGURE_FILES[1])
-    assert said(drawn).startswith(f"Breakdown expected below about {named} (margin ")
+    assert said(drawn).startswith(f"Margin below 1 up to about {named} (margin ")
     assert named in [text.get_text().strip() for text in drawn.axes[0].texts]
     first, shaft = (line(drawn.axes[0], name).get_data() for name in ("first", "shaft"))
     at = np.argmin(np.abs(np.log(first[1] / shaft[1])))
@@ -583,12 +585,12 @@ def test_curves_begin_where_the_surfaces_part():
     assert [at for at, _ in points] == sorted(at for at, _ in points)
     named = f"{float(f'{first[0] * RPM:.3g}'):g} rpm"
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=(slow.case.bearing.inner_speed, slow.summary()))
-    assert title_of(drawn)[0].startswith(f"Breakdown expected at all speeds from {named} to 400 rpm;")
+    assert title_of(drawn)[0].startswith(f"Margin below 1 at all speeds from {named} to 400 rpm;")
     assert f"below {named}" in said(drawn)
     # What the shading means stands above the axes, not on a curve.
     (ax,) = drawn.axes
     assert not [text for text in ax.texts if "expected" in text.get_text()]
-    assert "breakdown expected" in [text.get_text() for text in ax.get_legend().get_texts()]
+    assert "margin below 1" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
 @pytest.mark.slow
@@ -596,18 +598,18 @@ def test_title_and_verdict_name_one_range_of_speeds():
     """At 200 rpm, lambda 1.04, the margin is below 1 from the speed where surfaces part to 800 rpm."""
     result = example_at(200)
     low, high = re.search(r"below 1 at all speeds computed, (\d+) to (\d+) rpm", str(result.verdict)).groups()
-    text = f"Breakdown expected at all speeds from {low} rpm to {high} rpm; contacts open and close"
+    text = f"Margin below 1 at all speeds from {low} rpm to {high} rpm; contacts open and close"
     assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
 
 
 @each(
     "voltages, text",
     [
-        ([(2.0, 1.0), (4.0, 1.0)], "No breakdown expected from 1000 rpm to 2000 rpm"),
-        ([(2.0, 5.0), (4.0, 5.0)], "Breakdown expected at all speeds from 1000 rpm to 2000 rpm"),
-        ([(2.0, 1.0), (4.0, 5.0)], "Breakdown expected above 1000 rpm"),
+        ([(2.0, 1.0), (4.0, 1.0)], "Margin above 1 from 1000 rpm to 2000 rpm"),
+        ([(2.0, 5.0), (4.0, 5.0)], "Margin below 1 at all speeds from 1000 rpm to 2000 rpm"),
+        ([(2.0, 1.0), (4.0, 5.0)], "Margin below 1 above 1000 rpm"),
         ([(2.0, None), (4.0, None)], "First breakdown from 2.00 V at 1000 rpm to 4.00 V at 2000 rpm"),
-        ([(6.0, 5.0), (4.0, 5.0), (10.0, 5.0)], "Breakdown expected at some speeds below about 2210 rpm"),
+        ([(6.0, 5.0), (4.0, 5.0), (10.0, 5.0)], "Margin below 1 at some speeds up to about 2210 rpm"),
     ],
 )
 def test_titles_say_at_which_speeds_breakdown_is_expected(voltages, text):
@@ -622,11 +624,11 @@ def test_breakdown_over_speed_shades_where_the_shaft_has_more(points):
     np.testing.assert_allclose([first[0], *first[-1:]], [np.nan, 9.0])
     dots = next(f for f in ax.get_lines() if f.get_marker() == "o" and f.get_color() == BLACK)
     np.testing.assert_array_equal(dots.get_ydata(), [np.nan, 2.5, 5.6, 9.0])
-    (band,) = (found for found in ax.collections if found.get_label() == "breakdown expected")
+    (band,) = (found for found in ax.collections if found.get_label() == "margin below 1")
     across = band.get_paths()[0].vertices[:, 0]
     np.testing.assert_allclose((across.min(), across.max()), [1000.0, CROSSING], rtol=2e-3)
     names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert [name.partition(":")[0] for name in names] == ["breakdown expected", "λ < 1", "λ from 1 to 3"]
+    assert [name.partition(":")[0] for name in names] == ["margin below 1", "λ < 1", "λ from 1 to 3"]
 
 
 def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
