@@ -7,11 +7,13 @@ import pytest
 
 from ehlectric.app.compute.drive_answers import quick_answer, simulate
 from ehlectric.app.pages.frame import DRIVE
+from ehlectric.app.session import SURFACES
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.quick_drive import expected, quick_drive
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
 
@@ -281,3 +283,27 @@ def test_estimated_capacitances_are_told_beside_them():
     assert "capacitances-estimated" in [
         one.code for one in answer.number("circuit.winding_rotor_capacitance").warnings
     ]
+
+
+def test_a_duty_cycle_is_simulated_with_the_drive(tmp_path):
+    """Its figure and rows are those of the command; the answer at once does not need its file."""
+    (tmp_path / SURFACES).mkdir()
+    (tmp_path / SURFACES / "cycle.csv").write_text("time [s],speed [rpm]\n0,0\n1,3000\n2,4000\n3,4000\n")
+    table = dict(SHORT.changed({"duty.file": f"{SURFACES}/cycle.csv"}).table)
+    assert quick_answer(table, tmp_path) == quick_answer(dict(SHORT.table), tmp_path)
+    answer = simulate(table, tmp_path, tmp_path / "out", lambda *_: None)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    rows = {line.name: line.text for line in answer.lines}
+    total = number_text(summary["duty"]["discharges"])
+    assert rows["discharges in the cycle, both bearings"] == total
+    assert (tmp_path / "out" / "duty.csv").is_file()
+    figure = answer.figures["duty"]
+    lines = {
+        trace["name"]: trace for trace in figure.plot["data"] if "fill" not in trace and trace.get("name")
+    }
+    assert set(lines) == {"speed", "lambda ratio", *NAMES_OF_ENDS.values()}
+    assert lines["speed"]["y"] == pytest.approx([0.0, 3000.0, 4000.0, 4000.0])
+    assert lines["drive end"]["y"][0] == 0.0, "no discharges at a standstill"
+    shown = [trace["name"] for trace in figure.plot["data"] if trace["showlegend"]]
+    assert shown == ["standstill", *NAMES_OF_ENDS.values()]
+    assert len(figure.table.rows) == len(summary["duty"]["stretches"])

@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import Figure, Table
+from ehlectric.app.charts.duty_charts import cycle_plot
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack, vertical
 from ehlectric.arrays import Array
+from ehlectric.drive.drive_cycle import DriveDuty
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures import drive_figures as findings
@@ -34,10 +36,12 @@ from ehlectric.figures.drive_figures import (
     variants,
     voltage_unit,
 )
+from ehlectric.figures.duty_panels import drive_duty_panels
+from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
 from ehlectric.quantities.formats import formatted, number_text
 from ehlectric.quantities.palette import BLUE, MIDDLE_GREY, faint
 from ehlectric.quantities.results import EVENT_KEYS, STATISTICS
-from ehlectric.quantities.units import unit_for
+from ehlectric.quantities.units import rpm_text, unit_for
 
 # Largest number of discharges of a bearing in the table.
 _LISTED = 400
@@ -73,6 +77,8 @@ def drive_figures(result: DriveResult) -> dict[str, Figure]:
         figures["voltages"] = voltages_figure(result)
     if result.remedies:
         figures["remedies"] = remedies_figure(result)
+    if result.duty is not None:
+        figures["duty"] = cycle_figure(result, result.duty)
     figures["histogram"] = histogram_figure(result)
     if has_spectrum(result):
         figures["spectrum"] = spectrum_figure(result)
@@ -97,6 +103,27 @@ def voltages_figure(result: DriveResult) -> Figure:
         stack(along, findings.voltage_panels(result), showlegend=False),
         Table("Discharges of this time", ("bearing", f"time [{along.unit}]", "voltage [V]"), tuple(rows)),
         "Circles mark discharges. Dashed: breakdown voltage of the weakest position, where it is near.",
+    )
+
+
+def cycle_figure(result: DriveResult, duty: DriveDuty) -> Figure:
+    """Speed, lambda ratios and expected discharges per second over the duty cycle."""
+    heads = ("begin [s]", "end [s]", "discharges", "energy [mJ]", "mean speed [rpm]", "least λ")
+    rows = tuple(
+        (
+            *(f"{value:.6g}" for value in (one.start, one.end)),
+            *(number_text(value) for value in (one.discharges, 1e3 * one.energy)),
+            rpm_text(one.speed),
+            f"{one.lambda_ratio:.3g}",
+        )
+        for one in duty.stretches
+    )
+    return Figure(
+        "Discharges over the duty cycle",
+        f"Speed, lambda ratio and discharges per second over the time. {findings.duty_cycle(result)}.",
+        cycle_plot(time_axis_of_cycle(duty.rows), drive_duty_panels(duty)),
+        Table("Worst stretches, that with the most discharges first", heads, rows),
+        f"{findings.duty_cycle(result)}. {duty.points} rows are simulated, the others interpolated.",
     )
 
 

@@ -1,13 +1,13 @@
-"""Figure of a bearing over its duty cycle, for a page."""
+"""Figures over a duty cycle, for a page."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ehlectric.app.charts.plotly_panels import Plot, kept_nodes, stack
 from ehlectric.bearing.duty_cycle import STATES, DutyResult
-from ehlectric.figures.data import Panel
+from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.duty_panels import duty_panels, time_axis
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.units import rpm_text
@@ -19,16 +19,25 @@ MOST_DUTY_ROWS = 200
 
 def duty_figure(duty: DutyResult) -> Plot:
     """Speed, lambda ratio and margin over the time, with bands of the states behind them."""
-    made = stack(time_axis(duty.rows), [*_named_once(duty_panels(duty))])
+    return cycle_plot(time_axis(duty.rows), duty_panels(duty))
+
+
+def cycle_plot(along: Along, panels: Iterable[Panel]) -> Plot:
+    """Panels over the time of a duty cycle; the first one has the speed, and names the bands."""
+    shown = [*_named_once(panels)]
+    titles, seen = {panel.title for panel in shown}, set[str]()
+    made = stack(along, shown)
     for trace in made["data"]:
-        # The axis of a curve names it.
-        trace["showlegend"] = trace["showlegend"] and "fill" in trace
+        # The axis of a curve names it, but where a panel has several; these stand in the legend once.
+        name = trace.get("name", "")
+        trace["showlegend"] = trace["showlegend"] and name not in titles | seen
+        seen.add(name)
     # Speeds are written in full, without a k for a thousand.
     made["layout"]["yaxis"]["tickformat"] = "~f"
     return made
 
 
-def _named_once(panels: Iterator[Panel]) -> Iterator[Panel]:
+def _named_once(panels: Iterable[Panel]) -> Iterator[Panel]:
     """Panels of which only the first names its bands, which are those of all."""
     for number, panel in enumerate(panels):
         areas = [replace(area, name="" if number else area.name) for area in panel.areas]

@@ -157,7 +157,8 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     """Answer about a drive without a simulation, with contacts from the atlas or by formula. Raises
     InputError if the tables are no valid drive, or its films have to be solved.
     """
-    case = drive_of(table, session)
+    # The simulation has the duty cycle, whose file this session may lack.
+    case = drive_of({key: value for key, value in table.items() if key != "duty"}, session)
     # A wrong remedy is told as it is by the command.
     case.variants()
     quick, key = quick_drive(case)

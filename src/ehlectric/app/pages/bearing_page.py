@@ -149,7 +149,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def build_boxes(self) -> None:
         """Build the field of a duty cycle."""
-        self.duty = DutyField(self.session, self.form.take)
+        self.duty = DutyField(self.session, self.form.take, self.kind)
 
     def show_boxes(self) -> None:
         """Show the present inputs in the field of the duty cycle."""

@@ -19,6 +19,7 @@ from ehlectric.app.form_fields.drive_fields import (
     without_remedy,
 )
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, WarningList, table_html
+from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, removable
@@ -27,10 +28,10 @@ from ehlectric.quantities.sheets import DRIVE_CARDS
 
 # Figures of either answer, in their order, and those that have a whole row.
 _FIGURES = (
-    *("voltages", "remedies", "histogram", "spectrum"),
+    *("voltages", "remedies", "duty", "histogram", "spectrum"),
     *("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"),
 )
-_WIDE = ("voltages",)
+_WIDE = ("voltages", "duty")
 
 # Keys of the inputs that other parts of the page than its form show.
 REMEDIES, _FILE = "remedies", "source.file"
@@ -176,7 +177,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
     start = DRIVE
     kind = "drive"
     groups = DRIVE_GROUPS
-    elsewhere = (REMEDIES, _FILE)
+    elsewhere = (REMEDIES, _FILE, DUTY_FILE)
     short = ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage")
     quick, solved = DRIVE_QUICK, DRIVE_SIMULATED
 
@@ -185,15 +186,17 @@ class DrivePage(AnswerPage[DriveAnswer]):
         self.view = DriveView()
 
     def build_boxes(self) -> None:
-        """Build the field of a measured waveform, and the remedies."""
+        """Build the field of a measured waveform, the remedies, and the field of a duty cycle."""
         with self.form.group("Source"):
             self.waveform = WaveformField(self.session, self.form.take)
         self.remedies = RemedyBox(self.session, self.change)
+        self.duty = DutyField(self.session, self.form.take, self.kind)
 
     def show_boxes(self) -> None:
-        """Show the present inputs in the field of the waveform, and in the remedies."""
+        """Show the present inputs in the fields of files, and in the remedies."""
         self.waveform.refresh()
         self.remedies.refresh()
+        self.duty.refresh()
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""

@@ -23,26 +23,39 @@ DUTY_FILE, _EXAMPLE = "duty.file", "measurements/wltc_class_3b_motor.csv"
 _LABEL = f"CSV of the cycle, at most {LARGEST / 1e6:g} MB"
 
 _COLUMNS = (
-    "The bearing over time. The file has the column time [s], and any of speed [rpm], radial load [N], axial "
-    "load [N], temperature [degC] and common-mode voltage [V]. What has no column is as above."
+    "The file has the column time [s], and any of speed [rpm], radial load [N], axial load [N], temperature "
+    "[degC] and common-mode voltage [V]. What has no column is as above."
 )
+
+# What a cycle gives, by the kind of the page, and where its result is.
+_GIVES = {
+    "bearing": "The bearing over time.",
+    "drive": "Discharges over time, with the simulation; loads are those of both bearings.",
+}
+_PLACES = {"bearing": "duty", "drive": "figure-duty"}
 
 _COMPUTING = "The cycle is being computed."
 
-_TO_RESULT = "document.querySelector('[data-testid=duty]')?.scrollIntoView({ block: 'start' })"
+_TO_RESULT = "document.querySelector('[data-testid={}]')?.scrollIntoView({{ block: 'start' }})"
 
 
 class DutyField:
-    """Field for the file of a duty cycle; ``change`` is called with a changed key and its value."""
+    """Field for the file of a duty cycle of a page of a ``kind``, "bearing" or "drive"; ``change`` is called
+    with a changed key and its value.
+    """
 
-    def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
+    def __init__(
+        self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]], kind: str
+    ) -> None:
         self._session, self._change = session, change
         self._found: dict[str, str] = {}  # sentences about files that were looked at
         self._last: str | None = None  # file that was shown last
-        title, given = "Duty cycle", self.file is not None
+        title, given, to_result = "Duty cycle", self.file is not None, _TO_RESULT.format(_PLACES[kind])
         with (
             ui.element("div").classes("form").props('role="form" aria-label="Duty cycle"'),
-            GroupBox(title, title=title, note=_COLUMNS, opened=given, first=True) as self._group,
+            GroupBox(
+                title, title=title, note=f"{_GIVES[kind]} {_COLUMNS}", opened=given, first=True
+            ) as self._group,
             ui.element("div").classes("box"),
         ):
             UploadField(session, self._take, self.refuse, name="duty", label=_LABEL)
@@ -50,7 +63,7 @@ class DutyField:
             self._error.props('data-testid="error-duty"')
             self._used = ui.label().classes("hint").props('data-testid="duty-used" aria-live="polite"')
             with ui.element("div").classes("buttons"):
-                leads = button("Go to its result", "to-duty", lambda: ui.run_javascript(_TO_RESULT))
+                leads = button("Go to its result", "to-duty", lambda: ui.run_javascript(to_result))
                 removes = button("Remove the cycle", "duty-remove", self._removed)
                 button("Use the example, the WLTC of a car", "duty-example", self._example)
             self._of_cycle = (leads, removes)
