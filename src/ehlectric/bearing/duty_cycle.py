@@ -10,9 +10,12 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.bearing.duty_points import NAMES, PointValues, values_at
+from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, spread_places, values_at
+from ehlectric.bearing.many_points import solved_parts
+from ehlectric.bearing.many_uncertainties import spreads_of
 from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touches, touching_ratio
+from ehlectric.bearing.uncertainty import SEED, MarginSpread
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
@@ -37,6 +40,10 @@ LEAST_SPEED = 0.1 * RPM
 
 # Largest number of stretches that are listed, the worst first.
 _MOST_STRETCHES = 10
+
+# Rows at which the probability of breakdown is computed, and points of the uncertain inputs at each of them,
+# a power of 2.
+_NODES, SAMPLES_OF_ROW = 32, 128
 
 # Units in which inputs are written, by their SI units.
 _SHOWN = {"K": "°C", "N": "N", "V": "V"}
@@ -68,6 +75,8 @@ class DutyRows(Values):
     first_break: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     shaft_voltage: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     margin: Array = field(metadata=stored("duty_row", "", _MAYBE))
+    # Probability that the margin is below 1 within what is uncertain, from 0 to 1; NaN without a margin.
+    breakdown_probability: Array = field(metadata=stored("duty_row", "", _MAYBE))
     state: Array = field(metadata=stored("duty_row", "", "whole"))  # number of the state in ``STATES``
 
     @property
@@ -131,24 +140,20 @@ class DutyResult(Values):
         """Rows with a margin below 1, shape (n,)."""
         return self.rows.margin < 1.0
 
-    def breakdown_probability(self, spread: Array) -> float | None:
-        """Probability of a margin below 1 at a random time of the cycle; None where no row has a margin.
+    @property
+    def breakdown_probability(self) -> float | None:
+        """Probability of a margin below 1 at a random time of the cycle; None where no row has one.
 
-        ``spread``, margins within what is uncertain over the margin of the bearing, at its own operating
-        point; they are taken for all rows. Rows without a margin do not count as breakdown.
+        Rows without a margin do not count as breakdown.
         """
         rows = self.rows
-        if not rows.has_margin:
+        known = np.isfinite(rows.breakdown_probability)
+        if not np.any(known):
             return None
-        known = np.isfinite(rows.margin)
-        part = np.searchsorted(np.sort(spread), 1.0 / rows.margin[known]) / spread.size
-        return float(np.sum(part * rows.duration[known]) / np.sum(rows.duration))
+        return float(rows.breakdown_probability[known] @ rows.duration[known] / np.sum(rows.duration))
 
-    def summary(self, spread: Array | None = None) -> dict[str, Any]:
-        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known.
-
-        ``spread`` is that of ``breakdown_probability``, where it is known.
-        """
+    def summary(self) -> dict[str, Any]:
+        """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
         rows = self.rows
         worst = int(np.nanargmin(rows.margin)) if rows.has_margin else None
         return {
@@ -164,7 +169,7 @@ class DutyResult(Values):
             "full_film_share": rows.share(rows.state == FULL_FILM),
             "left_out_share": rows.share(rows.state == LEFT_OUT),
             "low_margin_share": rows.share(self.low) if rows.has_margin else None,
-            "breakdown_probability": None if spread is None else self.breakdown_probability(spread),
+            "breakdown_probability": self.breakdown_probability,
             "least_margin": None if worst is None else float(rows.margin[worst]),
             "least_margin_time": None if worst is None else float(rows.time[worst]),
             "stretches": [asdict(one) for one in self.stretches],
@@ -199,6 +204,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
     rows, found = rows_of(quick, cycle)
+    rows = replace(rows, breakdown_probability=_probabilities(quick, rows))
     return DutyResult(
         rows=rows,
         stretches=tuple(_stretches(quick, rows)),
@@ -263,7 +269,7 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
     moves = _moves(given["speed"])
     moving = {name: values[moves] for name, values in given.items()}
     found = _at(case, moving) if np.any(moves) else None
-    values = {name: np.full(time.size, np.nan) for name in NAMES}
+    values = {name: np.full(time.size, np.nan) for name in (*NAMES, "breakdown_probability")}
     if found is not None:
         for name in NAMES:
             values[name][moves] = found.values[name]
@@ -290,6 +296,18 @@ def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     """Quantities of rows from their inputs by column. Shaft voltage and margin follow the voltage of the
     motor, on which films do not depend.
     """
+    found = values_at(case, _inputs_of_films(case, given))
+    if case.motor is None:
+        return found
+    factor = given[_VOLTAGE] / case.motor.common_mode_voltage
+    values = dict(found.values)
+    values["shaft_voltage"] = values["shaft_voltage"] * factor
+    values["margin"] = np.where(factor > 0.0, values["margin"] / np.where(factor > 0.0, factor, 1.0), np.nan)
+    return replace(found, values=values)
+
+
+def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str, Array]:
+    """Inputs of the films by dotted key, SI units, from those of rows by column."""
     bearing = case.bearing
     inputs = {CYCLE.columns["speed"].key: np.abs(given["speed"])}
     for name in ("radial_load", "axial_load"):
@@ -299,14 +317,30 @@ def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     if np.any(warmer):
         # Rings and other parts that have their own temperature keep their difference from the oil.
         inputs |= {f"bearing.{key}": own + warmer for key, own in bearing.all_temperatures().items()}
-    found = values_at(case, inputs)
-    if case.motor is None:
+    return inputs
+
+
+def _probabilities(case: BearingCase, rows: DutyRows) -> Array:
+    """Probability of each row that its margin is below 1 within what is uncertain, NaN without a margin.
+
+    It is computed at rows that are spread over margin and lambda ratio, and interpolated between them.
+    """
+    found = np.full(rows.time.size, np.nan)
+    known = np.flatnonzero(np.isfinite(rows.margin) & (rows.margin > 0.0))
+    if not known.size:
         return found
-    factor = given[_VOLTAGE] / case.motor.common_mode_voltage
-    values = dict(found.values)
-    values["shaft_voltage"] = values["shaft_voltage"] * factor
-    values["margin"] = np.where(factor > 0.0, values["margin"] / np.where(factor > 0.0, factor, 1.0), np.nan)
-    return replace(found, values=values)
+    at = np.log(np.column_stack([rows.margin[known], rows.lambda_ratio[known]]))
+    nodes = spread_places(at, _NODES)
+    places = known[nodes]
+    given = {name: getattr(rows, name)[places] for name in _INPUTS}
+    inputs = _inputs_of_films(case, given) | {CYCLE.columns[_VOLTAGE].key: given[_VOLTAGE]}
+    chances = np.full(places.size, np.nan)
+    for part in solved_parts(case.with_arrays(inputs)):
+        for place, spread in zip(part.points, spreads_of(part.solution, SAMPLES_OF_ROW, SEED), strict=True):
+            if isinstance(spread, MarginSpread):
+                chances[place] = spread.probability
+    found[known] = between_places(at[nodes], chances[:, np.newaxis], at)[:, 0]
+    return found
 
 
 def _stretches(case: BearingCase, rows: DutyRows) -> Iterator[Stretch]:

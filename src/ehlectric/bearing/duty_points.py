@@ -151,6 +151,48 @@ def _design(unit: Array) -> tuple[Array, IntArray, Array]:
     return nodes / steps, corners.reshape(len(own), -1)[place.reshape(-1)], weights
 
 
+def between_places(nodes: Array, values: Array, at: Array) -> Array:
+    """Values at places, shape (n, d) -> (n, k), between nodes, shape (m, d), with values of shape (m, k).
+
+    Linear radial basis functions, within the values of the nodes; NaN where the nearest node has no value.
+    """
+    # They take a while to load.
+    from scipy.interpolate import RBFInterpolator
+    from scipy.spatial.distance import cdist
+
+    places, own = np.unique(nodes, axis=0, return_inverse=True)
+    sums = np.zeros((len(places), values.shape[1]))
+    np.add.at(sums, own.reshape(-1), values)
+    means = sums / np.bincount(own.reshape(-1))[:, np.newaxis]
+    known = np.isfinite(means[:, 0])
+    if np.count_nonzero(known) > 1:
+        found = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
+        found = np.clip(found, np.min(means[known], axis=0), np.max(means[known], axis=0))
+    else:
+        found = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), values.shape[1]))
+    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], found, np.nan)
+
+
+def spread_places(at: Array, number: int) -> IntArray:
+    """Indices of at most so many places that are spread over all of them, shape (n, d): each is the farthest
+    from those before it, and the first is the nearest to the mean.
+
+    Examples
+    --------
+    >>> spread_places(np.array([[0.0], [1.0], [1.1], [3.0]]), 3).tolist()
+    [2, 3, 0]
+    """
+    chosen = [int(np.argmin(np.sum((at - np.mean(at, axis=0)) ** 2, axis=1)))]
+    distance = np.full(len(at), np.inf)
+    while len(chosen) < number:
+        distance = np.minimum(distance, np.sum((at - at[chosen[-1]]) ** 2, axis=1))
+        farthest = int(np.argmax(distance))
+        if distance[farthest] == 0.0:
+            break
+        chosen.append(farthest)
+    return np.array(chosen)
+
+
 def _between(column: Array, corners: IntArray, weights: Array) -> Array:
     """Values between corners, by logarithms; corners without a value are left out."""
     logs = np.log(np.where(column > 0.0, column, np.nan))[corners]

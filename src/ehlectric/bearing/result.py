@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.duty_cycle import DutyResult, check_duty, run_duty
@@ -205,12 +204,6 @@ class BearingResult(Shown):
         """
         return capacitive_speed(self.solution)
 
-    @property
-    def margin_spread(self) -> Array | None:
-        """Margins within what is uncertain over the margin of the bearing, shape (n,); None without one."""
-        known, own = self.uncertainty, self.margin
-        return None if known is None or own is None else known.margins / own
-
     @cached_property
     def duty(self) -> DutyResult | None:
         """Result of the duty cycle of the case, lubrication and margins over time; None without one.
@@ -241,7 +234,7 @@ class BearingResult(Shown):
             if key == "warning_codes":
                 summary["verdict"] = verdict.text
             if key == "mechanics" and self.duty is not None:
-                summary["duty"] = plain(self.duty.summary(self.margin_spread if probable else None))
+                summary["duty"] = plain(self.duty.summary())
         if self.duty is not None:
             summary |= texts_and_codes((*self.warnings, *self.duty.warnings))
         return summary

@@ -14,8 +14,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RBFInterpolator
-from scipy.spatial.distance import cdist
 from scipy.special import stdtrit
 
 from ehlectric.arrays import Array, IntArray, Mask
@@ -32,6 +30,7 @@ from ehlectric.bearing.duty_cycle import (
     file_warnings,
     rows_of,
 )
+from ehlectric.bearing.duty_points import between_places
 from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
@@ -305,7 +304,7 @@ def _simulated(ready: _Ready, solve: Callable[[DriveCase], DriveSolution], progr
         return _Found(rates, [Expected(0.0, 0.0, 0.0)] * 4, simulation)
     at, drawn = _features(ready)[places], _drawn(duration[places], ready.case.drive.seed)
     found = simulation.at(places[drawn])
-    rates[places] = _between(at[drawn], found, at)
+    rates[places] = between_places(at[drawn], found, at)
     known = np.isfinite(rates[places, 0])
     if not np.any(known):
         raise InputError.worded("duty", f"no row can be simulated: {next(iter(simulation.reasons.values()))}")
@@ -335,7 +334,7 @@ def _compared(at: Array, weights: Array, nodes: Array, values: Array) -> tuple[A
         others, own = group != one, group == one
         if not np.any(others):
             others = own
-        found = _between(nodes[others], values[others], np.concatenate([at, nodes[own]]))
+        found = between_places(nodes[others], values[others], np.concatenate([at, nodes[own]]))
         means.append(weights @ found[: len(at)])
         off[own] = values[own] - found[len(at) :]
     return np.mean(means, axis=0), off
@@ -413,21 +412,6 @@ def _features(ready: _Ready) -> Array:
     given = {name: np.where(ready.runs, one, 1.0) for name, one in ready.given.items()}
     others = [np.log(given[_VOLTAGE]), 0.5 * np.log(np.abs(given["speed"])), given["temperature"] / _WARMER]
     return np.column_stack([*(math.sqrt(0.5) * one for one in films), *others])
-
-
-def _between(nodes: Array, values: Array, at: Array) -> Array:
-    """Values at rows between nodes, within those of the nodes; NaN where the nearest node has none."""
-    places, own = np.unique(nodes, axis=0, return_inverse=True)
-    sums = np.zeros((len(places), 4))
-    np.add.at(sums, own.reshape(-1), values)
-    means = sums / np.bincount(own.reshape(-1))[:, np.newaxis]
-    known = np.isfinite(means[:, 0])
-    if np.count_nonzero(known) > 1:
-        found = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
-        found = np.clip(found, np.min(means[known], axis=0), np.max(means[known], axis=0))
-    else:
-        found = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), 4))
-    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], found, np.nan)
 
 
 def _sums(means: Array, off: Array, time: float, simulation: _Simulation) -> list[Expected]:

@@ -288,7 +288,7 @@ def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAn
     if duty is None:
         raise InputError.missing("duty.file", "a file of a duty cycle")
     result = solved_quickly(_without_cycle(table, session))
-    summary = summary_of(result.solution) | {"duty": plain(duty.summary(result.margin_spread))}
+    summary = summary_of(result.solution) | {"duty": plain(duty.summary())}
     return shown_duty(duty, summary)
 
 

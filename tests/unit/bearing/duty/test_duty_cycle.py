@@ -9,10 +9,13 @@ import pytest
 
 from ehlectric import load, solve_bearing
 from ehlectric.bearing import duty_points
-from ehlectric.bearing.duty_cycle import STATES, check_duty, run_duty
+from ehlectric.bearing.duty_cycle import SAMPLES_OF_ROW, STATES, check_duty, run_duty
 from ehlectric.bearing.duty_points import values_at
+from ehlectric.bearing.many_points import solved_parts
+from ehlectric.bearing.many_uncertainties import spreads_of
 from ehlectric.bearing.run import run
 from ehlectric.bearing.solution import lambda_ratio
+from ehlectric.bearing.uncertainty import SEED, spread_of_result
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError
@@ -101,15 +104,42 @@ def test_shares_are_those_of_the_durations(duty):
     assert sum(found[f"{name}_share"] for name in names) == pytest.approx(1.0)
 
 
-def test_the_probability_is_the_mean_over_the_time(duty):
-    """Without spread it is the share of time below 1; with two equal parts, the mean of both shares."""
+def test_the_probability_of_each_row_is_that_of_its_bearing(case, duty):
+    """The probability of the cycle is their mean over the time; rows without a margin do not count."""
     rows = duty.rows
-    shares = [rows.share(rows.margin * factor < 1.0) for factor in (0.5, 1.0, 3.0)]
-    assert duty.breakdown_probability(np.array([1.0])) == pytest.approx(shares[1], abs=1e-12)
-    both = duty.breakdown_probability(np.array([3.0, 0.5]))
-    assert both == pytest.approx(0.5 * (shares[0] + shares[2]), abs=1e-12)
-    assert shares[0] > shares[2]
-    assert duty.summary()["breakdown_probability"] is None
+    known = np.flatnonzero(np.isfinite(rows.margin))
+    assert np.array_equal(known, np.flatnonzero(np.isfinite(rows.breakdown_probability)))
+    for k in known.tolist():
+        alone = solve_bearing(
+            case.replace(
+                {
+                    "bearing.inner_speed": abs(float(rows.speed[k])),
+                    "bearing.radial_load": float(rows.radial_load[k]),
+                    "bearing.temperature": float(rows.temperature[k]),
+                    "motor.common_mode_voltage": float(rows.common_mode_voltage[k]),
+                }
+            )
+        )
+        found = spread_of_result(alone.solution, SAMPLES_OF_ROW, SEED)
+        assert rows.breakdown_probability[k] == pytest.approx(found.probability, abs=1e-9)
+    parts = rows.breakdown_probability[known] * rows.duration[known]
+    assert duty.summary()["breakdown_probability"] == pytest.approx(np.sum(parts) / 100.0)
+
+
+@pytest.mark.slow
+def test_probabilities_between_rows_are_near_those_of_more_samples():
+    """32 rows of the WLTC with 128 samples each, against 60 other rows with 2048 samples of another seed."""
+    case = BearingCase.from_toml(EXAMPLES / "duty_wltc.toml")
+    rows = run_duty(case).rows
+    drawn = np.random.default_rng(5).choice(np.flatnonzero(np.isfinite(rows.margin)), 60, replace=False)
+    columns = {"inner_speed": "speed", "radial_load": "radial_load", "temperature": "temperature"}
+    arrays = {f"bearing.{key}": getattr(rows, name)[drawn] for key, name in columns.items()}
+    exact = np.empty(60)
+    for part in solved_parts(case.with_arrays(arrays)):
+        exact[part.points] = [one.probability for one in spreads_of(part.solution, 2048, 9)]
+    off = rows.breakdown_probability[drawn] - exact
+    assert abs(np.mean(off)) < 0.03
+    assert np.std(off) < 0.05
 
 
 def test_an_inverter_that_is_off_leaves_no_voltage(duty):
@@ -239,8 +269,7 @@ def test_ceramic_elements_have_states_and_no_margin(tmp_path):
 def test_files_of_a_cycle(case, duty, tmp_path):
     outcome = run(case, tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    expected = duty.summary() | {"breakdown_probability": summary["duty"]["breakdown_probability"]}
-    assert summary["duty"] == json.loads(json.dumps(expected))
+    assert summary["duty"] == json.loads(json.dumps(duty.summary()))
     assert 0.0 < summary["duty"]["breakdown_probability"] < 1.0
     lines = (tmp_path / "out" / "duty.csv").read_text().splitlines()
     assert lines[0].startswith("time [s],duration [s],speed [rad/s],radial_load [N]")
