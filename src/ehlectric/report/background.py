@@ -284,7 +284,7 @@ def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> 
     if one.source is not None:
         origin = f"{origin}: {one.source.kind} [{numbers[one.source]}]"
     name, other = named(end_and_key(one.key)[1]), replaced_by(case, one.key)
-    meaning = _meaning(one.key).removeprefix(name.text).removeprefix(", ")
+    meaning = _meaning(one.key).removeprefix(f"{name.text}, ")
     if other:
         meaning = f"not used: the {named(other).text} of the drive takes its place"
     return name, input_text(case, one.key, one.value), origin, meaning

@@ -344,15 +344,22 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     case = result.case
     found: dict[str, tuple[str, str, str]] = {}
     for key, value, _, why in _deciding(case, summary):
-        found.setdefault(end_and_key(key)[1], (key, value, why))
-    known, given = (
-        {change.key: change.ends for change in changes_of(case.bearings[0])},
-        flattened(case.to_dict()),
-    )
+        end, own = end_and_key(key)
+        # Ceramic elements do not break down.
+        if summary.get(end, {"breakdown_voltage": 0.0})["breakdown_voltage"] is not None:
+            found.setdefault(own, (key, value, why))
+    given = flattened(case.to_dict())
     yield assumption_table(
-        (named(key).text, value, usual_range(key, known, given), why)
+        (named(key).text, value, usual_range(key, _ranges(case, key), given), why)
         for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
     )
+
+
+def _ranges(case: DriveCase, key: str) -> dict[str, tuple[float, float]]:
+    """Usual ranges of the inputs of the bearing that a key belongs to, SI units."""
+    end, _ = end_and_key(key)
+    own = case.bearings[ENDS.index(end) if end in ENDS else 0]
+    return {change.key: change.ends for change in changes_of(own)}
 
 
 def _kind(case: DriveCase) -> str:

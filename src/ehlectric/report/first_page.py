@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.film_verdict import chance_text, ratio_text
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
@@ -126,7 +127,7 @@ def _unit(row: Row) -> str:
 
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
-    yield numbers_of(totals, FIRST_PAGE_OF_BEARING)
+    yield numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING)
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     better = [
@@ -162,12 +163,21 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
         )
         return
     known = {change.key: change.ends for change in changes_of(case)}
-    touching = summary["bearing"]["lubrication"] == "conducting"
+    broken = summary["bearing"]["first_break"] is not None
     yield assumption_table(
         (named(key).text, input_text(case, key, given[key]), usual_range(key, known, given), why)
-        for key, why in TEXTS["first_page"]["touching" if touching else "bearing"].items()
+        for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
     )
+
+
+def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:
+    """Row of a bearing; its probability as a sentence has it, which is not 0."""
+    if row.key != "uncertainty.breakdown_probability":
+        return row
+    found = summary["uncertainty"]
+    text = chance_text(found["breakdown_probability"], found["breakdown_probability_error"])
+    return replace(row, value=text.partition(" (")[0], unit="")
 
 
 def _name(one: Mapping[str, Any]) -> str:

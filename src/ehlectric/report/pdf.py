@@ -326,11 +326,11 @@ def first_page(report: Report) -> Flowable:
     """
     parts, blocks = _top(report), list(report.sections[0].blocks)
     while blocks:
-        block = blocks.pop(0)
-        if isinstance(block, Numbers) and blocks and isinstance(blocks[0], Picture):
-            parts += [_beside(block, blocks.pop(0)), Spacer(1.0, 4.0)]
-        else:
-            parts += _loose(parts_of(block, _WIDTH, _HEIGHT))
+        match blocks:
+            case [Numbers() as numbers, Picture() as picture, *blocks]:
+                parts += [_beside(numbers, picture), Spacer(1.0, 4.0)]
+            case [block, *blocks]:
+                parts += _loose(parts_of(block, _WIDTH, _HEIGHT))
     return KeepInFrame(_WIDTH, _HEIGHT, parts, mode="shrink", name="first page")
 
 
