@@ -54,15 +54,16 @@ def first_section(result: Any, part: Part, path: Path) -> Section:
 
 
 def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
-    yield from alarms_of(part.warnings, part.failure)
+    alarms = tuple(alarms_of(part.warnings, part.failure))
+    yield from alarms
     yield Text(part.asked or part.lead)
     if part.verdict is None:
         yield Text(SENTENCES["no_verdict"])
     else:
         yield _short(light_of(part.verdict.level, part.verdict.text))
-    numbers, *tables = part.first or (None,)
-    if numbers is not None:
-        yield numbers
+    # Numbers that must not be used do not stand large on a page.
+    numbers, tables = ((), ()) if alarms else (part.first[:1], part.first[1:])
+    yield from numbers
     drawn = pictures_of(result, converged=is_solved(result), names=part.figures)
     # The first figure that has something to show.
     yield from islice((block for block in drawn if isinstance(block, Picture)), 1)
@@ -90,9 +91,8 @@ def is_solved(result: Any) -> bool:
 def _short(light: Light) -> Light:
     """Light with the first two sentences and the last one, which has the assumptions."""
     sentences = _SENTENCE.split(light.rest)
-    return Light(
-        light.level, light.words, " ".join(dict.fromkeys([*sentences[:2], sentences[-1]])), light.bound
-    )
+    text = " ".join(dict.fromkeys([*sentences[:2], sentences[-1]]))
+    return replace(light, text=with_units_kept(text))
 
 
 def numbers_of(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> Numbers:

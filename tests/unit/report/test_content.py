@@ -13,7 +13,7 @@ from ehlectric.quantities.rows import Row
 from ehlectric.report.background import inputs_of, material_sources
 from ehlectric.report.build import report_of
 from ehlectric.report.light import Light, light_of
-from ehlectric.report.report_content import Picture, Table, Text, Warnings
+from ehlectric.report.report_content import Numbers, Picture, Table, Text, Warnings
 from ehlectric.report.report_facts import caption_of, row_tables
 from ehlectric.report.report_texts import (
     LIMITS,
@@ -225,6 +225,7 @@ def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):
     report = report_of(tmp_path)
     first = report.sections[0].blocks[0]
     assert (first.tone, first.text[:13]) == ("alarm", "NOT CONVERGED")
+    assert not any(isinstance(block, Numbers) for block in report.blocks())
     assert "NOT CONVERGED" in next(iter(tables(report, "Key numbers"))).rows[0][0]
     pictures = [block for block in report.blocks() if isinstance(block, Picture)]
     assert pictures
