@@ -103,7 +103,6 @@ def _contact(result: Any) -> Part:
     return Part(
         kind=f"{result.case.contact.geometry} contact",
         command="run",
-        asked="",
         lead=lead_of(result),
         failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
@@ -121,7 +120,6 @@ def _motion(result: MotionResult) -> Part:
     return Part(
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
-        asked="",
         lead=lead_of(result),
         failure="" if result.converged else SENTENCES["ended_early"],
         verdict=None,

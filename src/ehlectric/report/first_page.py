@@ -154,12 +154,15 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
     if found:
         yield assumption_table(
             (
-                _name(one),
-                _value(case, one["key"], given.get(one["key"])),
-                "scatters" if one["low"] is None else with_units_kept(input_range(one)),
-                f"{100.0 * one['total']:.2g}\xa0% of the spread of the margin; {_basis(one)}",
-            )
-            for one in found
+                (
+                    _name(one),
+                    _value(case, one["key"], given.get(one["key"])),
+                    "scatters" if one["low"] is None else with_units_kept(input_range(one)),
+                    f"{100.0 * one['total']:.2g}\xa0% of the spread of the margin; {_basis(one)}",
+                )
+                for one in found
+            ),
+            ranked=True,
         )
         return
     known = {change.key: change.ends for change in changes_of(case)}
@@ -213,10 +216,13 @@ def usual_range(key: str, known: Mapping[str, tuple[float, float]], given: Mappi
     return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))
 
 
-def assumption_table(rows: Iterable[tuple[str, str, str, str]]) -> Table:
-    """Table of the assumptions that matter most."""
+def assumption_table(rows: Iterable[tuple[str, str, str, str]], *, ranked: bool = False) -> Table:
+    """Table of the assumptions to measure first; ``ranked``, whether they have the largest shares of a
+    spread.
+    """
+    which = "the assumptions that matter most" if ranked else "assumptions behind the answer, not ranked"
     heads, shares = ("assumption", "value", "usual range", "why"), (0.26, 0.13, 0.17, 0.44)
-    return Table("Measure first: the assumptions that matter most", heads, tuple(rows), shares=shares)
+    return Table(f"Measure first: {which}", heads, tuple(rows), shares=shares)
 
 
 def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str:

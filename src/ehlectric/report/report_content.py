@@ -140,7 +140,7 @@ class Part:
 
     kind: str  # what the result is, in a few words
     command: str  # command that solves the input file
-    asked: str  # what was computed, in a sentence: of a bearing or a drive the machine
+    asked: str = ""  # machine in a sentence; empty for contacts and sweeps, of which the lead says it
     lead: str  # main numbers in a sentence
     failure: str  # what is not solved; empty where all is
     verdict: Verdict | None  # answer of the result; None where it has none

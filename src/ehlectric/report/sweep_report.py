@@ -55,7 +55,6 @@ def sweep_part(results: SweepResults) -> Part:
     return Part(
         kind=f"sweep of {count['points']} points over {', '.join(named(key).text for key in results.varied)}",
         command="sweep",
-        asked="",
         lead=lead_of(results),
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
