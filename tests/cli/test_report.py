@@ -108,7 +108,7 @@ def test_of_a_bearing_by_formula(ehlectric, tmp_path):
 def test_of_a_sweep(ehlectric, tmp_path):
     folder = solved(ehlectric, tmp_path, "sweep", SWEEP, "--workers", "1")
     page, paper = reported(ehlectric, folder)
-    for text in ("points solved 2", "contact.entrainment_speed: entrainment speed [m/s] 2, 3"):
+    for text in ("points solved 2", "entrainment speed [m/s] contact.entrainment_speed 2, 3"):
         assert text in page.text
         assert text in paper
     again = page.texts[next(n for n, text in enumerate(page.texts) if text.startswith('title = "'))]
@@ -138,3 +138,23 @@ def test_one_format_elsewhere(ehlectric, tmp_path):
     done = ehlectric("report", "out/result.nc", "-o", "film.pdf")
     assert (done.returncode, done.stdout) == (0, "written: film.pdf\n")
     assert (tmp_path / "film.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.slow
+def test_the_first_page_of_a_contact_stands_alone(ehlectric, tmp_path):
+    """The whole report stays beside it; the next run removes both."""
+    folder = solved(ehlectric, tmp_path, "run", CASE.replace("801", "401"), "--no-plots")
+    assert ehlectric("report", "out", "--format", "html", "-q").returncode == 0
+    done = ehlectric("report", "out", "--summary")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "written to out:\n  summary_page.html, summary_page.pdf\n"
+    page = Page((folder / "summary_page.html").read_text(encoding="utf-8"))
+    summary = json.loads((folder / "summary.json").read_text())
+    assert f"{summary['film']['minimum_thickness'] * 1e6:.3g} µm" in page.text
+    assert len(page.of("img")) == 1
+    assert (folder / "report.html").exists()
+    done = ehlectric("report", "out", "--summary", "-o", "page.txt")
+    assert (done.returncode, "file that ends in .html or .pdf" in done.stderr) == (2, True)
+    assert ehlectric("run", "in.toml", "-o", "out", "--no-plots", "-q").returncode == 0
+    assert not list(folder.glob("report.*"))
+    assert not list(folder.glob("summary_page.*"))

@@ -127,7 +127,8 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
     for name in ("winding_rotor", "rotor_frame"):
         key = f"motor.{name}_capacitance"
         capacitance = value_at(table, key)
-        yield Change(key, _label(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
+        if capacitance is not None:
+            yield Change(key, _label(key), capacitance, _part(capacitance, MOTOR), _OF_MOTOR)
 
 
 def _load(bearing: Bearing) -> Change:

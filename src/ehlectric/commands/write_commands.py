@@ -51,11 +51,16 @@ _FORMATS = ("html", "pdf")
 
 @command("report", formats=_FORMATS)
 def report(
-    result: Path, output: Path | None = None, formats: list[str] | None = None, quiet: bool = False
+    result: Path,
+    output: Path | None = None,
+    formats: list[str] | None = None,
+    summary: bool = False,
+    quiet: bool = False,
 ) -> None:
     """Write the report of a result: report.html, which needs no other file, and report.pdf.
 
-    It holds the verdict, the warnings, the key numbers, all figures, every input with its source, what the
+    Its first page has the machine, the verdict, the numbers and the figure that decide, remedies, and what to
+    measure first. Behind it stand all numbers and figures, warnings, every input with its source, what the
     model leaves out, versions, and the input file. The result of a contact, of moving roughness, of a
     bearing, of a drive or of a sweep.
     """
@@ -71,12 +76,12 @@ def report(
         with progress_line(shown=not quiet) as progress:
             progress(0, 0, "drawing figures")
             if output is not None:
-                files = write_report(result, output)
+                files = write_report(result, output, summary=summary)
             else:
                 file = stored_result(result)
-                names = [f"report.{name}" for name in wanted]
+                names = [f"{'summary_page' if summary else 'report'}.{name}" for name in wanted]
                 with alone_in(file.parent, names, locks=[FIGURE_LOCK]) as folder:
-                    files = write_report(file, *(folder / name for name in names))
+                    files = write_report(file, *(folder / name for name in names), summary=summary)
     if not quiet:
         echo_files(files)
 

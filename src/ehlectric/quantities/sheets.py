@@ -42,6 +42,9 @@ CONTACT_CARDS, CHECK_CARDS = _cards("contact"), _cards("contact_check")
 TOUCHING_CARDS, SPOT_CARDS = _cards("touching_contact"), _cards("spots")
 BEARING_CARDS, DRIVE_CARDS = _cards("bearing"), _cards("drive")
 
+# Large numbers of the first page of a report, each with those that stand small below it.
+FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_DRIVE = _cards("first_page_of_bearing"), _cards("first_page_of_drive")
+
 # Columns of the tables of all contacts of a bearing: of its loads, of its films, and on its page.
 LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (
     tuple[str, ...](_READ["columns"][name]) for name in ("loads", "films", "page")

@@ -18,7 +18,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase, SweptCase
-from ehlectric.cases.input_keys import describe, input_field, kind_of, of_both_ends
+from ehlectric.cases.input_keys import describe, input_field, input_of, kind_of, of_both_ends
 from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
@@ -26,7 +26,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
-from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
+from ehlectric.report.report_content import Block, Cell, Link, Named, Section, Table, Text
 from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
@@ -225,13 +225,18 @@ def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
     return keys, any(end_and_key(key)[0] in ENDS for key in varied)
 
 
-def input_section(case: SweptCase, varied: Sequence[str] = ()) -> Section:
-    """Section of all inputs with their origin, and of those that are assumptions."""
+def input_sections(
+    case: SweptCase, varied: Sequence[str] = (), rests: Sequence[Block] = ()
+) -> Iterator[Section]:
+    """Section of what a result rests on: ``rests`` and the inputs that are assumptions; and section of all
+    inputs with their origin.
+    """
     either, apart = varied_keys(varied)
     inputs = [
         replace(one, origin="varied", source=None) if one.key in either else one
         for one in inputs_of(case, apart=apart)
     ]
+    yield Section("What it rests on", (*rests, *_assumptions(case, inputs)))
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
     blocks: list[Block] = [Text(SENTENCES["input_values"])]
     if either:
@@ -239,7 +244,34 @@ def input_section(case: SweptCase, varied: Sequence[str] = ()) -> Section:
     for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
         rows = tuple(_input_cells(case, one, numbers) for one in group)
         blocks.append(Table(f"Inputs: {_PLACES.get(name, name)}", _HEADS, rows, shares=_SHARES))
-    return Section("Inputs", (*blocks, *_assumptions(case, inputs)))
+    yield Section("Inputs", tuple(blocks))
+
+
+def named(key: str) -> Named:
+    """Name of an input by its dotted key, with the bearing of a drive that it belongs to.
+
+    Examples
+    --------
+    >>> named("circuit.winding_rotor_capacitance").text, named("bearings.bearing.radial_load").text
+    ('winding-rotor capacitance', 'radial load, both bearings')
+    """
+    end, own = end_and_key(key)
+    entry = input_of(own)
+    label = own.rpartition(".")[2].replace("_", " ") if entry is None else entry.label
+    return Named(", ".join(filter(None, [label, _PLACES.get(end, "").removeprefix("bearing at the ")])), key)
+
+
+def given_inputs(case: SweptCase) -> str:
+    """Inputs that are neither defaults nor values of the library, with their values, in a line."""
+    given = [one for one in inputs_of(case) if one.origin == "given"]
+    groups = groupby(given, key=lambda one: end_and_key(one.key)[0])
+    return "; ".join(
+        (f"{_PLACES[end]}: " if end else "")
+        + "; ".join(
+            f"{named(end_and_key(one.key)[1]).text} {input_text(case, one.key, one.value)}" for one in group
+        )
+        for end, group in groups
+    )
 
 
 def _sources(inputs: Iterable[Input]) -> list[Source]:
@@ -247,14 +279,15 @@ def _sources(inputs: Iterable[Input]) -> list[Source]:
     return list(dict.fromkeys(one.source for one in inputs if one.source is not None))
 
 
-def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> tuple[str, ...]:
+def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> tuple[Cell, ...]:
     origin = one.origin if one.origin in WORDS else f"library {one.origin}"
     if one.source is not None:
         origin = f"{origin}: {one.source.kind} [{numbers[one.source]}]"
-    meaning, other = _meaning(one.key), replaced_by(case, one.key)
+    name, other = named(end_and_key(one.key)[1]), replaced_by(case, one.key)
+    meaning = _meaning(one.key).removeprefix(f"{name.text}, ")
     if other:
-        meaning = f"not used: {other} takes its place"
-    return one.key.partition(".")[2] or one.key, input_text(case, one.key, one.value), origin, meaning
+        meaning = f"not used: the {named(other).text} of the drive takes its place"
+    return name, input_text(case, one.key, one.value), origin, meaning
 
 
 def _meaning(key: str) -> str:
@@ -270,7 +303,7 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
-        text = f"{one.key} = {input_text(case, one.key, one.value)}"
+        text = f"{named(one.key).text} {input_text(case, one.key, one.value)}"
         if one.assumed and one.source is not None:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)

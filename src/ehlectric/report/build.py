@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -12,20 +12,31 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import printable
+from ehlectric.figures.result_figures import default_figure, figure_names
 from ehlectric.motion.result import MotionResult
+from ehlectric.quantities.sheets import CONTACT_CARDS
 from ehlectric.report.background import (
     date_of_report,
     file_section,
-    input_section,
+    input_sections,
     limit_section,
     source_section,
     version_section,
 )
 from ehlectric.report.drive_report import drive_part
-from ehlectric.report.light import light_of
-from ehlectric.report.report_content import Block, Part, Report, Section, Text, details_of, lead_of
+from ehlectric.report.first_page import bearing_blocks, first_section, is_solved, machine_of, numbers_of
+from ehlectric.report.report_content import (
+    Block,
+    Part,
+    Picture,
+    Report,
+    Section,
+    Text,
+    details_of,
+    lead_of,
+)
 from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
-from ehlectric.report.report_texts import SENTENCES
+from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import load
@@ -37,29 +48,19 @@ from ehlectric.tables.contact_tables import result_rows
 from ehlectric.tables.motion_tables import run_rows
 
 
-def report_of(path: str | Path) -> Report:
-    """Report of a stored result, as data. Returns title, date and sections. Raises InputError if the folder
-    has no result or several, or the result cannot be read.
+def report_of(path: str | Path, *, summary: bool = False) -> Report:
+    """Report of a stored result, as data. Returns title, date and sections; with ``summary`` the first page
+    alone. Raises InputError if the folder has no result or several, or the result cannot be read.
     """
     date = date_of_report()
     path = stored_result(path)
     result: Any = read_sweep(path.parent) if path.name == SWEEP else load(path)
     part = next(make for kind, make in _PARTS.items() if isinstance(result, kind))(result)
     name = _title(result) or part.kind[0].upper() + part.kind.partition(" over ")[0][1:]
-    sections = (
-        Section("Answer", tuple(_answer(part))),
-        Section("Warnings", (warning_block(part.warnings),)),
-        *part.before,
-        Section("Key numbers", part.numbers),
-        Section("Figures", part.pictures or (Text("The result has no figures."),)),
-        *part.further,
-        input_section(result.case, part.varied),
-        limit_section(result.case),
-        source_section(result.case),
-        version_section(part.details),
-        file_section(part.toml, part.command),
-    )
-    return Report(name, part.kind, date, sections)
+    first = first_section(result, part, path)
+    shown = {block.name for block in first.blocks if isinstance(block, Picture)}
+    further = () if summary else _appendix(result, part, [one for one in part.figures if one not in shown])
+    return Report(name, part.kind, date, (first, *further))
 
 
 def _title(result: Any) -> str:
@@ -67,17 +68,38 @@ def _title(result: Any) -> str:
     return printable(getattr(result, "title", "") or result.case.title)
 
 
+def _appendix(result: Any, part: Part, figures: Sequence[str]) -> Iterator[Section]:
+    """Sections behind the first page, in the order of the question, with the figures of these names."""
+    yield Section("What was asked", (Text(TEXTS["questions"][part.command]), Text(part.asked or part.lead)))
+    yield Section("Result", tuple(_answer(part)))
+    yield Section("Key numbers", part.numbers)
+    drawn = tuple(pictures_of(result, converged=is_solved(result), names=figures))
+    note = (Text(part.figure_note),) if part.figure_note else ()
+    yield Section("Figures", (*drawn, *note) or (Text(SENTENCES["no_further_figures"]),))
+    yield from part.further
+    yield Section("Warnings", (warning_block(part.warnings),))
+    yield from input_sections(result.case, part.varied, part.rests)
+    yield limit_section(result.case)
+    yield source_section(result.case)
+    yield version_section(part.details)
+    yield file_section(part.toml, part.command)
+
+
 def _answer(part: Part) -> Iterator[Block]:
     yield from alarms_of(part.warnings, part.failure)
     yield Text(part.lead)
-    if part.verdict is not None:
-        yield light_of(part.verdict.level, part.verdict.text)
-    else:
-        yield Text(SENTENCES["no_verdict"])
+    yield Text(SENTENCES["no_verdict"] if part.verdict is None else printable(part.verdict.text))
+
+
+def _deciding_first(result: Any) -> tuple[str, ...]:
+    """Names of the figures of a result: that over the speed of a bearing or the default one at first."""
+    names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
+    first = "breakdown_over_speed" if "breakdown_over_speed" in names else default
+    return tuple(sorted(names, key=lambda name: name != first))
 
 
 def _contact(result: Any) -> Part:
-    summary = result.summary()
+    summary, rows = result.summary(), result_rows(result)
     return Part(
         kind=f"{result.case.contact.geometry} contact",
         command="run",
@@ -85,8 +107,9 @@ def _contact(result: Any) -> Part:
         failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
         warnings=result.warnings,
-        numbers=tuple(row_tables(result_rows(result), "Overview")),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
+        first=(numbers_of(rows, CONTACT_CARDS),),
+        numbers=tuple(row_tables(rows, "Overview")),
+        figures=_deciding_first(result),
         details=details_of(summary, result.to_xarray().attrs.get("date", "")),
         toml=result.case.to_toml(),
     )
@@ -102,7 +125,7 @@ def _motion(result: MotionResult) -> Part:
         verdict=None,
         warnings=result.warnings,
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
+        figures=_deciding_first(result),
         details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
         toml=result.case.to_toml(),
     )
@@ -110,7 +133,7 @@ def _motion(result: MotionResult) -> Part:
 
 def _bearing(result: BearingResult) -> Part:
     summary = result.summary()
-    base = result.case.bearing.base
+    rows, base = total_rows(summary), result.case.bearing.base
     of_library = f" {base}" if base else ""
     contacts = Section(
         "Contacts",
@@ -124,12 +147,14 @@ def _bearing(result: BearingResult) -> Part:
     return Part(
         kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
+        asked=machine_of(result.case, summary),
         lead=lead_of(result),
         failure="" if result.converged else SENTENCES["unsolved"],
         verdict=result.verdict,
         warnings=result.warnings,
-        numbers=tuple(row_tables(total_rows(summary), "Overview")),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
+        first=tuple(bearing_blocks(result.case, summary, rows)),
+        numbers=tuple(row_tables(rows, "Overview")),
+        figures=_deciding_first(result),
         further=(contacts,),
         details=details_of(summary, ""),
         toml=result.case.to_toml(),

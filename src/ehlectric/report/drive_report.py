@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlectric.bearing.input_changes import changes_of
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
@@ -20,44 +21,62 @@ from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
+from ehlectric.figures.result_figures import figure_names
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
-from ehlectric.quantities.sheets import REMEDIES, SWEEPS, at_ends
+from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
-from ehlectric.report.background import input_text, inputs_of, varied_keys
+from ehlectric.report.background import input_text, inputs_of, named, varied_keys
+from ehlectric.report.first_page import assumption_table, machine_of, number_of, usual_range
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import Block, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import pictures_of, row_tables
+from ehlectric.report.report_content import Block, Cell, Numbers, Part, Section, Table, Text, details_of
+from ehlectric.report.report_facts import row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
-from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
+from ehlectric.tables.drive_tables import (
+    end_cells,
+    end_rows,
+    remedy_cells,
+    remedy_heads,
+    whole_rows,
+    worse_cells,
+)
 
 # Words for the origin of an input that is not a value of the library.
 _GIVEN = "input file"
 
 
-def assumption_section(
+def deciding_blocks(
     case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Sequence[str] = ()
-) -> Section:
-    """Section of the values that decide the result and that no model gives."""
-    either, apart = varied_keys(varied)
-    inputs = inputs_of(case, apart=apart)
-    origins = {one.key: one.origin for one in inputs if one.origin != "given"}
-    values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
-    rows = [(key, value, origin or origins.get(key, _GIVEN), why) for key, value, origin, why in values]
+) -> tuple[Block, ...]:
+    """Values that decide the result and that no model gives, with a sentence about them."""
+    either, _ = varied_keys(varied)
     shown = tuple(
-        (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
+        (named(key), "varied", "sweep", why) if key in either else (named(key), value, origin, why)
+        for key, value, origin, why in _deciding(case, summary, varied)
     )
     heads, shares = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
     table = Table("Values that decide the result", heads, shown, shares=shares)
-    return Section("What decides the result", (Text(SENTENCES["deciding_values"]), table))
+    return Text(SENTENCES["deciding_values"]), table
 
 
-def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
+def _deciding(
+    case: DriveCase, summary: Mapping[str, Any] | None, varied: Sequence[str] = ()
+) -> Iterator[tuple[str, str, str, str]]:
+    """Key, value, origin and effect of each value that decides the result."""
+    _, apart = varied_keys(varied)
+    origins = {one.key: one.origin for one in inputs_of(case, apart=apart) if one.origin != "given"}
+    for key, value, origin, why in (
+        *_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)
+    ):  # fmt: skip
+        yield key, value, origin or origins.get(key, _GIVEN), why
+
+
+def _of_tables(case: DriveCase) -> Iterator[tuple[str, str, str, str]]:
     """Rows of the tables ``circuit`` and ``breakdown``, without an origin where it is that of an input."""
     given = flattened(case.to_dict())
     for key, decides in TEXTS["decided_by_drive"].items():
@@ -71,7 +90,7 @@ def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
             yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
 
 
-def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, ...]]:
+def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, str, str, str]]:
     """Row of the time between new thresholds, where it follows from the bearings."""
     if case.breakdown.renewal_time is not None or summary is None:
         return
@@ -83,7 +102,7 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
         yield key, with_units_kept(value), origin, TEXTS["decided_by_drive"][key]
 
 
-def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
+def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str, str]]:
     """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
     first, second = case.bearings
     places = list(zip(ENDS, ENDS, case.bearings, strict=True))
@@ -206,7 +225,7 @@ def _further(result: DriveResult, known: set[str]) -> str:
 
 def _changes(
     case: DriveCase, other: DriveCase, title: str, changes: Mapping[str, Any]
-) -> Iterator[tuple[str, ...]]:
+) -> Iterator[tuple[Cell, ...]]:
     """Rows of the changes of a remedy: its title, the input, and its value in both drives."""
     before, after = (flattened(one.to_dict()) for one in (case, other))
     for key in flattened(dict(changes)):
@@ -215,7 +234,7 @@ def _changes(
             input_text(one, first, tables[first]) if first in tables else "not given"
             for one, tables in ((case, before), (other, after))
         ]
-        yield printable(title), key, *told
+        yield printable(title), named(key), *told
 
 
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
@@ -287,17 +306,60 @@ def drive_part(result: DriveResult) -> Part:
     return Part(
         kind=_kind(case),
         command="drive",
+        asked=machine_of(case, summary),
         lead=_lead(summary),
         failure="" if result.converged else SENTENCES["unsolved"],
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
         warnings=result.warnings,
-        before=(assumption_section(case, summary),),
+        first=tuple(_first_blocks(result, summary)),
         numbers=tuple(number_tables(summary)),
-        pictures=tuple(pictures_of(result, converged=result.converged)),
+        figures=_figures(result),
         further=tuple(_sections(result, summary)),
+        rests=deciding_blocks(case, summary),
         details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
         toml=result.case.to_toml(),
     )
+
+
+def _figures(result: DriveResult) -> tuple[str, ...]:
+    """Names of the figures; that of the remedies decides, and the voltages where there are none."""
+    names = figure_names(result)
+    return tuple(sorted(names, key=lambda name: not name.startswith("drive_remedies")))
+
+
+def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
+    """Numbers of both bearings, remedies, and the three values that decide most."""
+    rows = {end: {row.key: row for row in end_rows(summary, end)} for end in ENDS}
+    yield Numbers(
+        tuple(
+            number_of(key, further, rows[end], place)
+            for end, place in NAMES_OF_ENDS.items()
+            for key, further in FIRST_PAGE_OF_DRIVE.items()
+            if key in rows[end]
+        )
+    )
+    if result.remedies:
+        heads, *cells = worse_cells(summary)
+        yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))
+    case = result.case
+    found: dict[str, tuple[str, str, str]] = {}
+    for key, value, _, why in _deciding(case, summary):
+        end, own = end_and_key(key)
+        # Ceramic elements do not break down.
+        if summary.get(end, {"breakdown_voltage": 0.0})["breakdown_voltage"] is not None:
+            found.setdefault(own, (key, value, why))
+    given = flattened(case.to_dict())
+    yield assumption_table(
+        (named(key).text, value, usual_range(key, _ranges(case, key), given), why)
+        for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
+    )
+
+
+def _ranges(case: DriveCase, key: str) -> dict[str, tuple[float, float]]:
+    """Usual ranges of the inputs of the bearing that a key belongs to, SI units."""
+    end, _ = end_and_key(key)
+    own = case.bearings[ENDS.index(end) if end in ENDS else 0]
+    return {change.key: change.ends for change in changes_of(own)}
 
 
 def _kind(case: DriveCase) -> str:

@@ -35,7 +35,7 @@ _BOUND = "Upper bound"
 _FIRST = re.compile(r"[:.,;] ")
 
 # Beginning of the verdict of a sweep with breakdown at points of it.
-_SOME = re.compile(r"Breakdown is expected at \d+ of ")
+_SOME = re.compile(r"Breakdown is (expected|likely) at \d+ of ")
 
 # Longest first words that are a heading [characters].
 _LONGEST = 30
@@ -74,7 +74,7 @@ def light_of(level: Level, text: str) -> Light:
     first = _FIRST.split(text, maxsplit=1)[0].rstrip(".")
     named = len(first) <= _LONGEST and not any(letter.isdigit() for letter in first)
     words = first if named and first else _WORDS[level]
-    if level == "yellow" and _SOME.match(text):
-        words = "Breakdown expected at some points"
+    if level == "yellow" and (some := _SOME.match(text)):
+        words = f"Breakdown {some[1]} at some points"
     bound = text.startswith(_BOUND) or f". {_BOUND}" in text
     return Light(level, words + _ENDS[level] if bound else words, text, "upper bound" if bound else "")

@@ -5,7 +5,7 @@ outline.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from io import BytesIO
 from pathlib import Path
@@ -26,8 +26,10 @@ from reportlab.platypus import (
     Flowable,
     Frame,
     Image,
+    KeepInFrame,
     KeepTogether,
     LongTable,
+    PageBreak,
     PageTemplate,
     Paragraph,
     Preformatted,
@@ -41,6 +43,8 @@ from ehlectric.report.light import Light
 from ehlectric.report.report_content import (
     Cell,
     Link,
+    Named,
+    Numbers,
     Picture,
     Report,
     Table,
@@ -63,6 +67,9 @@ _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 
 # Room beside the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
+
+# Size of a dotted key below the name of its input [pt].
+_KEY = 6.0
 
 # Room that a title of a section needs for itself and for what begins below it [pt].
 _ROOM = 130.0
@@ -95,7 +102,10 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
         case Text(text=text, tone="code"):
             yield Preformatted(text, style("code"), maxLineLength=_LINE_LENGTH, newLineChars="")
         case Text(text=text, tone=tone):
-            yield Paragraph(escape(text), style("alarm" if tone == "alarm" else "body"))
+            yield Paragraph(escape(text), style("body" if tone == "plain" else tone))
+        case Numbers(numbers=numbers):
+            yield _numbers(numbers, width)
+            yield Spacer(1.0, 6.0)
         case Table():
             yield _table(block, width)
             yield Spacer(1.0, 8.0)
@@ -113,11 +123,30 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
             yield _picture(block, width, height)
 
 
+# Shape of a lamp by its level, so that the colour is not the only sign.
+_LAMPS = {"green": "\u25cf", "yellow": "\u25c6", "red": "\u25a0", "grey": "\u25cb"}
+
+
+def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int = 3) -> Flowable:
+    """Large numbers, so many ``beside`` each other, with their labels above and their notes below."""
+    cells = [
+        [Paragraph(escape(label), style("label", 7.5)), Paragraph(escape(value), style("value"))]
+        + ([Paragraph(escape(note), style("label", 7.0))] if note else [])
+        for label, value, note in numbers
+    ]
+    rows = [cells[k : k + beside] for k in range(0, len(cells), beside)]
+    rows[-1] += [[]] * (beside - len(rows[-1]))
+    look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (-1, -1), 0.0)]
+    look += [("TOPPADDING", (0, 0), (-1, -1), 0.0), ("BOTTOMPADDING", (0, 0), (-1, -1), 6.0)]
+    return LongTable(rows, colWidths=[width / beside] * beside, hAlign="LEFT", style=look)
+
+
 def _light(light: Light, width: float) -> Flowable:
     """Panel of a verdict, with its lamp beside what it means."""
     colour = LIGHTS[light.level]
     heading, bound = escape(light.words), f" ({escape(light.bound)})" if light.bound else ""
-    words = f'<font size="11" color="{colour}">\u25cf</font> <font size="11"><b>{heading}</b></font>{bound}'
+    lamp = f'<font size="13" color="{colour}">{_LAMPS[light.level]}</font>'
+    words = f'{lamp} <font size="12"><b>{heading}</b></font>{bound}'
     return _panel([words, escape(light.text)], colour, width)
 
 
@@ -131,7 +160,7 @@ def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
         ("BOTTOMPADDING", (0, 0), (-1, -1), 3.0),
     ]
     rows = [[Paragraph(text, style("cell"))] for text in texts]
-    return LongTable(rows, colWidths=[width], style=look)
+    return LongTable(rows, colWidths=[width], hAlign="LEFT", style=look)
 
 
 def _picture(picture: Picture, width: float, height: float) -> Flowable:
@@ -194,6 +223,8 @@ def _table(table: Table, width: float) -> Flowable:
 
 
 def _plain(cell: Cell) -> str:
+    if isinstance(cell, Named):
+        return cell.text
     return f"{cell.text}{_address(cell)}" if isinstance(cell, Link) else cell
 
 
@@ -206,6 +237,9 @@ def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
     if isinstance(cell, Link):
         shown = escape(_address(cell))
         return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
+    if isinstance(cell, Named):
+        key = _parted(cell.key, room, _KEY)
+        return f'{_markup(cell.text, colour, room, size)}<br/><font size="{_KEY}" color="{GREY}">{key}</font>'
     text = " ".join(_parted(word, room, size) for word in cell.split(" "))
     return f'<font color="{colour}">{text}</font>' if colour else text
 
@@ -267,12 +301,52 @@ def pdf_of(report: Report) -> bytes:
 
 def _story(report: Report) -> Iterator[Flowable]:
     """Flowables of a report."""
-    yield Paragraph(escape(f"Report of a result of ehlectric: {report.kind}"), style("soft"))
-    yield Paragraph(escape(report.title), style("title"))
-    yield Paragraph(f"Report made on {escape(_shown(report.date))}", style("soft"))
-    for section in report.sections:
+    first, *others = report.sections
+    if first.one_page:
+        yield first_page(report)
+        if others:
+            yield PageBreak()
+    else:
+        yield from _top(report)
+        others = [first, *others]
+    for section in others:
         parts = [part for block in section.blocks for part in parts_of(block, _WIDTH, _HEIGHT)]
         yield from headed(section.title, parts)
+
+
+def _top(report: Report) -> list[Flowable]:
+    """Title of a report, with what it is and its date."""
+    kind = f"{report.kind[0].upper()}{report.kind[1:]}. Report made on {_shown(report.date)}"
+    return [Paragraph(escape(report.title), style("title")), Paragraph(escape(kind), style("soft"))]
+
+
+def first_page(report: Report) -> Flowable:
+    """First page of a report, with the figure beside the numbers; texts that are too long for the page make
+    all of it smaller.
+    """
+    parts, blocks = _top(report), list(report.sections[0].blocks)
+    while blocks:
+        match blocks:
+            case [Numbers() as numbers, Picture() as picture, *blocks]:
+                parts += [_beside(numbers, picture), Spacer(1.0, 4.0)]
+            case [block, *blocks]:
+                parts += _loose(parts_of(block, _WIDTH, _HEIGHT))
+    return KeepInFrame(_WIDTH, _HEIGHT, parts, mode="shrink", name="first page")
+
+
+def _beside(numbers: Numbers, picture: Picture) -> Flowable:
+    """Numbers below each other, and a figure beside them."""
+    left, right = (share * _WIDTH for share in (0.33, 0.67))
+    shown = list(_loose([_picture(picture, right - 6.0, _HEIGHT)]))
+    look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
+    look += [("RIGHTPADDING", (0, 0), (-1, -1), 0.0)]
+    return LongTable([[_numbers(numbers.numbers, left, 1), shown]], colWidths=[left, right], style=look)
+
+
+def _loose(parts: Iterable[Flowable]) -> Iterator[Flowable]:
+    """Flowables without groups that are kept together, as a frame that shrinks has none."""
+    for part in parts:
+        yield from part._content if isinstance(part, KeepTogether) else [part]
 
 
 def _shown(date: str) -> str:
@@ -320,7 +394,8 @@ class _Document(BaseDocTemplate):  # type: ignore[misc]
         canvas.setFillColor(SOFT)
         canvas.setStrokeColor(LINE)
         title, top = _fitted(self._report.title, font), A4[1] - 14.0 * mm
-        canvas.drawString(_MARGIN, top, title)
+        if canvas.getPageNumber() > 1:
+            canvas.drawString(_MARGIN, top, title)
         canvas.drawRightString(A4[0] - _MARGIN, top, "ehlectric")
         canvas.line(_MARGIN, top - 3.0 * mm, A4[0] - _MARGIN, top - 3.0 * mm)
         canvas.drawString(_MARGIN, 12.0 * mm, f"Report made on {_shown(self._report.date)}")

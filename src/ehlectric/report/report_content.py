@@ -29,7 +29,7 @@ _LARGEST = 400_000
 # Neither kind of image has a date, so that equal figures are equal files.
 _METADATA = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
 
-Tone = Literal["plain", "alarm", "code"]
+Tone = Literal["plain", "alarm", "code", "small"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,8 @@ class Text:
     """Paragraph of a report."""
 
     text: str  # plain text without any markup
-    # "plain"; "alarm" for what a reader must not miss; "code" for text with its line breaks, as of a file.
+    # "plain"; "alarm" for what a reader must not miss; "code" for text with its line breaks, as of a file;
+    # "small" for what is looked up and not read.
     tone: Tone = "plain"
 
 
@@ -49,7 +50,15 @@ class Link:
     address: str  # address of the page, which begins with "https://doi.org/"
 
 
-Cell: TypeAlias = str | Link
+@dataclass(frozen=True)
+class Named:
+    """Name of an input, with the dotted key of a file that stands small below it."""
+
+    text: str
+    key: str
+
+
+Cell: TypeAlias = str | Link | Named
 
 
 @dataclass(frozen=True)
@@ -91,7 +100,14 @@ class Warnings:
     lines: tuple[WarningLine, ...]
 
 
-Block: TypeAlias = Text | Table | Picture | Warnings | Light
+@dataclass(frozen=True)
+class Numbers:
+    """Numbers that stand large beside each other: label, value with its unit, and a note of each."""
+
+    numbers: tuple[tuple[str, str, str], ...]
+
+
+Block: TypeAlias = Text | Table | Picture | Warnings | Light | Numbers
 
 
 @dataclass(frozen=True)
@@ -100,6 +116,7 @@ class Section:
 
     title: str
     blocks: tuple[Block, ...]
+    one_page: bool = False  # whether it has a page of its own, on which all of it stands
 
 
 @dataclass(frozen=True)
@@ -123,14 +140,17 @@ class Part:
 
     kind: str  # what the result is, in a few words
     command: str  # command that solves the input file
+    asked: str = ""  # machine in a sentence; empty for contacts and sweeps, of which the lead says it
     lead: str  # main numbers in a sentence
     failure: str  # what is not solved; empty where all is
     verdict: Verdict | None  # answer of the result; None where it has none
     warnings: tuple[ResultWarning, ...]
-    before: tuple[Section, ...] = ()
+    first: tuple[Block, ...] = ()  # numbers and tables of the first page
     numbers: tuple[Block, ...]
-    pictures: tuple[Block, ...]
+    figures: tuple[str, ...]  # names of the figures, the first of which decides
+    figure_note: str = ""  # sentence below the figures
     further: tuple[Section, ...] = ()
+    rests: tuple[Block, ...] = ()  # what the result rests on, beside the inputs that are assumptions
     details: dict[str, str]  # what is known of the computation, by name
     toml: str
     varied: tuple[str, ...] = ()  # dotted keys that a sweep varies

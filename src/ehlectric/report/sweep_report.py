@@ -17,14 +17,15 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
+from ehlectric.report.background import named
 from ehlectric.report.drive_report import (
-    assumption_section,
+    deciding_blocks,
     listed_values,
     swept_values,
     swept_verdict,
 )
-from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
-from ehlectric.report.report_facts import cell_table, pictures_of, row_tables, swept_names
+from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text, lead_of
+from ehlectric.report.report_facts import cell_table, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
@@ -52,16 +53,17 @@ def sweep_part(results: SweepResults) -> Part:
     count, case = results.summary(), results.case
     of_drive = isinstance(case, DriveCase)
     return Part(
-        kind=f"sweep of {count['points']} points over {', '.join(results.varied)}",
+        kind=f"sweep of {count['points']} points over {', '.join(named(key).text for key in results.varied)}",
         command="sweep",
         lead=lead_of(results),
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
         warnings=tuple(sweep_warnings(results)),
-        before=(assumption_section(case, varied=results.varied),) if isinstance(case, DriveCase) else (),
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
-        pictures=tuple(_pictures(results)),
+        figures=_figures(results),
+        figure_note=SENTENCES["further_maps"],
         further=tuple(_sections(results)),
+        rests=deciding_blocks(case, varied=results.varied) if isinstance(case, DriveCase) else (),
         details=_details(results),
         toml=sweep_toml(results),
         varied=tuple(results.varied),
@@ -88,11 +90,9 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
     return " ".join(sentences)
 
 
-def _pictures(results: SweepResults) -> Iterator[Block]:
+def _figures(results: SweepResults) -> tuple[str, ...]:
     shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEEPS["drawn"]
-    names = swept_names(results, (main_value(results.case), *shown))
-    yield from pictures_of(results, converged=True, names=names)
-    yield Text(SENTENCES["further_maps"])
+    return tuple(swept_names(results, (main_value(results.case), *shown)))
 
 
 def _details(results: SweepResults) -> dict[str, str]:
@@ -157,15 +157,15 @@ def _points(results: SweepResults) -> Iterator[Block]:
     yield Table("Points of the sweep", heads, rows, numeric, alarms)
 
 
-def _varied(results: SweepResults) -> Iterator[tuple[str, str]]:
+def _varied(results: SweepResults) -> Iterator[tuple[Cell, ...]]:
     """Varied inputs with their values, or with their ranges."""
     for key, values in results.axes.items():
         head, cells = _column(results, key, values)
         more = f", ... ({len(cells)} values)" if len(cells) > _SHOWN else ""
-        yield f"{key}: {head}", ", ".join(cells[:_SHOWN]) + more
+        yield Named(head, key), ", ".join(cells[:_SHOWN]) + more
     for key, ends in results.ranges.items():
         head, cells = _column(results, key, (ends.start, ends.stop))
-        yield f"{key}: {head}", f"{' to '.join(cells)}, {ends.spacing}"
+        yield Named(head, key), f"{' to '.join(cells)}, {ends.spacing}"
 
 
 def _status(point: Point) -> str:

@@ -14,12 +14,29 @@ from jinja2 import Environment, StrictUndefined
 
 from ehlectric.errors import SEVERITY_WORDS, InputError, shown
 from ehlectric.report.light import Light
-from ehlectric.report.report_content import Link, Picture, Report, Table, Text, Warnings, best_image
+from ehlectric.report.report_content import (
+    Link,
+    Named,
+    Numbers,
+    Picture,
+    Report,
+    Table,
+    Text,
+    Warnings,
+    best_image,
+)
 from ehlectric.runtime.files import refuse_special, write
 
 # Name of each class of blocks in the template.
 _NAMES: Mapping[type, str] = MappingProxyType(
-    {Text: "text", Table: "table", Picture: "picture", Warnings: "warnings", Light: "light"}
+    {
+        Text: "text",
+        Table: "table",
+        Picture: "picture",
+        Warnings: "warnings",
+        Light: "light",
+        Numbers: "numbers",
+    }
 )
 
 
@@ -30,6 +47,7 @@ def html_of(report: Report) -> str:
     )
     environment.filters |= {"anchor": anchor, "data": _data}
     environment.tests["link"] = lambda cell: isinstance(cell, Link)
+    environment.tests["named"] = lambda cell: isinstance(cell, Named)
     environment.globals["severity_words"] = SEVERITY_WORDS
     environment.globals["name_of"] = lambda block: _NAMES[type(block)]
     template = (resources.files("ehlectric.report") / "page.html.jinja").read_text(encoding="utf-8")
@@ -81,7 +99,9 @@ def _load_reportlab() -> None:
         sys.modules["reportlab_mods"] = ModuleType("reportlab_mods")
 
 
-def write_report(result: str | Path, target: str | Path, *further: str | Path) -> list[Path]:
+def write_report(
+    result: str | Path, target: str | Path, *further: str | Path, summary: bool = False
+) -> list[Path]:
     """Write the report of a stored result, as HTML or PDF.
 
     Parameters
@@ -92,6 +112,8 @@ def write_report(result: str | Path, target: str | Path, *further: str | Path) -
         File of the report; its ending, .html or .pdf, decides about its format. An existing file is replaced.
     *further : str or Path
         Further files with the same content, as in the other format.
+    summary : bool
+        Whether the first page stands alone.
 
     Returns
     -------
@@ -125,7 +147,7 @@ def write_report(result: str | Path, target: str | Path, *further: str | Path) -
     endings = [_ending_of(one) for one in targets]
     from ehlectric.report.build import report_of
 
-    report = report_of(result)
+    report = report_of(result, summary=summary)
     for path, ending in zip(targets, endings, strict=True):
         write(path, _content(report, ending))
     return targets

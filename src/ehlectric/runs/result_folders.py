@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
 
 SENSITIVITY = "sensitivity.json"
-REPORTS = ("report.html", "report.pdf")
+REPORTS = ("report.html", "report.pdf", "summary_page.html", "summary_page.pdf")
 
 # Figures with names of their own; maps and lines of a sweep are named by the value that they show.
 _FIGURES = (

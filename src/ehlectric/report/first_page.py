@@ -1,0 +1,290 @@
+"""First page of a report: machine, verdict, numbers, deciding figure, remedies, and what to measure first."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from ehlectric.bearing.input_changes import MOTOR, OF_TABLE, changes_of
+from ehlectric.bearing.uncertainty import FILMS
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.defaults import HOW
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.film_verdict import chance_text, ratio_text
+from ehlectric.errors import CODES, printable
+from ehlectric.figures.figure_names import with_units_kept
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.quantity import unbroken
+from ehlectric.quantities.result_bounds import bearing_bounds
+from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
+from ehlectric.quantities.rows import Row
+from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING
+from ehlectric.quantities.units import rpm
+from ehlectric.report.background import given_inputs, input_text, named
+from ehlectric.report.light import Light, light_of
+from ehlectric.report.report_content import Block, Numbers, Part, Picture, Section, Table, Text
+from ehlectric.report.report_facts import alarms_of, pictures_of
+from ehlectric.report.report_texts import SENTENCES, TEXTS
+from ehlectric.tables.bearing_tables import input_range
+from ehlectric.version import __version__
+
+# Largest numbers of large numbers, of changes that raise a margin, and of assumptions.
+_MOST, _CHANGES, _ASSUMPTIONS = 6, 4, 3
+
+# Least ratio of a margin to that of the bearing for which a change is worth a row.
+_WORTH = 1.05
+
+# Warnings that say what the verdict says, and not how likely it is.
+_IN_VERDICT = ("breakdown-expected",)
+
+# End of a sentence of a verdict.
+_SENTENCE = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+
+
+def first_section(result: Any, part: Part, path: Path) -> Section:
+    """First page of a report of a stored result: all that a reader needs who reads nothing else."""
+    return Section("Summary", tuple(_blocks(result, part, path)), one_page=True)
+
+
+def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
+    alarms = tuple(alarms_of(part.warnings, part.failure))
+    yield from alarms
+    yield Text(part.asked or part.lead)
+    if part.verdict is None:
+        yield Text(SENTENCES["no_verdict"])
+    else:
+        yield _short(light_of(part.verdict.level, part.verdict.text))
+    # Numbers that must not be used do not stand large on a page.
+    numbers, tables = ((), ()) if alarms else (part.first[:1], part.first[1:])
+    yield from numbers
+    drawn = pictures_of(result, converged=is_solved(result), names=part.figures)
+    # The first figure that has something to show.
+    yield from islice((block for block in drawn if isinstance(block, Picture)), 1)
+    yield from tables
+    told = dict.fromkeys(
+        CODES[one.code].meaning
+        for one in part.warnings
+        if one.severity == "warning" and one.code not in _IN_VERDICT
+    )
+    if told:
+        yield Text(f"Warnings: {' '.join(told)}", "small")
+    given = f"Inputs of the file: {given_inputs(result.case)}. {SENTENCES['all_others']}"
+    yield Text(with_units_kept(given), "small")
+    made = (
+        f"Result {printable(f'{path.parent.name}/{path.name}')}, {part.details.get('result computed by', '')}"
+    )
+    yield Text(f"{made.rstrip(', ')}; report by ehlectric {__version__}.", "small")
+
+
+def is_solved(result: Any) -> bool:
+    """Whether figures of a result show a solution; those of a sweep leave out points without one."""
+    return bool(getattr(result, "converged", True))
+
+
+def _short(light: Light) -> Light:
+    """Light with the first two sentences and the last one, which has the assumptions."""
+    sentences = _SENTENCE.split(light.rest)
+    text = " ".join(dict.fromkeys([*sentences[:2], sentences[-1]]))
+    return replace(light, text=with_units_kept(text))
+
+
+def numbers_of(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> Numbers:
+    """Large numbers of those keys that have a row, each with the rows of further keys in its note."""
+    known = {row.key: row for row in rows if row.key}
+    return Numbers(tuple(number_of(key, keys[key], known) for key in keys if key in known)[:_MOST])
+
+
+def number_of(
+    key: str, further: Iterable[str], rows: Mapping[str, Row], place: str = ""
+) -> tuple[str, str, str]:
+    """Label, value and note of a large number."""
+    row = rows[key]
+    row = replace(row, digits=".3g") if row.digits == ".4g" else row
+    label = ", ".join(filter(None, [f"{row.name[:1].upper()}{row.name[1:]}", place]))
+    below = [
+        f"{rows[name].name.removeprefix(f'{row.name}, ')} {rows[name].bounded}{_unit(rows[name])}"
+        for name in further
+        if name in rows
+    ]
+    note = "; ".join(filter(None, [*below, row.note.lstrip(" ,;")]))
+    # Margins have the digits that they have in sentences.
+    of_ratio = key.endswith("margin") and isinstance(row.value, float)
+    value = f"{row.bound} {ratio_text(row.value)}".strip() if of_ratio else row.bounded
+    return label, unbroken(f"{value}{_unit(row)}"), with_units_kept(note)
+
+
+def _unit(row: Row) -> str:
+    """Unit after a number; none of a rate, whose label has it."""
+    return f" {row.unit}" if row.unit and row.unit != "1/s" else ""
+
+
+def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
+    """Numbers of a bearing, what would raise its margin, and what to measure first."""
+    yield numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING)
+    given = flattened(case.to_dict())
+    own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
+    better = [
+        (margin, one, value)
+        for one in (summary.get("margin") or {}).get("effects", ())
+        for margin, value in [max((one[f"{end}_margin"], one[f"{end}_input"]) for end in ("low", "high"))]
+        if margin > _WORTH * own
+    ]
+    if better:
+        rows = tuple(
+            (
+                _name(one),
+                _value(case, one["key"], given.get(one["key"])),
+                _value(case, one["key"], value),
+                f"{bound} {ratio_text(margin)}".strip(),
+            )
+            for margin, one, value in sorted(better, key=lambda row: -row[0])[:_CHANGES]
+        )
+        caption = f"What would raise the margin of {ratio_text(own)}, one change at a time"
+        yield Table(caption, ("change", "from", "to", "margin"), rows, (3,), shares=(0.46, 0.18, 0.18, 0.18))
+    elif own is None:
+        yield Text(SENTENCES["no_effects"])
+    found = (summary.get("uncertainty") or {}).get("indices", ())[:_ASSUMPTIONS]
+    if found:
+        yield assumption_table(
+            (
+                (
+                    _name(one),
+                    _value(case, one["key"], given.get(one["key"])),
+                    "scatters" if one["low"] is None else with_units_kept(input_range(one)),
+                    f"{100.0 * one['total']:.2g}\xa0% of the spread of the margin; {_basis(one)}",
+                )
+                for one in found
+            ),
+            ranked=True,
+        )
+        return
+    known = {change.key: change.ends for change in changes_of(case)}
+    broken = summary["bearing"]["first_break"] is not None
+    yield assumption_table(
+        (named(key).text, input_text(case, key, given[key]), usual_range(key, known, given), why)
+        for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
+        if key in given
+    )
+
+
+def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:
+    """Row of a bearing; its probability as a sentence has it, which is not 0."""
+    if row.key != "uncertainty.breakdown_probability":
+        return row
+    found = summary["uncertainty"]
+    text = chance_text(found["breakdown_probability"], found["breakdown_probability_error"])
+    return replace(row, value=text.partition(" (")[0], unit="")
+
+
+def _name(one: Mapping[str, Any]) -> str:
+    """Name of an input of the analysis of a margin."""
+    return printable(one["label"])
+
+
+def _basis(one: Mapping[str, Any]) -> str:
+    """Where the range of an uncertain input comes from, in a few words."""
+    reason: str = one["reason"]
+    return f"range: {reason.partition(':')[0]}" if reason else "range of the file"
+
+
+def _value(case: BearingCase, key: str, value: Any) -> str:
+    """Value of an input of the analysis of a margin; of the films how they were computed."""
+    if key == FILMS:
+        return HOW[case.contacts]
+    if isinstance(value, int | float) and key != OF_TABLE:
+        return input_text(case, key, value)
+    return "a table" if value is None or not isinstance(value, float) else f"{value:.3g} times"
+
+
+def usual_range(key: str, known: Mapping[str, tuple[float, float]], given: Mapping[str, Any]) -> str:
+    """Usual range of an input; ``known`` are those of a bearing, SI units. A capacitance of the circuit of a
+    drive has the one that it has in the motor of a bearing.
+    """
+    own = end_and_key(key)[1]
+    ends = known.get(own)
+    if ends is None and own.startswith("circuit.") and own.endswith("_capacitance") and own in given:
+        ends = (1.0 - MOTOR) * given[own], (1.0 + MOTOR) * given[own]
+    if ends is None:
+        return "none known"
+    return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))
+
+
+def assumption_table(rows: Iterable[tuple[str, str, str, str]], *, ranked: bool = False) -> Table:
+    """Table of the assumptions to measure first; ``ranked``, whether they have the largest shares of a
+    spread.
+    """
+    which = "the assumptions that matter most" if ranked else "assumptions behind the answer, not ranked"
+    heads, shares = ("assumption", "value", "usual range", "why"), (0.26, 0.13, 0.17, 0.44)
+    return Table(f"Measure first: {which}", heads, tuple(rows), shares=shares)
+
+
+def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str:
+    """Machine in a sentence: bearing, load, speed, temperature and oil, and inverter and motor if known."""
+    given = flattened(case.to_dict())
+    texts = {key: input_text(case, key, value) for key, value in given.items() if key in _SAID}
+    if isinstance(case, BearingCase):
+        sentence = _bearing(case, summary["lubricant"]["viscosity"])
+        if case.motor is not None:
+            voltage, *motor = (texts[key] for key in _MOTOR)
+            sentence += f"; common-mode voltage {voltage} peak, {_motor(*motor)}"
+    else:
+        source = "Measured common-mode voltage"
+        if not case.source.measured:
+            at = f" at {texts['source.switching_frequency']}" if "source.switching_frequency" in texts else ""
+            link = texts["source.dc_link"]
+            source = f"Inverter with {case.source.modulation} modulation{at} on a DC link of {link}"
+        names = ("winding_rotor_capacitance", "rotor_frame_capacitance")
+        motor = [amount(case.circuit.capacitances[name], "F") for name in names]
+        first, second = map(_bearing, case.bearings)
+        both = f"two bearings: {first}"
+        if first != second:
+            both = "; ".join(
+                f"{place}: {one}" for place, one in zip(NAMES_OF_ENDS.values(), (first, second), strict=True)
+            )
+        sentence = f"{source}, {_motor(*motor)}; {both}"
+    return with_units_kept(f"{sentence[:1].upper()}{sentence[1:]}.")
+
+
+_MOTOR = (
+    "motor.common_mode_voltage", "motor.winding_rotor_capacitance", "motor.rotor_frame_capacitance",
+)  # fmt: skip
+_SAID = (*_MOTOR, "source.switching_frequency", "source.dc_link")
+
+
+def _motor(winding_rotor: str, rotor_frame: str) -> str:
+    return f"motor with {winding_rotor} from winding to rotor and {rotor_frame} from rotor to frame"
+
+
+def _bearing(case: BearingCase, viscosity: float | None = None) -> str:
+    """Bearing with its load, speed, temperature and oil. ``viscosity`` at ambient pressure [Pa s]."""
+    bearing, oil = case.bearing, case.lubricant.temperature
+    name = " ".join(filter(None, [bearing.kind, "bearing", printable(bearing.base or "")]))
+    materials = (
+        [] if bearing.element_material == "steel" else [f"{printable(bearing.element_material)} elements"]
+    )
+    materials += ["insulated"] if bearing.coating is not None else []
+    loads = {"radial": bearing.radial_load, "axial": bearing.axial_load}
+    load = " and ".join(f"{value:.4g} N {way}" for way, value in loads.items() if value)
+    lubricant = f"oil {printable(case.lubricant.base or '')}".strip()
+    if oil is not None:
+        table = {key: value for key, value in oil.model_dump().items() if value is not None}
+        lubricant = "oil" if oil.iso_vg is None else f"oil ISO VG {oil.iso_vg}"
+        points = [
+            f"{1e6 * table[f'kinematic_viscosity_{at}']:.4g} mm²/s at {at} °C"
+            for at in (40, 100)
+            if f"kinematic_viscosity_{at}" in table
+        ]
+        lubricant = " of ".join(filter(None, [lubricant, " and ".join(points)]))
+    if bearing.supply == "grease":
+        lubricant = f"grease with {lubricant}"
+    at = "" if viscosity is None else f" ({1e3 * viscosity:.3g} mPa s in operation)"
+    speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
+    running = f"at {speed:.4g} rpm and {float(f'{temperature:.4g}'):g} °C"
+    return ", ".join([name, *materials, f"{load} load", running, f"{lubricant}{at}"])

@@ -1,0 +1,231 @@
+"""The first page of a report: numbers of summary.json, what to measure first, and one page of A4."""
+
+import json
+import re
+from io import BytesIO
+
+import pytest
+from reportlab.pdfgen.canvas import Canvas
+
+from ehlectric import BearingCase, DriveCase, save, solve, solve_drive, write_report
+from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.report.build import report_of
+from ehlectric.report.light import Light
+from ehlectric.report.pdf import first_page, pdf_of
+from ehlectric.report.report_content import Numbers, Picture, Table, Text
+from ehlectric.report.written_report import html_of
+from ehlectric.tables.bearing_tables import input_range
+from tests.helpers.drives import drive_with_remedy
+from tests.helpers.places import EXAMPLES
+from tests.helpers.reports import Page
+
+BEARINGS = ("bearing_6208", "bearing_thin_oil", "bearing_greased")
+
+
+def solved(name):
+    """Result of an example, with contacts from the atlas; the drive is simulated for a tenth of its time."""
+    if name == "drive":
+        return solve_drive(
+            DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"drive.duration": 0.02}), workers=1
+        )
+    return solve(BearingCase.from_toml(EXAMPLES / f"{name}.toml").replace({"contacts": "atlas"}))
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """Folder, summary.json and first page of each example, made when it is first asked for."""
+    known = {}
+
+    def page(name):
+        if name not in known:
+            folder = tmp_path_factory.mktemp(name)
+            save(solved(name), folder)
+            known[name] = (
+                folder,
+                json.loads((folder / "summary.json").read_text()),
+                report_of(folder, summary=True),
+            )
+        return known[name]
+
+    return page
+
+
+def blocks(report, kind):
+    return [block for block in report.sections[0].blocks if isinstance(block, kind)]
+
+
+def numbers_of(report):
+    (found,) = blocks(report, Numbers)
+    return {
+        label: (value.replace("\xa0", " "), note.replace("\xa0", " ")) for label, value, note in found.numbers
+    }
+
+
+def tables_of(report):
+    return {table.caption: table for table in blocks(report, Table)}
+
+
+RANKED = "Measure first: the assumptions that matter most"
+MEASURE = "Measure first: assumptions behind the answer, not ranked"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*BEARINGS, "drive"])
+def test_it_is_one_page_in_full_size(pages, name):
+    _, summary, report = pages(name)
+    assert len(report.sections) == 1
+    content = pdf_of(report)
+    assert len(re.findall(rb"/Type /Page\b", content)) == 1
+    # The letters are as large as those of the other pages.
+    page = first_page(report)
+    page.wrapOn(Canvas(BytesIO()), page.maxWidth, page.maxHeight)
+    assert getattr(page, "_scale", 1.0) == 1.0
+    page = Page(html_of(report))
+    assert summary["title"] in page.text
+    (light,) = [one["class"] for one in page.of("div") if "light" in one.get("class", "")]
+    level = summary["level"] if name == "drive" else summary["margin"]["level"]
+    assert light == f"light {level}"
+    assert len(page.of("img")) == 1
+    assert summary["version"] in page.text
+    assert not page.of("nav")
+
+
+@pytest.mark.slow
+def test_numbers_of_a_bearing_with_a_margin(pages):
+    _, summary, report = pages("bearing_6208")
+    found, bearing, spread = numbers_of(report), summary["bearing"], summary["uncertainty"]
+    margin, note = found["Margin (first breakdown / shaft voltage)"]
+    assert margin == ratio_text(bearing["margin"])
+    low, high = map(ratio_text, (spread["margin_low"], spread["margin_high"]))
+    assert note.startswith(f"margin in 90 of 100 cases {low} to {high}")
+    assert found["Probability of breakdown"][0] == f"{100.0 * spread['breakdown_probability']:.2g} %"
+    assert found["Shaft voltage"][0] == f"{bearing['shaft_voltage']:.3g} V"
+    assert found["First breakdown voltage"][0] == f"{bearing['first_break']:.3g} V"
+    (picture,) = blocks(report, Picture)
+    assert picture.name == "breakdown_over_speed"
+    machine = blocks(report, Text)[0].text.replace("\xa0", " ")
+    for text in (
+        "6208",
+        "1800 N radial and 300 N axial",
+        "3000 rpm",
+        "70 °C",
+        "46 mm²/s at 40 °C",
+        "300 V",
+        "20 pF",
+    ):
+        assert text in machine
+
+
+@pytest.mark.slow
+def test_what_to_measure_first_are_the_largest_shares(pages):
+    _, summary, report = pages("bearing_6208")
+    largest = sorted(summary["uncertainty"]["indices"], key=lambda one: -one["total"])[:3]
+    rows = tables_of(report)[RANKED].rows
+    assert [row[0] for row in rows] == [one["label"] for one in largest]
+    assert [row[2].replace("\xa0", " ") for row in rows] == [input_range(one) for one in largest]
+    assert rows[0][1] == "20\xa0pF"
+    assert [row[3].split("\xa0")[0] for row in rows] == [f"{100.0 * one['total']:.2g}" for one in largest]
+
+
+@pytest.mark.slow
+def test_changes_raise_the_margin_the_most_at_first(pages):
+    _, summary, report = pages("bearing_6208")
+    (changes,) = [
+        table for caption, table in tables_of(report).items() if caption.startswith("What would raise")
+    ]
+    best = {one["label"]: max(one["low_margin"], one["high_margin"]) for one in summary["margin"]["effects"]}
+    assert [(row[0], row[3]) for row in changes.rows] == [
+        (label, ratio_text(margin)) for label, margin in sorted(best.items(), key=lambda one: -one[1])[:4]
+    ]
+    assert changes.rows[0][1:3] == ("20\xa0pF", "10\xa0pF")
+
+
+@pytest.mark.slow
+def test_a_bearing_that_touches_has_no_margin(pages):
+    _, summary, report = pages("bearing_thin_oil")
+    found = numbers_of(report)
+    assert not any("argin" in label for label in found)
+    assert found["First breakdown voltage"][0] == "not computed"
+    assert found["Minimum lambda ratio"][0] == f"{summary['bearing']['lambda_ratio']:.3g}"
+    (light,) = blocks(report, Light)
+    assert light.words == "Discharges likely"
+    assert any(block.text.startswith("No margin is known") for block in blocks(report, Text))
+    assert [row[0] for row in tables_of(report)[MEASURE].rows] == [
+        "composite roughness Rq", "temperature of the oil", "height of the highest summits",
+    ]  # fmt: skip
+
+
+@pytest.mark.slow
+def test_a_bearing_without_a_motor_has_a_breakdown_voltage(pages):
+    _, summary, report = pages("bearing_greased")
+    found = numbers_of(report)
+    assert found["First breakdown voltage"][0] == f"{summary['bearing']['first_break']:.3g} V"
+    assert list(tables_of(report)) == [MEASURE]
+    rows = tables_of(report)[MEASURE].rows
+    assert rows[0][:3] == ("dielectric strength", "15\xa0V/µm", "12 to 18\xa0V/µm")
+    machine = blocks(report, Text)[0].text
+    assert "grease with oil" in machine
+    assert "winding" not in machine
+
+
+@pytest.mark.slow
+def test_numbers_and_remedies_of_a_drive(pages):
+    _, summary, report = pages("drive")
+    found = numbers_of(report)
+    for end, place in (("drive_end", "drive end"), ("non_drive_end", "non-drive end")):
+        rate, note = found[f"Discharges per second, {place}"]
+        own = summary[end]
+        assert float(rate) == pytest.approx(own["events_per_second"], rel=5e-3)
+        bounds = [float(text) for text in note.removeprefix("95 % interval ").split(" to ")]
+        assert bounds == pytest.approx(
+            [own["events_per_second_low"], own["events_per_second_high"]], rel=5e-3
+        )
+        assert found[f"Energy of a discharge, mean, {place}"][0] == f"{1e9 * own['energy_mean']:.3g} nJ"
+    remedies = tables_of(report)["Remedies"]
+    assert [row[0] for row in remedies.rows] == ["as it is", *(one["title"] for one in summary["remedies"])]
+    assert blocks(report, Picture)[0].name == "drive_remedies"
+    assert [row[:3] for row in tables_of(report)[MEASURE].rows] == [
+        ("dielectric strength, both bearings", "15\xa0V/µm", "12 to 18\xa0V/µm"),
+        ("winding-rotor capacitance", "50\xa0pF", "25 to 75\xa0pF"),
+        ("arc resistance", "10\xa0Ω", "none known"),
+    ]
+    machine = blocks(report, Text)[0].text.replace("\xa0", " ")
+    for text in ("space-vector", "10 kHz", "560 V", "50 pF", "500 pF", "two bearings", "6208", "3000 rpm"):
+        assert text in machine
+
+
+def test_a_drive_without_remedies_shows_its_voltages(tmp_path):
+    case = drive_with_remedy(**{"drive.duration": "20 ms"})
+    table = case.to_dict()
+    del table["remedies"]
+    save(solve_drive(DriveCase.from_dict(table), workers=1), tmp_path)
+    report = report_of(tmp_path, summary=True)
+    assert blocks(report, Picture)[0].name == "drive_voltages"
+    assert list(tables_of(report)) == [MEASURE]
+
+
+@pytest.mark.slow
+def test_the_appendix_follows_in_the_order_of_the_question(pages):
+    folder, _, alone = pages("bearing_6208")
+    whole = report_of(folder)
+    assert [section.title for section in whole.sections] == [
+        "Summary", "What was asked", "Result", "Key numbers", "Figures", "Contacts", "Warnings",
+        "What it rests on", "Inputs", "What the model leaves out", "Sources", "How it was computed",
+        "Input file",
+    ]  # fmt: skip
+    first = [block for block in whole.sections[0].blocks if not isinstance(block, Picture)]
+    assert first == [block for block in alone.sections[0].blocks if not isinstance(block, Picture)]
+    names = [block.name for block in whole.blocks() if isinstance(block, Picture)]
+    assert len(names) == len(set(names))
+    # Inputs have names; their keys stand below them only.
+    inputs = next(section for section in whole.sections if section.title == "Inputs")
+    cells = [row[0] for table in inputs.blocks if isinstance(table, Table) for row in table.rows]
+    assert cells
+    assert not any(re.search(r"[a-z]\.[a-z]|_", cell.text) for cell in cells)
+
+
+@pytest.mark.slow
+def test_python_writes_the_page_alone(pages, tmp_path):
+    folder, _, _ = pages("bearing_greased")
+    (file,) = write_report(folder, tmp_path / "page.pdf", summary=True)
+    assert len(re.findall(rb"/Type /Page\b", file.read_bytes())) == 1
