@@ -22,8 +22,9 @@ SPEED, LOAD = "bearing.inner_speed", "bearing.radial_load"
 
 
 def sweep(count):
-    """Sweep of the example of a bearing by formula, with a number of values of each input."""
+    """Sweep of the example of a bearing by formula with smooth films, with a number of values of each input."""
     case = tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8"))
+    case["bearing"]["summit_height"] = 0
     vary = {
         "inner_speed": {"from": "600 rpm", "to": "6000 rpm", "count": count, "spacing": "log"},
         "radial_load": {"from": "500 N", "to": "8000 N", "count": count},
