@@ -22,7 +22,7 @@ SPEED, LOAD = "bearing.inner_speed", "bearing.radial_load"
 
 
 def sweep(count):
-    """Sweep of the example of a bearing by formula with smooth films, with a number of values of each input."""
+    """Sweep of the example of a bearing by formula, with smooth films and so many values of each input."""
     case = tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8"))
     case["bearing"]["summit_height"] = 0
     vary = {
