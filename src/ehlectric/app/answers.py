@@ -472,14 +472,14 @@ class Number:
 
     @property
     def name(self) -> str:
-        """Label without what stands in its brackets.
+        """Label without what stands behind a comma or in brackets.
 
         Examples
         --------
         >>> Number("bearing.margin", "Margin (first breakdown / shaft voltage)", "1.2").name
         'Margin'
         """
-        return self.label.partition(" (")[0]
+        return re.split(r" \(|, ", self.label)[0]
 
     @property
     def with_unit(self) -> str:
@@ -531,7 +531,7 @@ class Gauge:
 class Deciding:
     """Number that decides the verdict, and the figure that shows why."""
 
-    key: str  # key of a number of the answer
+    key: str  # key of a number of the answer; empty where none decides
     facts: tuple[tuple[str, str], ...] = ()  # names and values of its interval and its probability
     gauge: Gauge | None = None
     figure: str = ""  # name of the figure; empty without one

@@ -183,13 +183,13 @@ _SAID = ("Shaft voltage ", PROBABILITY_FOLLOWS.removesuffix(" follows."), "break
 
 def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
     """Margin with its interval, which follows unless the answer is ``probable``; where there is no shaft
-    voltage, the first breakdown voltage.
+    voltage, the first breakdown voltage, and no number where there is neither: the verdict says why.
     """
     totals = summary["bearing"]
     margin = totals["margin"] if summary["converged"] else None
     if margin is None:
-        known = totals["first_break"] is not None
-        return Deciding("bearing.first_break" if known else "bearing.margin", figure="breakdown")
+        known = summary["converged"] and totals["first_break"] is not None
+        return Deciding("bearing.first_break" if known else "", figure="breakdown")
     rows = {row.key: row for row in total_rows(summary)}
     facts = tuple(
         (BEARING_BOOK[key].label, rows[key].amount if probable else PENDING)

@@ -281,13 +281,14 @@ class Panel:
         with ui.element("div").classes("panel").props('data-testid="panel"') as self._box:
             with ui.element("div").classes("panel-words"):
                 self.verdict = VerdictBox()
-                with ui.element("div").classes("deciding").props('aria-live="polite"'):
+                with ui.element("div").classes("deciding").props('aria-live="polite"') as self._deciding:
                     self._number = NumberBox("div", "div", "div")
                     self._gauge, self._facts = (ui.html("", sanitize=False) for _ in range(2))
                 self.verdict.build_sentences()
             with ui.element("div").classes("panel-figure kept" if waits else "panel-figure"):
                 self._waits = ui.label().classes("soft waits").props('data-testid="figure-waits"')
                 self.figures = {name: FigureBox(name) for name in leading}
+        self._deciding.set_visibility(False)
         say(self._waits, waits)
         mark(self._box, "alone", on=not waits)
 
@@ -298,6 +299,7 @@ class Panel:
 
     def tell(self, deciding: Deciding, number: Number | None, notes: Iterable[Note]) -> None:
         """Show the number that decides, with its interval and its gauge."""
+        self._deciding.set_visibility(number is not None)
         self._number.show(number, notes)
         self._gauge.content = "" if deciding.gauge is None else gauge_svg(deciding.gauge)
         self._facts.content = facts_html(deciding.facts)
@@ -371,8 +373,8 @@ class VerdictBox:
     def build_sentences(self) -> None:
         """Build the place of the sentences."""
         with ui.element("div").classes("sentences").props('aria-live="polite"'):
-            self._reasons = ui.html("", sanitize=False)
             self._assumed = ui.label().classes("assumed").props('data-testid="assumptions"')
+            self._reasons = ui.html("", sanitize=False)
         say(self._assumed, "")
 
     def show(self, judged: Judged, said: tuple[str, ...] = (), *, whole: bool = True) -> None:
