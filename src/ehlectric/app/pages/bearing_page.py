@@ -26,10 +26,11 @@ from ehlectric.app.calls import (
 from ehlectric.app.following import Following
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, table_html
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
+from ehlectric.app.pages.result_parts import FigureBox, table_html
 from ehlectric.app.session import Session
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import LostError

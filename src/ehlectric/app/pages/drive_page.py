@@ -18,11 +18,12 @@ from ehlectric.app.form_fields.drive_fields import (
     with_remedy,
     without_remedy,
 )
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, table_html
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, removable
+from ehlectric.app.pages.result_parts import table_html
 from ehlectric.app.session import LARGEST, Session, own_file
 from ehlectric.quantities.sheets import DRIVE_CARDS
 

@@ -10,9 +10,9 @@ from nicegui import ui
 
 from ehlectric.app.answers import DutyAnswer, Note
 from ehlectric.app.calls import DUTY_LOOK
-from ehlectric.app.pages.answer_page import FigureBox, table_html, told
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
+from ehlectric.app.pages.result_parts import FigureBox, table_html, told
 from ehlectric.app.session import LARGEST, Session, own_file
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
