@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from string import ascii_lowercase
 from typing import Any, Literal
 
 from ehlectric.app.page_inputs import Inputs
@@ -39,11 +40,6 @@ def concerning(warnings: Iterable[PageWarning], number: str) -> tuple[PageWarnin
 def limited_to(warnings: Iterable[PageWarning], keys: Collection[str]) -> tuple[PageWarning, ...]:
     """Warnings whose ``concerns`` are limited to the quantities that a page shows."""
     return tuple(replace(one, concerns=tuple(key for key in one.concerns if key in keys)) for one in warnings)
-
-
-def unplaced(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
-    """Warnings that concern no single number, which stand in a list below the numbers."""
-    return tuple(one for one in warnings if not one.concerns)
 
 
 def counts(warnings: Iterable[PageWarning]) -> str:
@@ -463,7 +459,7 @@ def in_both(first: Side, second: Side) -> list[PageWarning]:
 
 @dataclass(frozen=True)
 class Number:
-    """Number that an answer shows large."""
+    """Number of an answer, which its page shows in a row, and the one that decides large."""
 
     key: str
     label: str
@@ -475,9 +471,72 @@ class Number:
     warnings: tuple[PageWarning, ...] = ()
 
     @property
+    def name(self) -> str:
+        """Label without what stands behind a comma or in brackets.
+
+        Examples
+        --------
+        >>> Number("bearing.margin", "Margin (first breakdown / shaft voltage)", "1.2").name
+        'Margin'
+        """
+        return re.split(r" \(|, ", self.label)[0]
+
+    @property
     def with_unit(self) -> str:
         """Bound, value and unit."""
         return " ".join(filter(None, [self.bound, self.text, self.unit]))
+
+
+@dataclass(frozen=True)
+class Note:
+    """Warning with the numbers of a page that it concerns, and the letter that marks these."""
+
+    warning: PageWarning
+    letter: str = ""
+    names: tuple[str, ...] = ()
+
+
+def notes_of(
+    numbers: Sequence[Number], warnings: Iterable[PageWarning], said: Collection[str] = ()
+) -> tuple[Note, ...]:
+    """Notes below the numbers of a page, in the order of the warnings, without those with ``said`` codes.
+
+    Examples
+    --------
+    >>> thin = PageWarning("partial-film", "warning", "thin", ("bearing.margin",))
+    >>> numbers = [Number("bearing.margin", "Margin (voltages)", "1.2", warnings=(thin,))]
+    >>> [(one.letter, one.names) for one in notes_of(numbers, [PageWarning("other", "note", ""), thin])]
+    [('', ()), ('a', ('margin',))]
+    """
+    letters = iter(ascii_lowercase)
+    found = []
+    for one in warnings:
+        near = [number for number in numbers if one.code in {each.code for each in number.warnings}]
+        names = tuple(f"{number.name[:1].lower()}{number.name[1:]}" for number in near)
+        if one.code not in said:
+            found.append(Note(one, next(letters) if names else "", names))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """Number on a logarithmic scale with a limit at 1, and its interval."""
+
+    label: str  # what it shows, for those who do not see it
+    value: float
+    interval: tuple[float, float] | None = None  # None where none is known
+
+
+@dataclass(frozen=True)
+class Deciding:
+    """Number that decides the verdict, and the figure that shows why."""
+
+    key: str  # key of a number of the answer; empty where none decides
+    facts: tuple[tuple[str, str], ...] = ()  # names and values of its interval and its probability
+    gauge: Gauge | None = None
+    figure: str = ""  # name of the figure; empty without one
+    # Beginnings of sentences of the verdict, and codes of warnings, that say no more than the number.
+    said: tuple[str, ...] = ()
 
 
 # Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
@@ -539,7 +598,8 @@ class PageAnswer:
     title: str
     judged: Judged  # the verdict in its parts
     how: str  # how the answer was computed, and how far off it may be
-    shown: tuple[Number, ...]  # numbers that the page shows large
+    shown: tuple[Number, ...]  # main numbers
+    deciding: Deciding
     lines: tuple[Line, ...]  # all rows that the command prints
     warnings: tuple[PageWarning, ...]  # warnings, with the numbers of ``shown`` that they concern
     # Of a bearing "load" and "film", and with a whole answer "breakdown" and "capacitance" over the speed; of
@@ -547,6 +607,8 @@ class PageAnswer:
     # where the films are not converged.
     figures: Mapping[str, Figure] = field(default_factory=dict)
     seconds: float = 0.0  # computing time [s]
+    # Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
+    whole: bool = True
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""
@@ -568,8 +630,6 @@ class BearingAnswer(PageAnswer):
     """Answer about a bearing, in SI units."""
 
     contacts: Contacts  # "atlas", "formula" or "solved"
-    # Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
-    whole: bool
     converged: bool  # whether the films of all contacts converged
     level: str  # level of the verdict; "grey" without one
     text: str

@@ -7,11 +7,12 @@ import tomllib
 import pytest
 
 from ehlectric.app.answers import (
+    PENDING,
     BearingAnswer,
     PageWarning,
     concerning,
     counts,
-    unplaced,
+    notes_of,
 )
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import page_warnings_of
@@ -206,8 +207,16 @@ def test_warnings_stand_beside_the_numbers_they_concern(quick):
     assert found["bearing.capacitance"] == ["atlas-contacts"]
     for key in ("bearing.first_break", "bearing.margin", "bearing.lambda_ratio"):
         assert found[key] == ["atlas-contacts", "isothermal-film"]
-    placed = {code for codes in found.values() for code in codes}
-    assert placed | {told.code for told in unplaced(quick.warnings)} == {t.code for t in quick.warnings}
+    notes = notes_of(quick.shown, quick.warnings)
+    assert [note.warning for note in notes] == list(quick.warnings), "each stands once, in this order"
+    names = {number.name.lower() for number in quick.shown}
+    for note in notes:
+        assert bool(note.letter) is bool(note.names)
+        assert {name.lower() for name in note.names} <= names
+    marked = {note.warning.code: note.names for note in notes if note.letter}
+    assert {code for codes in found.values() for code in codes} == marked.keys()
+    assert "capacitance of the bearing" in marked["atlas-contacts"]
+    assert len({note.letter for note in notes if note.letter}) == len(marked)
 
 
 @pytest.mark.slow
@@ -223,7 +232,6 @@ def test_severe_warnings_come_first_and_each_once():
     assert [one.code for one in told] == ["not-converged", "speed-high"]
     assert counts(told) == "1 severe warning, 1 warning"
     assert concerning(told, "bearing.margin") == told[:1]
-    assert unplaced(told) == told[1:]
 
 
 @pytest.mark.slow
@@ -420,6 +428,32 @@ def test_solved_contacts_are_the_result_of_the_command(tmp_path):
     assert {one.name for one in answer.differences} >= {
         "capacitance of the bearing", "minimum film thickness"
     }  # fmt: skip
+
+
+@pytest.mark.slow
+def test_the_margin_decides_with_its_interval(quick, whole, summary):
+    """Its gauge is within the interval that the command writes; the sentences on these are said once."""
+    assert [name for name, _ in quick.deciding.facts] == [name for name, _ in whole.deciding.facts]
+    assert {text for _, text in quick.deciding.facts} == {PENDING}
+    assert (quick.deciding.gauge.value, quick.deciding.gauge.interval) == (summary["bearing"]["margin"], None)
+    gauge, within = whole.deciding.gauge, summary["uncertainty"]
+    assert gauge.value == within["margin_median"]
+    assert gauge.interval == (within["margin_low"], within["margin_high"])
+    low, high = map(ratio_text, gauge.interval)
+    assert whole.deciding.facts[0][1] == f"{low} to {high}"
+    assert f"{low} to {high}" in gauge.label
+    said = [one for one in whole.judged.reasons if one.startswith(whole.deciding.said)]
+    assert [f"{low} to {high}" in one for one in said] == [True]
+    assert whole.deciding.figure in whole.figures
+
+
+def test_without_a_motor_the_first_breakdown_decides():
+    table = inputs()
+    del table["motor"]
+    answer = quick_answer(table)
+    assert (answer.deciding.key, answer.deciding.gauge) == ("bearing.first_break", None)
+    touching = quick_answer(inputs(inner_speed="60 rpm"))
+    assert (touching.deciding.key, touching.number("bearing.margin").known) == ("", False)
 
 
 def test_curves_come_before_the_probability():

@@ -32,9 +32,9 @@ _LOOKS: Mapping[str, tuple[str, float, str]] = {
 
 # Layout of a figure over the speed: its legend of long names stands below it.
 _LAYOUT: dict[str, Any] = {
-    "height": 440,
+    "height": 460,
     "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
-    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top"},
+    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.27, "yanchor": "top"},
 }
 
 # Heads of the table over the speed.

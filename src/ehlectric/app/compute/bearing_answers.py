@@ -15,9 +15,11 @@ from ehlectric.app.answers import (
     PENDING,
     RANGE_FOLLOWS,
     BearingAnswer,
+    Deciding,
     Difference,
     DutyAnswer,
     Figure,
+    Gauge,
     Judged,
     Number,
     PageWarning,
@@ -56,7 +58,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import quick_chance
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
-from ehlectric.discharge.film_verdict import Verdict, ratio_text
+from ehlectric.discharge.film_verdict import PROBABILITY_FOLLOWS, Verdict, ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_bounds import bearing_bounds
@@ -109,7 +111,7 @@ _BOUNDS = ("isothermal-film", "smooth-film")
 def shown_numbers(
     summary: Mapping[str, Any], warnings: tuple[PageWarning, ...], *, whole: bool
 ) -> tuple[Number, ...]:
-    """Numbers at the top of the page, with their warnings, and why some are missing.
+    """Main numbers of the page, with their warnings, and why some are missing.
 
     Without a ``whole`` answer the summary lacks the table ``margin``, which follows.
     """
@@ -171,6 +173,36 @@ def _no_shaft(summary: Mapping[str, Any], warnings: tuple[PageWarning, ...]) -> 
     if any(one.code == "capacitance-bound" for one in warnings):
         return "the capacitance of the ceramic elements is an upper bound only"
     return "the surfaces touch"
+
+
+# Interval of the margin and probability of breakdown, and beginnings of sentences of the verdict that the
+# margin with these says, too.
+_WITHIN = ("uncertainty.margin_range", "uncertainty.breakdown_probability")
+_SAID = ("Shaft voltage ", PROBABILITY_FOLLOWS.removesuffix(" follows."), "breakdown-expected")
+
+
+def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
+    """Margin with its interval, which follows unless the answer is ``probable``; where there is no shaft
+    voltage, the first breakdown voltage, and no number where there is neither: the verdict says why.
+    """
+    totals = summary["bearing"]
+    margin = totals["margin"] if summary["converged"] else None
+    if margin is None:
+        known = summary["converged"] and totals["first_break"] is not None
+        return Deciding("bearing.first_break" if known else "", figure="breakdown")
+    rows = {row.key: row for row in total_rows(summary)}
+    facts = tuple(
+        (BEARING_BOOK[key].label, rows[key].amount if probable else PENDING)
+        for key in _WITHIN
+        if key in rows or not probable
+    )
+    within = summary.get("uncertainty") or {}
+    ends = (within["margin_low"], within["margin_high"]) if within else None
+    told = [f"Margin {ratio_text(margin)} on a scale from 0.1 to 10, with breakdown below 1"]
+    told += [f"{name} {text}" for name, text in facts if probable]
+    told += [f"median {ratio_text(within['margin_median'])}"] if within else []
+    gauge = Gauge("; ".join(told), within.get("margin_median", margin), ends)
+    return Deciding("bearing.margin", facts, gauge, "breakdown", _SAID)
 
 
 def contacts_table(summary: Mapping[str, Any]) -> Table:
@@ -366,6 +398,7 @@ def answer_of(
         judged=judged(verdict),
         how=_how(result),
         shown=shown_numbers(summary, placed, whole=whole),
+        deciding=deciding(summary, probable=whole and probable),
         numbers=summary["bearing"],
         margin=summary.get("margin"),
         contact_rows=tuple(summary["contacts"]),

@@ -7,7 +7,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import DriveAnswer, Judged, Number, PageWarning, Table, concerning, limited_to
+from ehlectric.app.answers import (
+    Deciding,
+    DriveAnswer,
+    Judged,
+    Number,
+    PageWarning,
+    Table,
+    concerning,
+    limited_to,
+)
 from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
     card,
@@ -47,7 +56,7 @@ from ehlectric.tables.drive_tables import (
 
 
 def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, ...]) -> tuple[Number, ...]:
-    """Numbers of a drive that its page shows large, of those in a sheet, with warnings."""
+    """Main numbers of a drive, of those in a sheet, with warnings."""
     whole = {row.key: row for row in whole_rows(summary, sheet)}
     ends = _pairs(summary, sheet)
     keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
@@ -93,10 +102,36 @@ def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
     return replace(card(rows[key]), note="; ".join(_texts(rows[key], others)))
 
 
+# Number that decides, and its interval.
+_RATE, _RATE_RANGE = "end.events_per_second", "end.events_per_second_range"
+
+
+def _worse(pairs: Mapping[str, Pair]) -> int:
+    """Number of the bearing that discharges more often: 0 for the drive end, 1 for the other one."""
+    rates = [0.0 if row is None else float(row.value or 0.0) for row in pairs.get(_RATE, (None, None))]
+    return int(rates[1] > rates[0])
+
+
+def deciding_rate(summary: Summary, judged: Judged, figures: Mapping[str, Any]) -> Deciding:
+    """Discharges in a second of the worse bearing of a simulated drive, with their interval."""
+    pairs = _pairs(summary, DRIVE)
+    worse = _worse(pairs)
+    rate, interval = (pairs[key][worse] for key in (_RATE, _RATE_RANGE))
+    facts = () if interval is None else ((DRIVE_BOOK[_RATE_RANGE].head, interval.amount),)
+    # The sentence on discharges has both rates; that on none says how many there may be.
+    said = rate is not None and rate.value and judged.level != "grey"
+    named = (name for name in ("remedies", "voltages") if name in figures)
+    return Deciding(_RATE, facts, figure=next(named, ""), said=(judged.numbers,) if said else ())
+
+
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
-    """Number of both bearings: that of the drive end, and the other one in its note where it differs."""
-    first, second = pairs.get(key, (None, None))
-    beside_it = [pairs[other] for other in DRIVE_CARDS[key] if other in pairs]
+    """Number of both bearings: that of the drive end, or of rates that of the worse one, and the other one in
+    its note where it differs.
+    """
+    places = [*NAMES_OF_ENDS.values()]
+    order = slice(None, None, -1) if key == _RATE and _worse(pairs) else slice(None)
+    first, second = pairs.get(key, (None, None))[order]
+    beside_it = [pairs[other][order] for other in DRIVE_CARDS[key] if other in pairs]
     one, other = (
         "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
     )
@@ -106,7 +141,7 @@ def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
     number = card(first) if first is not None else unknown(key, DRIVE_BOOK[key], "none")
     if first is not None and second is not None and (first.text, one) == (second.text, other):
         return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
-    place, further = NAMES_OF_ENDS.values()
+    place, further = places[order]
     value = "none" if second is None else second.amount
     own = ", ".join(filter(None, [place, one]))
     return replace(number, note=f"{own}; {further}: {', '.join(filter(None, [value, other]))}")
@@ -178,6 +213,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         judged=judged_before(expected(case, summary)),
         how=f"{how}{solved}. By the capacitive divider, without a simulation.",
         shown=shown,
+        deciding=Deciding("end.voltage_at_peak"),
         ends=ends_table(summary, DRIVE_CHECK),
         lines=lines_of(prepared_rows(summary)),
         warnings=limited_to(warnings, {one.key for one in shown}),
@@ -206,17 +242,20 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     warnings = merged(page_warnings_of(outcome.warnings))
     shown = drive_numbers(summary, DRIVE, warnings)
     progress(0, 0, "drawing")
+    figures = drive_figures(outcome.result) if summary["converged"] else {}
+    judged = judged_after(drive_verdict(case, summary, outcome.warnings))
     return DriveAnswer(
         title=case.title,
         simulated=True,
-        judged=judged_after(drive_verdict(case, summary, outcome.warnings)),
+        judged=judged,
         how=f"Simulated in {summary['seconds']:.3g} s, as ehlectric drive does it.",
         shown=shown,
+        deciding=deciding_rate(summary, judged, figures),
         ends=ends_table(summary, DRIVE),
         lines=lines_of(drive_rows(summary)),
         warnings=limited_to(warnings, {one.key for one in shown}),
         remedies=remedies_table(summary),
-        figures=drive_figures(outcome.result) if summary["converged"] else {},
+        figures=figures,
         seconds=summary["seconds"],
     )
 

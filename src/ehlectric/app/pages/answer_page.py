@@ -1,17 +1,16 @@
-"""Pages with a quick answer that follows the inputs and a solution on request, and the parts of an answer."""
+"""Pages with a quick answer that follows the inputs and a solution on request."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable, Sequence
 from functools import partial
-from html import escape
 from typing import Any, ClassVar, Generic, Literal, TypeVar
 
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import Figure, Judged, Number, PageAnswer, PageWarning, Table, counts, unplaced
+from ehlectric.app.answers import PageAnswer, notes_of
 from ehlectric.app.calls import Call
 from ehlectric.app.following import Following
 from ehlectric.app.form_fields.field import Group
@@ -19,11 +18,12 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, Toolbar, framed, session_of, show_address
-from ehlectric.app.pages.page_parts import Strip, button, figure, lines_html, mark, say, scrolling_table
+from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, mark, say
+from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
-from ehlectric.errors import SEVERITY_WORDS, InputError
+from ehlectric.errors import InputError
 
 A = TypeVar("A", bound=PageAnswer)
 
@@ -163,7 +163,7 @@ class AnswerPage(Generic[A]):
     def _put(self, answer: A) -> None:
         self.view.show(answer)
         named = [one for one in answer.shown if one.key in self.short and one.known]
-        texts = [f"{one.label} {one.with_unit}" for one in named]
+        texts = [f"{one.name} {one.with_unit}" for one in named]
         self._strip.show(answer.judged.level, answer.judged.lead, texts, bound=answer.judged.bound)
 
     def _dim(self, *, dimmed: bool) -> None:
@@ -185,182 +185,69 @@ class AnswerView(Generic[A]):
 
     rows_name: ClassVar[str]  # name of the table of all rows, for screen readers
     rows_title = "All rows, as the command prints them"
+    keys: ClassVar[Iterable[str]]  # keys of the main numbers, in their order
+    # Names of figures that may stand beside the verdict, and why its place is empty at first.
+    leading: ClassVar[Sequence[str]]
+    waits: ClassVar[str] = ""
 
     def __init__(self) -> None:
+        self.shown = False  # whether there is an answer
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self.body:
-            self.verdict = VerdictBox()
-            self.build()
-            self._lines = ui.html("", sanitize=False).props('data-testid="details"')
-        self.body.set_visibility(False)
+            self.panel = Panel(self.leading, self.waits)
+            with ui.element("div").classes("answer-body") as self._rest:
+                heading("Numbers", 2)
+                table = ui.element("table").classes("quiet").props('data-testid="numbers" aria-live="polite"')
+                with table.props('aria-label="Numbers"'), ui.element("tbody"):
+                    self.numbers = {key: NumberBox("tr", "th", "td") for key in self.keys}
+                self._notes = NoteList()
+                self.build()
+                self._lines = ui.html("", sanitize=False).props('data-testid="details"')
+        self._rest.set_visibility(False)
+        self.dim(dimmed=True)
 
     def build(self) -> None:
-        """Build what stands between the verdict and the table of all rows."""
+        """Build what stands between the notes and the table of all rows."""
         raise NotImplementedError
-
-    def build_numbers(self, keys: Iterable[str]) -> None:
-        """Build the places of the main numbers."""
-        with ui.element("div").classes("numbers").props('data-testid="numbers" aria-live="polite"'):
-            self.numbers = {key: NumberBox(key) for key in keys}
 
     def build_figures(self, names: Iterable[str], wide: Iterable[str] = ()) -> None:
         """Build the places of the figures, of which some have a whole row."""
-        with ui.element("div").classes("figures"):
-            self.figures = {name: FigureBox(name, wide=name in wide) for name in names}
-
-    @property
-    def shown(self) -> bool:
-        """Whether there is an answer."""
-        return bool(self.body.visible)
+        with ui.element("section").props('aria-label="Figures"') as self._drawn:
+            heading("Figures", 2)
+            with ui.element("div").classes("figures"):
+                self.figures = {name: FigureBox(name, wide=name in wide) for name in names}
 
     def dim(self, *, dimmed: bool) -> None:
         """Dim the answer while it is that of earlier inputs."""
-        mark(self.body, "stale", on=dimmed)
+        mark(self.body, "stale", on=dimmed and self.shown)
         self.body.props(f'aria-busy="{str(dimmed).lower()}"')
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""
+        self.body.set_visibility(self.shown)
+        self.panel.wait("This figure is not computed.")
 
     def show(self, answer: A) -> None:
         """Show an answer."""
-        self.body.set_visibility(True)
-        for key, box in self.numbers.items():
-            box.show(answer.number(key))
+        self.shown = True
+        self.tell(answer)
         for name, place in self.figures.items():
             self.show_figure(name, place, answer)
+        self._drawn.set_visibility(bool(answer.figures.keys() - {answer.deciding.figure}))
         rows = lines_html(answer.lines, self.rows_name)
         self._lines.content = behind(self.rows_title, rows)
+        for part in (self.body, self._rest):
+            part.set_visibility(True)
+
+    def tell(self, answer: A) -> None:
+        """Show the verdict, the numbers and their notes."""
+        deciding = answer.deciding
+        notes = notes_of(answer.shown, answer.warnings, deciding.said)
+        self.panel.verdict.show(answer.judged, deciding.said, whole=answer.whole)
+        self.panel.tell(deciding, answer.number(deciding.key), notes)
+        for key, box in self.numbers.items():
+            box.show(None if key == deciding.key else answer.number(key), notes)
+        self._notes.show(notes)
 
     def show_figure(self, name: str, place: FigureBox, answer: A) -> None:
-        """Show a figure of an answer in its place."""
-        place.show(answer.figures.get(name))
-
-
-class VerdictBox:
-    """Traffic light of a bearing with its sentences."""
-
-    def __init__(self) -> None:
-        self._box = ui.element("div").classes("verdict grey").props('data-testid="verdict" role="status"')
-        with self._box:
-            with ui.element("div").classes("lead"):
-                ui.element("span").classes("sign").props('aria-hidden="true"')
-                self._lead = ui.label()
-                self._bound = ui.label().classes("at-most").props('data-testid="bound"')
-            self._meaning, self._numbers = (ui.label().classes("sentence") for _ in range(2))
-            self._reasons = ui.html("", sanitize=False)
-            self._last: tuple[str, ...] = ()
-            self._assumed = ui.label().classes("assumed").props('data-testid="assumptions"')
-
-    def show(self, judged: Judged, *, whole: bool = True) -> None:
-        """Show a verdict; the place of the sentences that follow with a ``whole`` answer is kept for them."""
-        self._box.classes(replace=f"verdict {judged.level}").props(f'data-level="{judged.level}"')
-        self._lead.text = judged.lead
-        say(self._bound, judged.bound)
-        self._meaning.text, self._numbers.text = judged.meaning, judged.numbers
-        kept = () if whole else self._last[len(judged.reasons) :]
-        self._reasons.content = _list(judged.reasons, kept)
-        if whole:
-            self._last = judged.reasons
-        say(self._assumed, judged.assumptions)
-
-
-class NumberBox:
-    """Number with its name, its bound, a note, and the warnings that concern it."""
-
-    def __init__(self, name: str) -> None:
-        with ui.element("div").classes("number").props(f'data-testid="number-{name}"') as self._box:
-            self._label = ui.label().classes("label")
-            self._value = ui.label().classes("value").props('data-testid="value"')
-            self._note = ui.label().classes("note")
-            self._told = ui.html("", sanitize=False)
-
-    def show(self, number: Number | None) -> None:
-        """Show a number; None hides the one before."""
-        self._box.set_visibility(number is not None)
-        if number is None:
-            return
-        self._label.text, self._note.text = number.label, number.note
-        self._value.text = number.with_unit
-        self._value.classes(replace="value" if number.known else "value unknown")
-        self._told.content = "".join(map(told, number.warnings))
-
-
-def told(one: PageWarning) -> str:
-    """Warning with its meaning in sight, and its text with numbers behind it."""
-    word = SEVERITY_WORDS[one.severity]
-    if not one.meaning:
-        return f'<div class="told {one.severity}" data-code="{one.code}">{word}: {escape(one.text)}</div>'
-    return (
-        f'<details class="told {one.severity}" data-code="{one.code}">'
-        f"<summary>{word}: {escape(one.meaning)}</summary>{escape(one.text)}</details>"
-    )
-
-
-class FigureBox:
-    """Figure with its heading and the table of its numbers; a wide one has the whole row of a grid."""
-
-    def __init__(self, name: str, *, wide: bool = False) -> None:
-        with ui.element("div").classes("figure-box").props(f'data-testid="figure-{name}"') as self._box:
-            with ui.element("h3"):
-                self._title = ui.label()
-            self._plot = figure({"data": [], "layout": {}}, name)
-            self._caption = ui.label().classes("soft")
-            self._table = ui.html("", sanitize=False)
-        mark(self._box, "wide", on=wide)
-        self._box.set_visibility(False)
-
-    def dim(self, *, dimmed: bool) -> None:
-        """Dim the figure while it is that of earlier inputs."""
-        mark(self._box, "stale", on=dimmed)
-
-    def show(self, shown: Figure | None) -> None:
-        """Show a figure; None hides the one before."""
-        self._box.set_visibility(shown is not None)
-        if shown is not None:
-            self._title.text, self._caption.text = shown.title, shown.caption
-            self._plot.props["aria-label"] = shown.label
-            self._plot.update_figure(dict(shown.plot))
-            self._table.content = behind("Numbers of this figure", table_html(shown.table))
-
-
-class WarningList:
-    """List of the warnings that concern no single number, under the count of all."""
-
-    def __init__(self) -> None:
-        with ui.element("section").props('aria-label="Warnings" data-testid="warnings"'):
-            with ui.element("h2") as self._heading:
-                self._head = ui.label()
-            self._list = ui.html("", sanitize=False)
-            self._none = ui.label().classes("soft")
-
-    def show(self, every: tuple[PageWarning, ...]) -> None:
-        """Show the count of all warnings, and a list of those that concern no single number."""
-        listed = unplaced(every)
-        others = len(every) - len(listed)
-        where = f" ({others} beside the numbers)" if others else ""
-        self._head.text = f"This result has {counts(every)}{where}"
-        self._list.content = "".join(map(told, listed))
-        self._heading.set_visibility(bool(listed))
-        stands = "Warnings: none." if not every else f"{counts(every)}, beside the numbers that they concern."
-        self._none.text = stands[0].upper() + stands[1:]
-        self._none.set_visibility(not listed)
-
-
-def behind(summary: str, inner: str) -> str:
-    """Part of a page that is closed at first."""
-    return f"<details><summary>{escape(summary)}</summary>{inner}</details>"
-
-
-def table_html(table: Table) -> str:
-    """Table that scrolls within its own box."""
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows
-    )
-    caption = f"<caption>{escape(table.caption)}</caption>"
-    return scrolling_table(table.caption, table.heads, rows, caption=caption)
-
-
-def _list(texts: Iterable[str], kept: Iterable[str] = ()) -> str:
-    """List of texts, with the place of some that nobody sees or hears."""
-    items = "".join(f"<li>{escape(text)}</li>" for text in texts)
-    items += "".join(f'<li class="kept" aria-hidden="true">{escape(text)}</li>' for text in kept)
-    return f"<ul>{items}</ul>" if items else ""
+        """Show a figure of an answer in its place, unless it stands beside the verdict."""
+        place.show(None if name == answer.deciding.figure else answer.figures.get(name))

@@ -26,17 +26,17 @@ from ehlectric.app.calls import (
 from ehlectric.app.following import Following
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, FigureBox, WarningList, table_html
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
 from ehlectric.app.pages.frame import BEARING
 from ehlectric.app.pages.page_parts import mark, say
+from ehlectric.app.pages.result_parts import FigureBox, table_html
 from ehlectric.app.session import Session
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import LostError
 from ehlectric.quantities.sheets import BEARING_CARDS
 
-_AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")
-
+_AT_ONCE, _OVER_SPEED = ("load", "film"), ("capacitance",)
 
 _OTHER_ROWS = "All other rows, as the command prints them"
 
@@ -52,46 +52,42 @@ class BearingView(AnswerView[BearingAnswer]):
     """Place of an answer about a bearing."""
 
     rows_name = "Numbers of the bearing"
+    keys = tuple(BEARING_CARDS)
+    leading = ("breakdown",)
+    waits = "Computing the breakdown over the speed …"
 
     def build(self) -> None:
-        """Build the parts of the answer."""
+        """Build the parts of the answer below its numbers."""
         self._changes = ui.html("", sanitize=False).props('data-testid="differences"')
-        self.build_numbers(BEARING_CARDS)
         self._effects = ui.html("", sanitize=False).classes("effects").props('data-testid="effects"')
-        self._warnings = WarningList()
         self._none = ui.label().classes("notice").props('data-testid="no-figures"')
-        self.build_figures((*_AT_ONCE, *_OVER_SPEED))
+        self.build_figures((*_AT_ONCE, *_OVER_SPEED), wide=_OVER_SPEED)
         self.duty = DutyView()
         self._pending: BearingAnswer | None = None
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""
-        if self._pending is None:
-            return
-        for one in self._pending.shown:
-            if one.text == PENDING:
-                self.numbers[one.key].show(replace(one, text="none", note="not computed"))
-            elif one.note.startswith(RANGE_FOLLOWS):
-                self.numbers[one.key].show(replace(one, note=one.note.removeprefix(f"{RANGE_FOLLOWS}; ")))
-        judged = self._pending.judged
-        # The range of the margin and the probability of breakdown.
-        reasons = tuple(one for one in judged.reasons if not one.endswith(_TO_FOLLOW))
-        self.verdict.show(replace(judged, reasons=reasons))
-        self._pending = None
+        super().stop()
+        if self._pending is not None:
+            self.tell(without_what_follows(self._pending))
+            self._pending = None
 
     def show(self, answer: BearingAnswer) -> None:
         """Show an answer; what follows with the whole answer stays dimmed until that is there."""
         super().show(answer)
         self.body.props(f'data-contacts="{answer.contacts}" data-whole="{str(answer.whole).lower()}"')
-        self.verdict.show(answer.judged, whole=answer.whole)
         self._pending = None if answer.whole else answer
         self._changes.content = differences_html(answer.differences)
         self._changes.set_visibility(bool(answer.differences))
-        if answer.over_speed or not answer.figures:
+        known = answer.over_speed or not answer.figures
+        if known:
             self._effects.content = effects_html(answer.effects)
+            self.panel.lead("breakdown", answer.figures.get("breakdown"))
+        else:
+            self.panel.wait(self.waits)
+        self.panel.figures["breakdown"].dim(dimmed=not known)
         self._effects.set_visibility(bool(self._effects.content))
         mark(self._effects, "stale", on=not answer.over_speed)
-        self._warnings.show(answer.warnings)
         say(self._none, "" if answer.figures else "Not converged: the figures would show no solution.")
 
     def show_figure(self, name: str, place: FigureBox, answer: BearingAnswer) -> None:
@@ -99,6 +95,24 @@ class BearingView(AnswerView[BearingAnswer]):
         if name in _AT_ONCE or answer.over_speed or not answer.figures:
             place.show(answer.figures.get(name))
         place.dim(dimmed=name in _OVER_SPEED and not answer.over_speed)
+
+
+def without_what_follows(answer: BearingAnswer) -> BearingAnswer:
+    """Answer whose later parts are not computed, as after a wrong input."""
+    numbers = []
+    for one in answer.shown:
+        note = one.note.removeprefix(RANGE_FOLLOWS).removeprefix("; ")
+        pending = one.text == PENDING
+        numbers.append(replace(one, text="none", note="not computed") if pending else replace(one, note=note))
+    # The range of the margin and the probability of breakdown.
+    reasons = tuple(one for one in answer.judged.reasons if not one.endswith(_TO_FOLLOW))
+    return replace(
+        answer,
+        whole=True,
+        shown=tuple(numbers),
+        judged=replace(answer.judged, reasons=reasons),
+        deciding=replace(answer.deciding, facts=()),
+    )
 
 
 def effects_html(effects: Table | None) -> str:
@@ -125,7 +139,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     start = BEARING
     kind = "bearing"
     groups = BEARING_GROUPS
-    short = ("bearing.capacitance", "bearing.margin")
+    short = ("bearing.margin", "margin.critical_speed")
     wait = 1.0
     elsewhere = (DUTY_FILE,)
     quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED

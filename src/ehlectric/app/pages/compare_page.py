@@ -29,7 +29,6 @@ from ehlectric.app.following import Following
 from ehlectric.app.form_fields import Group
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages import page_parts
-from ehlectric.app.pages.answer_page import behind
 from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.frame import (
     BEARING,
@@ -41,6 +40,7 @@ from ehlectric.app.pages.frame import (
     session_of,
     show_address,
 )
+from ehlectric.app.pages.result_parts import behind
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError

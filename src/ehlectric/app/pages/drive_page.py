@@ -18,11 +18,12 @@ from ehlectric.app.form_fields.drive_fields import (
     with_remedy,
     without_remedy,
 )
-from ehlectric.app.pages.answer_page import AnswerPage, AnswerView, WarningList, table_html
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, removable
+from ehlectric.app.pages.result_parts import table_html
 from ehlectric.app.session import LARGEST, Session, own_file
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
@@ -41,25 +42,24 @@ class DriveView(AnswerView[DriveAnswer]):
     """Place of an answer about a drive."""
 
     rows_name = "Numbers of the drive"
+    keys = tuple(DRIVE_CARDS)
+    leading = ("remedies", "voltages")
 
     def build(self) -> None:
-        """Build the parts of the answer."""
-        self.build_numbers(DRIVE_CARDS)
+        """Build the parts of the answer below its numbers."""
         self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
-        self._warnings = WarningList()
         self.build_figures(_FIGURES, _WIDE)
         self._ends = ui.html("", sanitize=False).props('data-testid="ends"')
 
     def show(self, answer: DriveAnswer) -> None:
         """Show an answer."""
         super().show(answer)
+        self.panel.lead(answer.deciding.figure, answer.figures.get(answer.deciding.figure))
         self.body.props["data-simulated"] = str(answer.simulated).lower()
         self.body.update()
-        self.verdict.show(answer.judged)
         remedies = answer.remedies
         self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
         self._remedies.set_visibility(remedies is not None)
-        self._warnings.show(answer.warnings)
         self._ends.content = f"<h2>Both bearings</h2>{table_html(answer.ends)}"
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import DutyAnswer
+from ehlectric.app.answers import DutyAnswer, Note
 from ehlectric.app.calls import DUTY_LOOK
-from ehlectric.app.pages.answer_page import FigureBox, table_html, told
 from ehlectric.app.pages.file_field import UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
+from ehlectric.app.pages.result_parts import FigureBox, table_html, told
 from ehlectric.app.session import LARGEST, Session, own_file
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
@@ -167,7 +167,7 @@ class DutyView:
             answer.lines, "Numbers of the duty cycle, as the command prints them"
         )
         named = (replace(one, text=name(one.text)) for one in answer.warnings)
-        self._warnings.content = "".join(map(told, named))
+        self._warnings.content = "".join(told(Note(one)) for one in named)
         self.figure.show(answer.figure)
         stretches = answer.stretches
         self._stretches.content = "" if stretches is None else table_html(stretches)
