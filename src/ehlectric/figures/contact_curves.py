@@ -27,6 +27,7 @@ from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
     figure_of,
+    fitted_label,
     in_half_widths,
     label_position,
     legend_above,
@@ -143,7 +144,9 @@ def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
     x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
     names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
-        ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
+        # No-break spaces keep the name on one line.
+        whole = f"{ax.get_xlabel()}, {signed(name)}".replace(" ", "\xa0").replace(",\xa0", ", ")
+        ax.set_xlabel(fitted_label(ax, whole, along=True))
 
 
 def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> None:
