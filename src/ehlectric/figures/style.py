@@ -373,7 +373,7 @@ def legend_above(
 
 # Room for the labels of axes left of a legend [pt]; and height of a row of a legend, lengths of its handles,
 # and spaces after handles and between columns, in sizes of its letters.
-_LEFT = 58.0
+_LEFT = 52.0
 _ROW, _HANDLE, _PAD, _SPACING = 1.7, 2.2, 0.8, 1.4
 
 
