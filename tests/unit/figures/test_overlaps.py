@@ -3,11 +3,22 @@
 import numpy as np
 import pytest
 
-from ehlectric import BearingCase, figure, figure_names, load, solve, solve_bearing, solve_drive
+from ehlectric import (
+    BearingCase,
+    Case,
+    DriveCase,
+    figure,
+    figure_names,
+    film_factors,
+    load,
+    solve,
+    solve_bearing,
+    solve_drive,
+)
 from ehlectric.cases.oil_report import oil_report
 from ehlectric.figures import oil_figures, surface_figures
 from ehlectric.figures.animation import line_frames, map_frames
-from ehlectric.figures.figure_names import STYLES
+from ehlectric.figures.figure_names import STYLES, map_files
 from ehlectric.figures.style import figure_of, legend_above, new_panels, style
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.paper.paper_contacts import CONTACTS, measured_profile
@@ -22,7 +33,7 @@ from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 from tests.helpers.overlaps import overlaps
 from tests.helpers.places import EXAMPLES, ROOT
-from tests.helpers.sweep_models import LOAD, SPEED, breakdown, sobol
+from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol
 from tests.unit.figures.motion.test_save import BALL as MOVING_BALL
 from tests.unit.figures.motion.test_save import by_hand
 
@@ -93,6 +104,35 @@ def test_bearings(make):
 @pytest.mark.parametrize("changes", [{}, {"drive.temperature": "40 degC"}], ids=["example", "cold"])
 def test_drives(changes):
     assert of_result(solve_drive(drive_with_remedy(**changes), workers=1)) == {}
+
+
+@pytest.mark.slow
+def test_a_drive_over_a_duty_cycle():
+    case = DriveCase.from_toml(EXAMPLES / "duty_drive.toml").replace({"drive.contacts": "formula"})
+    assert of_result(solve_drive(case, workers=1), ["drive_duty"]) == {}
+
+
+@pytest.mark.slow
+def test_a_measurement_beside_computed_values():
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    file = EXAMPLES / "measurements" / "bearing_6208_capacitance.csv"
+    found = film_factors(case, file, background="12 pF", contacts="formula")
+    assert of_result(found) == {}
+
+
+@pytest.mark.slow
+def test_a_contact_at_a_meter():
+    contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": "20 N"}
+    contact |= {"reduced_modulus": "226 GPa", "entrainment_speed": 2.0}
+    tables = {"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 65}}
+    case = Case.from_dict(tables | {"meter": {"fill": "oil"}})
+    assert of_result(solve(case)) == {}
+
+
+def test_sweeps_with_a_margin():
+    """A map and lines with the line of margin 1 and their legend of four entries."""
+    results = grid({SPEED: (0.5, 1.0, 2.0, 4.0, 8.0), LOAD: (2e5, 5e5, 1e6, 2e6)})
+    assert of_result(results, map_files("discharge.margin")) == {}
 
 
 @pytest.mark.slow
