@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
+from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from ehlectric.arrays import Array, Mask
@@ -26,6 +27,7 @@ from ehlectric.figures.draw import line_look
 from ehlectric.figures.speed_panels import SHAFT, breakdown_lines
 from ehlectric.figures.style import (
     axes_or_new,
+    beside_point,
     figure_of,
     legend_above,
     note,
@@ -39,9 +41,6 @@ from ehlectric.quantities.units import unit_for
 # Text: value with three digits and a prefixed unit, in which it is at least 1.
 prefixed = partial(with_unit, least=1.0)
 
-# Height of a line of a label at the right edge, as a part of the height of axes that are an inch high.
-_LINE = 0.155
-
 
 def volts(value: float) -> str:
     """Text: voltage with three digits.
@@ -54,23 +53,39 @@ def volts(value: float) -> str:
     return f"{value:#.3g}".rstrip(".") + " V"
 
 
+class _End(Text):
+    """Name of a line at the right edge of axes, at the height of the line or next to the names around it."""
+
+    names: Sequence[_End]  # names at the edge of these axes, from the lowest line to the highest
+    end: float  # value at the end of the line
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the name clear of the others, whatever height the layout gives the axes."""
+        ax = self.axes
+        assert ax is not None
+        low, high = ax.bbox.y0, ax.bbox.y1
+        half = np.array([0.55 * name.get_window_extent(renderer).height for name in self.names])
+        at = [ax.transData.transform((1.0, np.clip(name.end, *ax.get_ylim())))[1] for name in self.names]
+        apart = half[1:] + half[:-1]
+        for k in range(1, len(at)):
+            at[k] = max(at[k], at[k - 1] + apart[k - 1])
+        # The highest name ends with the axes, and no name stands in what is above them.
+        at[-1] = min(at[-1], high - half[-1])
+        for k in range(len(at) - 2, -1, -1):
+            at[k] = min(at[k], at[k + 1] - apart[k])
+        self.set_y((at[list(self.names).index(self)] - low) / (high - low))
+        super().draw(renderer)
+
+
 def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
     """Write the names of lines beside the right edge of the axes, at their heights and without overlap."""
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    line = _LINE / (figure.get_figheight() * ax.get_position().height)
-    low, high = ax.get_ylim()
+    look: dict[str, Any] = {"transform": ax.transAxes, "fontsize": "small", "va": "center"}
     ordered = sorted(ends)
-    values = np.clip(np.array([value for value, _, _ in ordered]), low, high)
-    if ax.get_yscale() == "log":
-        heights = np.log(values / low) / np.log(high / low)
-    else:
-        heights = (values - low) / (high - low)
-    rooms = [line * (text.count("\n") + 1.2) for _, text, _ in ordered]
-    for k in range(1, len(ordered)):
-        heights[k] = max(heights[k], heights[k - 1] + 0.5 * (rooms[k] + rooms[k - 1]))
-    for height, (_, text, colour) in zip(heights, ordered, strict=True):
-        note(ax, 1.015, height, text, va="center", color=colour)
+    names = [_End(1.015, 0.5, text, color=colour, **look) for _, text, colour in ordered]
+    for name, (value, _, _) in zip(names, ordered, strict=True):
+        name.names, name.end = names, value
+        name.set_clip_on(False)
+        ax.add_artist(name)
 
 
 def fill_text(fill: float | str) -> str:
@@ -466,15 +481,8 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
     for at in read_at(result):
         value = magnitude_at(_impedance(result), at)
         ax.plot([at], [value], ls="none", marker="o", ms=4.5, color=BLUE)
-        ax.annotate(
-            f"{prefixed(value, 'Ω')} at {prefixed(at, 'Hz')}",
-            (at, value),
-            (5.0, 3.0),
-            ha="left",
-            va="bottom",
-            textcoords="offset points",
-            fontsize="small",
-        )
+        text = f"{prefixed(value, 'Ω')} at {prefixed(at, 'Hz')}"
+        beside_point(ax, (at, value), text, (5.0, 3.0), va="bottom", fontsize="small")
     _over_frequency(result, ax)
     return ax
 

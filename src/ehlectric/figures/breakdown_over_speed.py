@@ -85,14 +85,16 @@ def _draw(panel: Panel, curves: Curves, ax: Axes) -> Axes:
 
 
 def _name_critical(curves: Curves, ax: Axes) -> None:
-    """Write the critical speed at its line."""
+    """Write the critical speed at its line, at the end that is farther from where curves cross."""
     critical = critical_speed_of(curves)
     if critical is None:
         return
     at = units.rpm(critical)
-    inside = (ax.transData + ax.transAxes.inverted()).transform((at, 1.0))[0] < _RIGHTMOST
-    side = "left" if inside else "right"
-    note(ax, at, 0.03, f" {rpm_text(critical)} ", data_axis="x", ha=side, va="bottom", color=ORANGE)
+    crossing = at, curves.at("shaft_voltage", critical)
+    along, up = (ax.transData + ax.transAxes.inverted()).transform(crossing)
+    side = "left" if along < _RIGHTMOST else "right"
+    height, end = (0.03, "bottom") if up > 0.5 else (0.97, "top")
+    note(ax, at, height, f" {rpm_text(critical)} ", data_axis="x", ha=side, va=end, color=ORANGE)
 
 
 def rpm_text(speed: float) -> str:

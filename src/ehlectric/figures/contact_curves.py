@@ -27,6 +27,7 @@ from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
     figure_of,
+    fitted_label,
     in_half_widths,
     label_position,
     legend_above,
@@ -143,7 +144,9 @@ def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
     x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
     names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
-        ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
+        # No-break spaces keep the name on one line.
+        whole = f"{ax.get_xlabel()}, {signed(name)}".replace(" ", "\xa0").replace(",\xa0", ", ")
+        ax.set_xlabel(fitted_label(ax, whole, along=True))
 
 
 def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> None:
@@ -207,7 +210,8 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     profile = meter_profile(Metered(result.case, result.conditions, result.film, result.field))
     factor, unit = unit_for(result.meter.capacitance, "F", least=1.0)
     at = 1e3 * profile.radius
-    ax.fill_between(at, factor * profile.air, factor * profile.oil, color=BLUE, alpha=0.18, lw=0.0)
+    look: dict[str, Any] = {"color": BLUE, "alpha": 0.18, "lw": 0.0, "label": "between air and oil"}
+    ax.fill_between(at, factor * profile.air, factor * profile.oil, **look)
     given = "filled as given"
     for limit, name, dashes in ((profile.oil, "oil", ":"), (profile.air, "air", "--")):
         if np.array_equal(limit, profile.filled):
@@ -225,7 +229,7 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
         (profile.edge, "nearest edge of the domain"),
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)
-        look: dict[str, Any] = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
+        look = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
         note(ax, 1e3 * edge, 0.98, f" {name}", data_axis="x", **look)
     ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
     ax.set_xlim(at[0], at[-1])

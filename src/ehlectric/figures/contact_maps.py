@@ -28,6 +28,7 @@ from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
+    beside_point,
     figure_of,
     label_position,
     legend_above,
@@ -309,20 +310,12 @@ def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
     """
     places = np.column_stack(_on_page(result, *(at / result.conditions.semi_axis_x).T))
     down, (left, right) = is_turned(result.conditions), ax.get_xlim()
+    offset, align = ((0.0, -11.0), {"ha": "center", "va": "top"}) if down else ((7.0, 0.0), {})
     if down and np.ptp(places[:, 0]) < 0.2 * (right - left):
         places = np.mean(places, axis=0, keepdims=True)
     for x, y in places:
-        beyond = x > left + 0.7 * (right - left)
-        ax.annotate(
-            text,
-            (x, y),
-            (0.0, -11.0) if down else (-7.0 if beyond else 7.0, 0.0),
-            textcoords="offset points",
-            ha="center" if down else "right" if beyond else "left",
-            va="top" if down else "center",
-            fontsize=8.0,
-            path_effects=_outlined("black", 2.0),
-        )
+        edge = _outlined("black", 2.0)
+        beside_point(ax, (x, y), text, offset, fontsize=8.0, path_effects=edge, **align)
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:

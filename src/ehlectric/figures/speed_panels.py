@@ -129,7 +129,9 @@ def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Pane
     if own is not None:
         drawn.append(_mark(own[0], factor * own[1]["bearing"]["capacitance"], BLACK, "star"))
     everything = factor * np.concatenate([curves[key] for key in ("capacitance_oil", "capacitance_air")])
-    band = Area("", nodes / RPM, np.isfinite(oil - air), BLUE, 0.15, (factor * air, factor * oil))
+    band = Area(
+        "between air and oil", nodes / RPM, np.isfinite(oil - air), BLUE, 0.15, (factor * air, factor * oil)
+    )
     return Panel(
         "capacitance",
         unit,

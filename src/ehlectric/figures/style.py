@@ -33,7 +33,7 @@ from matplotlib.ticker import (
     NullLocator,
     ScalarFormatter,
 )
-from matplotlib.transforms import offset_copy
+from matplotlib.transforms import Bbox, offset_copy
 
 from ehlectric.arrays import Array
 from ehlectric.contact.conditions import Conditions, PointConditions
@@ -127,23 +127,26 @@ def style(name: str | None = None) -> Iterator[None]:
             _style.reset(token)
 
 
-def page_width(width: float) -> float:
-    """Width of a figure in the style that is in use, from its width on the screen [inches]."""
+def page_width(width: float, panels: int = 1) -> float:
+    """Width of a figure in the style that is in use, from its width on the screen [inches].
+
+    Panels beside each other take two columns of a journal.
+    """
     columns = _LOOKS[_style.get()].columns
-    return width if columns is None else columns[width > _ONE_COLUMN]
+    return width if columns is None else columns[width > _ONE_COLUMN or panels > 1]
 
 
-def page_size(size: tuple[float, float]) -> tuple[float, float]:
+def page_size(size: tuple[float, float], panels: int = 1) -> tuple[float, float]:
     """Width and height of a figure in the style that is in use, from those on the screen [inches]."""
-    width = page_width(size[0])
+    width = page_width(size[0], panels)
     return width, size[1] * (_LOOKS[_style.get()].height if width < 0.75 * size[0] else 1.0)
 
 
 def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: bool = False) -> list[Axes]:
     """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches]; in
-    the style "journal" it is as wide as one or two columns.
+    the style "journal" it is as wide as one column, or as two where panels are beside each other.
     """
-    figure = Figure(figsize=size if exact else page_size(size))
+    figure = Figure(figsize=size if exact else page_size(size, columns))
     FigureCanvasAgg(figure)
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
@@ -166,6 +169,31 @@ def note(
     """Write a small text at a place in parts of the axes; along ``data_axis``, "x" or "y", in data units."""
     places = {"": ax.transAxes, "x": ax.get_xaxis_transform(), "y": ax.get_yaxis_transform()}
     ax.text(x, y, text, transform=places[data_axis], fontsize=fontsize, **look)
+
+
+class _Inside(Annotation):
+    """Text beside a point, which changes to the other side of it where it would leave the axes."""
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the text on the side of its point where there is room."""
+        ax = self.axes
+        assert ax is not None
+        box, place = self.get_window_extent(renderer), self.xyann
+        if box.x1 > ax.bbox.x1 or box.x0 < ax.bbox.x0:
+            other = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
+            self.xyann = (-place[0], -place[1])
+            self.set(**{way: other.get(at := getattr(self, f"get_{way}")(), at) for way in ("ha", "va")})
+        super().draw(renderer)
+
+
+def beside_point(
+    ax: Axes, at: tuple[float, float], text: str, offset: tuple[float, float], **look: Any
+) -> None:
+    """Write a text beside a point of axes [data units], an offset away from it [pt]; opposite to the offset
+    where it would leave the axes otherwise.
+    """
+    own: dict[str, Any] = {"ha": "left", "va": "center", "in_layout": False}
+    ax.add_artist(_Inside(text, at, offset, textcoords="offset points", **(own | look)))
 
 
 def axes_or_new(ax: Axes | None) -> Axes:
@@ -194,8 +222,9 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
         if converged:
             return
         others = []
-    finding = _broken(figure, first, _FINDING)
-    below = [part for line in others for part in _broken(figure, line, _BELOW)]
+    room = _FULL * 72.0 * figure.get_figwidth()
+    finding = broken(first, _FINDING, room)
+    below = [part for line in others for part in broken(line, _BELOW, room)]
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
     # Empty lines keep the room for the smaller ones, which are drawn beside them.
     lines = "\n".join([*finding, *(" " for _ in below)])
@@ -214,18 +243,36 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
         )
 
 
-def _broken(figure: Figure, line: str, size: float) -> list[str]:
-    """Parts of a line of text, each of which fits into the width of a figure; letters in points."""
-    room = _FULL * 72.0 * figure.get_figwidth()
-    letters, parts = FontProperties(size=size), [""]
+def broken(line: str, size: float, room: float, *, math: bool = False) -> list[str]:
+    """Parts of a line of text of a size, each of which fits into ``room`` if its words do [pt]; ``math``,
+    whether parts between dollar signs are formulas.
+
+    Examples
+    --------
+    >>> broken("discharges per second, drive end [1/s]", 9.0, 120.0)
+    ['discharges per second,', 'drive end [1/s]']
+    """
+    parts = [""]
     for word in filter(None, line.split(" ")):
         longer = f"{parts[-1]} {word}".lstrip()
-        width, _, _ = text_to_path.get_text_width_height_descent(longer, letters, ismath=False)
-        if width > room and parts[-1]:
+        # A formula with a space in it is not whole before its end, and is not broken.
+        whole = not math or parts[-1].count("$") % 2 == 0
+        if parts[-1] and whole and longer.count("$") % 2 == 0 and _width(longer, size, math=math) > room:
             parts.append(word)
         else:
             parts[-1] = longer
     return parts
+
+
+def _width(text: str, size: float, *, math: bool = False) -> float:
+    """Width of a line of text of a size [pt]."""
+    letters = FontProperties(size=size)
+    return float(text_to_path.get_text_width_height_descent(text, letters, ismath=math and "$" in text)[0])
+
+
+def _size_of(setting: str) -> float:
+    """Size of the letters of a setting of Matplotlib [pt]."""
+    return FontProperties(size=mpl.rcParams[cast("Any", setting)]).get_size_in_points()
 
 
 def titled(ax: Axes, title: str, *, converged: bool) -> Figure:
@@ -289,33 +336,54 @@ def legend_above(
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
     ``handles``, artists in the legend, those of a tuple drawn over each other; all that have a label if
-    omitted; ``columns``, columns of the legend; fewer where the page is too narrow for them; ``lift``, height
-    of the legend above the axes [pt], which leaves room for an axis on top of them.
+    omitted; ``columns``, columns of the legend; fewer where the page is too narrow for them, and a figure of
+    a journal is then higher by the rows more; ``lift``, height of the legend above the axes [pt], which
+    leaves room for an axis on top of them.
     """
     entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
     labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
-    ax.legend(
+    figure, size = figure_of(ax), _size_of("legend.fontsize")
+    fitting = _fitting(labels, columns, 72.0 * figure.get_figwidth() / _side_by_side(ax) - _LEFT)
+    more = math.ceil(len(labels) / fitting) - math.ceil(len(labels) / columns)
+    if _LOOKS[_style.get()].columns is not None:
+        figure.set_figheight(figure.get_figheight() + more * _ROW * size / 72.0)
+    legend = ax.legend(
         handles=entries,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
-        bbox_transform=offset_copy(ax.transAxes, figure_of(ax), y=lift, units="points"),
+        bbox_transform=offset_copy(ax.transAxes, figure, y=lift, units="points"),
         borderaxespad=0.3,
         borderpad=0.2,
-        ncols=_fitting(labels, columns, 0.84 * 72.0 * figure_of(ax).get_figwidth() / _side_by_side(ax)),
+        ncols=fitting,
         frameon=False,
-        handlelength=2.2,
-        columnspacing=1.4,
+        handlelength=_HANDLE,
+        handletextpad=_PAD,
+        columnspacing=_SPACING,
         **options,
     )
+    whole = legend.get_tightbbox
+
+    def above(renderer: Any = None) -> Bbox:
+        """Box of the legend for the layout, which makes room for it above the axes, not beside them."""
+        box, beside = cast("Bbox", whole(renderer)), ax.get_window_extent()
+        return Bbox.from_extents(min(box.x0, beside.x1), box.y0, min(box.x1, beside.x1), box.y1)
+
+    legend.get_tightbbox = above  # type: ignore[method-assign]
+
+
+# Room for the labels of axes left of a legend [pt]; and height of a row of a legend, lengths of its handles,
+# and spaces after handles and between columns, in sizes of its letters.
+_LEFT = 52.0
+_ROW, _HANDLE, _PAD, _SPACING = 1.7, 2.2, 0.8, 1.4
 
 
 def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
     """Number of columns of a legend with these labels, at most ``columns``, that fit into ``room`` [pt]."""
-    size = FontProperties(size=mpl.rcParams["legend.fontsize"]).get_size_in_points()
+    size = _size_of("legend.fontsize")
+    widths = np.array([(_HANDLE + _PAD) * size + _width(label, size, math=True) for label in labels])
     for number in range(columns, 1, -1):
-        of_columns = [column for column in np.array_split(np.array(labels), number) if column.size]
-        # A letter is about half as wide as its size; the handle and the space around it take eight letters.
-        if sum(0.52 * size * (8.0 + max(map(len, column))) for column in of_columns) <= room:
+        of_columns = [column for column in np.array_split(widths, number) if column.size]
+        if sum(map(np.max, of_columns)) + _SPACING * size * (len(of_columns) - 1) <= room:
             return number
     return 1
 
@@ -344,36 +412,66 @@ _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
 
 def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
     """Label an axis; where ``log`` is set, make it logarithmic with ticks at round numbers."""
-    axis.set_label_text(text)
-    if not log:
-        return
     ax = axis.axes
     assert ax is not None
     along = axis is ax.xaxis
+    axis.set_label_text(fitted_label(ax, text, along=along))
+    if not log:
+        # An offset or a power above the axis would lie below a legend.
+        if isinstance(plain := axis.get_major_formatter(), ScalarFormatter):
+            plain.set_useOffset(False)
+            plain.set_powerlimits(_PLAIN)
+        return
     (ax.set_xscale if along else ax.set_yscale)("log")
     finite = values[np.isfinite(values)]
     ticks = _ticks(np.unique(finite))
-    axis.set_major_locator(FixedLocator(list(_apart(ticks, ax) if along else ticks)))
+    axis.set_major_locator(_ApartLocator(list(ticks)) if along else FixedLocator(list(ticks)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
     axis.set_minor_formatter(NullFormatter())
 
 
-def _apart(ticks: Array, ax: Axes) -> Array:
+# Powers of ten between which the numbers of an axis are written out.
+_PLAIN = -6, 7
+
+# Part of the width or height of a panel with what is around it that the label of its axis may take.
+_LABEL = 0.72
+
+
+def fitted_label(ax: Axes, text: str, *, along: bool) -> str:
+    """Label of the horizontal axis where ``along``, or of the vertical one, broken into lines where it is
+    longer than a panel.
+    """
+    spec, figure = ax.get_subplotspec(), figure_of(ax)
+    rows, columns = (1, 1) if spec is None else spec.get_gridspec().get_geometry()
+    page = figure.get_figwidth() / columns if along else figure.get_figheight() / rows
+    lines = text.split("\n")
+    size, room = _size_of("axes.labelsize"), _LABEL * 72.0 * page
+    return "\n".join(part for line in lines for part in broken(line, size, room, math=True))
+
+
+class _ApartLocator(FixedLocator):
     """Ticks of a logarithmic x axis whose labels do not touch on the page; the largest ones stay."""
-    if len(ticks) < 2:
-        return ticks
-    size = FontProperties(size=mpl.rcParams["xtick.labelsize"]).get_size_in_points()
-    # Labels beside the curves take up to a third of the width from the axes.
-    width = 0.67 * 72.0 * figure_of(ax).get_figwidth() * ax.get_position().width
-    room = width / np.log(ticks[-1] / ticks[0])
-    kept = [float(ticks[-1])]
-    for tick in ticks[-2::-1]:
-        # A digit is about 0.64 of its size wide, and two labels are as far from each other.
-        letters = 0.5 * (len(f"{tick:g}") + len(f"{kept[0]:g}")) + 1.0
-        if np.log(kept[0] / tick) * room >= 0.64 * size * letters:
-            kept.insert(0, float(tick))
-    return np.array(kept)
+
+    def __call__(self) -> Sequence[float]:
+        """Ticks whose labels are at least as far apart as a letter is wide."""
+        ticks = [float(tick) for tick in super().__call__()]
+        axis = cast("Axis", self.axis)
+        assert axis.axes is not None
+        size, (low, high) = _size_of("xtick.labelsize"), axis.get_view_interval()
+        scale = 72.0 / figure_of(axis.axes).dpi * axis.axes.bbox.width / math.log(high / low)
+        kept: list[tuple[float, float]] = []  # places of ticks and half of the room of their labels [pt]
+        shown = []
+        for tick in ticks[::-1]:
+            at, half = scale * math.log(tick), 0.5 * (_width(f"{tick:g}", size) + _LETTER * size)
+            if not kept or kept[-1][0] - at >= kept[-1][1] + half:
+                kept.append((at, half))
+                shown.append(tick)
+        return shown[::-1]
+
+
+# Width of a digit, in sizes of its letters.
+_LETTER = 0.64
 
 
 def _ticks(values: Array) -> Array:
@@ -460,7 +558,9 @@ def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Col
     """Add a colour bar with ticks at round levels, at every second or third one where there are many."""
     # Beside the axes themselves, a wide legend above them does not push the bar away.
     beside = ax.inset_axes(BAR)
-    bar = figure_of(ax).colorbar(ScalarMappable(norm, colours), cax=beside, label=text)
+    bar = figure_of(ax).colorbar(
+        ScalarMappable(norm, colours), cax=beside, label=fitted_label(ax, text, along=False)
+    )
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
     bar.set_ticks(list(ticks), labels=[f"{level:.6g}" for level in ticks])
     bar.ax.minorticks_off()

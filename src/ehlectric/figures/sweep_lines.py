@@ -20,8 +20,10 @@ from ehlectric.figures.figure_names import literal
 from ehlectric.figures.style import (
     DARK_COLOURS,
     axes_or_new,
+    broken,
     by_logarithm,
     colour_bar,
+    figure_of,
     legend_above,
     levels_of,
     norm_of,
@@ -297,6 +299,10 @@ def _columns(ax: Axes, along: Array) -> IntArray:
     return np.asarray(np.floor(_COLUMNS * across), dtype=np.intp)
 
 
+# Size of the name of the second key beside the lines [pt], and part of the page's width that it may take.
+_NAME_SIZE, _NAMES = 8.0, 0.22
+
+
 def _name_lines(
     results: SweepResults, selection: Slice, ax: Axes, lines: list[SeriesLine], *, log: bool
 ) -> None:
@@ -314,13 +320,16 @@ def _name_lines(
         Line2D([], [], color=line.colour, marker="o", ms=3.5, label=_line_name(line.value, scale))
         for line in lines
     ]
+    unit = f"{label.symbol} {f'[{scale.unit}]' if scale.unit else ''}".strip()
+    room = _NAMES * 72.0 * figure_of(ax).get_figwidth()
     named = ax.legend(
         handles=handles[::-1] if selection.numeric else handles,
-        title=f"{label.name}\n{label.symbol} {f'[{scale.unit}]' if scale.unit else ''}".strip(),
+        title="\n".join(filter(None, [*broken(label.name, _NAME_SIZE, room), unit])),
+        alignment="left",
         loc="center left",
         bbox_to_anchor=(1.01, 0.5),
         frameon=False,
-        title_fontsize=8.0,
+        title_fontsize=_NAME_SIZE,
     )
     ax.add_artist(named)
     named.set_clip_on(False)  # the legend lies outside the axes

@@ -25,7 +25,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import CODES
-from ehlectric.figures.style import name_over, outlined
+from ehlectric.figures.style import figure_of, name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.sweep.axis_labels import Label, label_of
@@ -47,8 +47,9 @@ ON_COLOURS: dict[str, Any] = {
 # Least distance of a label from a mark, from another label and from the frame, as part of the axes.
 _ROOM = 0.035
 
-# A label is wider than high: distances along the horizontal axis count less by this factor.
-_WIDER = 0.55
+# A label is wider than high: distances along the horizontal axis count less by this factor, and less still in
+# figures narrower than this [inches].
+_WIDER, _WIDE = 0.55, 6.3
 
 # Places tried along a line.
 _TRIED = 200
@@ -60,6 +61,7 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
     are taken now, with those of the m labels, shape (n + m, 2).
     """
     ax.autoscale_view()
+    wider = _WIDER * min(1.0, figure_of(ax).get_figwidth() / _WIDE)
     for path, text in zip(lines.get_paths(), texts, strict=True):
         vertices = np.asarray(path.vertices, dtype=float)
         places = vertices[np.all(np.isfinite(vertices), axis=1)]
@@ -68,9 +70,9 @@ def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str],
         places = _between(_on_page(ax, places))
         free = np.ones(len(places))
         if len(taken):
-            around = KDTree(_on_page(ax, taken) * (_WIDER, 1.0))
-            free = np.minimum(around.query(places * (_WIDER, 1.0))[0], 1.0)
-        edge = np.min(np.hstack([places, 1.0 - places]) * (_WIDER, 1.0, _WIDER, 1.0), axis=1)
+            around = KDTree(_on_page(ax, taken) * (wider, 1.0))
+            free = np.minimum(around.query(places * (wider, 1.0))[0], 1.0)
+        edge = np.min(np.hstack([places, 1.0 - places]) * (wider, 1.0, wider, 1.0), axis=1)
         free = np.minimum(free, edge)
         best = int(np.argmax(free))
         if free[best] < _ROOM:
