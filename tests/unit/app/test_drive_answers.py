@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import asdict
+from unittest import mock
 
 import pytest
 
@@ -291,6 +292,7 @@ def test_estimated_capacitances_are_told_beside_them():
     ]
 
 
+@mock.patch("ehlectric.drive.drive_cycle.SIMULATED", 12)
 def test_a_duty_cycle_is_simulated_with_the_drive(tmp_path):
     """Its figure and rows are those of the command; the answer at once does not need its file."""
     (tmp_path / SURFACES).mkdir()
