@@ -93,9 +93,9 @@ def test_a_map_fills_and_its_database_is_that_of_the_command(open_page, app_serv
 
 @pytest.mark.slow
 def test_a_sweep_stops_and_resumes_with_the_points_that_are_done(own_server, open_page):
-    # Enough points that a run is far from its end when it is stopped.
+    # With the probability of each point a run is far from its end when it is stopped.
     server = own_server()
-    page = open_page(server, address_of("/sweep", sweep(11)))
+    page = open_page(server, address_of("/sweep", sweep(11) | {"uncertainty_samples": 256}))
     page.get_by_test_id("plan").filter(has_text="121 points").wait_for()
     before = set(server.started())
     run(page)
