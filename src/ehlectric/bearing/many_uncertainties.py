@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.bearing.bearing_discharges import first_margin, with_films_scaled
-from ehlectric.bearing.many_points import gathered, many_of, solved_parts
+from ehlectric.bearing.many_points import SolvedPart, gathered, many_of, solved_parts
 from ehlectric.bearing.margin import TOUCHING_ALREADY, margin_and_lambda
 from ehlectric.bearing.solution import BearingSolution, film_error, lambda_ratio
 from ehlectric.bearing.uncertainty import (
@@ -41,11 +42,10 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     if own is None:
         return spreads
     # Films of the coarse solutions are taken to be as thick as those of the solution.
-    (ratio,) = gathered(
-        solved_parts(case, detail="coarse"), lambda at: (lambda_ratio(at),), (1, len(spreads))
-    )
+    parts = [*solved_parts(case, detail="coarse")]
+    (ratio,) = gathered(parts, lambda at: (lambda_ratio(at),), (1, len(spreads)))
     scales = lambda_ratio(solution) / ratio
-    scaled = solved_parts(with_films_scaled(case, scales), detail="coarse")
+    scaled = (_with_films_scaled(part, scales[part.points]) for part in parts)
     coarse, _ = gathered(scaled, margin_and_lambda, (2, len(spreads)))
     own, off = np.broadcast_to(own, coarse.shape), np.broadcast_to(film_error(solution), coarse.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -61,6 +61,12 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
         for place, spread in zip(places, found, strict=True):
             spreads[place] = spread
     return spreads
+
+
+def _with_films_scaled(part: SolvedPart, scales: Array) -> SolvedPart:
+    """Solved points with their lambda ratios of films ``scales`` times as thick, shape (m,)."""
+    solution = part.solution
+    return replace(part, solution=replace(solution, case=with_films_scaled(solution.case, scales)))
 
 
 def _alike(designs: dict[int, Design]) -> Iterator[list[int]]:
