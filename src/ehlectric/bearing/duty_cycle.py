@@ -10,11 +10,23 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.cycle_rows import (
+    FULL_FILM,
+    LEFT_OUT,
+    MOST_STRETCHES,
+    PARTIAL_FILM,
+    STANDSTILL,
+    TOUCHING,
+    CycleRows,
+    duty_csv,
+    edges_of,
+    stretches_of,
+)
 from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, spread_places, values_at
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
 from ehlectric.bearing.quick_contacts import required_quick_case
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL, touches, touching_ratio
+from ehlectric.bearing.solution import PARTIAL, touches, touching_ratio
 from ehlectric.bearing.uncertainty import SEED, MarginSpread
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case_oil import viscosity_over_temperature
@@ -26,20 +38,12 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import RPM, rpm_text
-from ehlectric.runtime.files import Content, column_head, csv_of
-from ehlectric.runtime.result_names import DUTY
+from ehlectric.runtime.files import Content
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
 
-# States of a bearing by their numbers.
-STATES = ("standstill", "touching", "partial film", "full film", "not computed")
-STANDSTILL, TOUCHING, PARTIAL_FILM, FULL_FILM, LEFT_OUT = range(len(STATES))
-
 # Speed below which a shaft stands still: sensors and their filters read such speeds at rest [rad/s].
 LEAST_SPEED = 0.1 * RPM
-
-# Largest number of stretches that are listed, the worst first.
-_MOST_STRETCHES = 10
 
 # Rows at which the probability of breakdown is computed, and points of the uncertain inputs at each of them,
 # a power of 2.
@@ -60,12 +64,9 @@ _MAYBE = "not negative or NaN"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DutyRows(Values):
+class DutyRows(CycleRows):
     """Rows of a duty cycle with what the bearing is at each, SI units; NaN where a row has no value."""
 
-    time: Array = field(metadata=stored("duty_row", "s", "increasing"))
-    duration: Array = field(metadata=stored("duty_row", "s", "positive"))  # time for which a row stands
-    speed: Array = field(metadata=stored("duty_row", "rad/s"))
     radial_load: Array = field(metadata=stored("duty_row", "N", "not negative"))
     axial_load: Array = field(metadata=stored("duty_row", "N", "not negative"))
     temperature: Array = field(metadata=stored("duty_row", "K", "positive"))
@@ -83,10 +84,6 @@ class DutyRows(Values):
     def has_margin(self) -> bool:
         """Whether any row has a margin."""
         return bool(np.any(np.isfinite(self.margin)))
-
-    def share(self, within: Mask) -> float:
-        """Share of the time of some rows, from 0 to 1."""
-        return float(np.sum(self.duration[within]) / np.sum(self.duration))
 
 
 @dataclass(frozen=True)
@@ -132,7 +129,7 @@ class DutyResult(Values):
     contacts: str = field(metadata=number(QUICK))
     points: int = field(metadata=number("whole"))
     interpolation_error: float | None = field(metadata=number())
-    touching_ratio: float | None = field(default=CONDUCTING, metadata=number())
+    touching_ratio: float = field(metadata=number("positive"))
     warnings: tuple[ResultWarning, ...] = ()
 
     @property
@@ -178,17 +175,8 @@ class DutyResult(Values):
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name; a column in which no row has a value is left out."""
         columns = {each.name: getattr(self.rows, each.name) for each in fields(self.rows)}
-        columns["state"] = np.array(STATES, dtype=object)[self.rows.state.astype(int)]
-        known = {
-            name: values for name, values in columns.items() if name == "state" or np.any(np.isfinite(values))
-        }
-        heads = [_head(name, COLUMNS[name].get("unit", "")) for name in known]
-        cells = [["" if value != value else value for value in values.tolist()] for values in known.values()]
-        return {DUTY: csv_of(heads, zip(*cells, strict=True))}
-
-
-def _head(name: str, unit: str) -> str:
-    return column_head(name, unit.removeprefix("-")) if unit else name
+        known = {name: values for name, values in columns.items() if np.any(np.isfinite(values))}
+        return duty_csv(known, COLUMNS)
 
 
 def run_duty(case: BearingCase) -> DutyResult | None:
@@ -287,11 +275,6 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
     return rows, replace(found, reasons={places[k]: why for k, why in found.reasons.items()})
 
 
-def edges_of(time: Array) -> Array:
-    """Times between rows, halfway, with the first and the last time as ends, shape (n + 1,)."""
-    return np.concatenate([time[:1], 0.5 * (time[1:] + time[:-1]), time[-1:]])
-
-
 def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     """Quantities of rows from their inputs by column. Shaft voltage and margin follow the voltage of the
     motor, on which films do not depend.
@@ -347,11 +330,11 @@ def _stretches(case: BearingCase, rows: DutyRows) -> Iterator[Stretch]:
     """Worst stretches of a cycle, with the least margins, or without margins with the least lambda ratios."""
     name, limit = ("margin", 1.0) if rows.has_margin else ("lambda_ratio", PARTIAL)
     measure, edges = getattr(rows, name), edges_of(rows.time)
-    ends = np.flatnonzero(np.diff(np.concatenate([[0], measure < limit, [0]])))
     spans = [
-        (first, after, first + int(np.argmin(measure[first:after]))) for first, after in ends.reshape(-1, 2)
+        (first, after, first + int(np.argmin(measure[first:after])))
+        for first, after in stretches_of(measure < limit)
     ]
-    spans = sorted(spans, key=lambda span: measure[span[2]])[:_MOST_STRETCHES]
+    spans = sorted(spans, key=lambda span: measure[span[2]])[:MOST_STRETCHES]
     reasons = _reasons(case, rows, name, [worst for *_, worst in spans])
     for (first, after, worst), why in zip(spans, reasons, strict=True):
         yield Stretch(

@@ -11,7 +11,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
-from ehlectric.bearing.duty_cycle import STATES, DutyResult, DutyRows, Stretch
+from ehlectric.bearing.cycle_rows import StoredDuty
+from ehlectric.bearing.duty_cycle import DutyResult, DutyRows, Stretch
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium
 from ehlectric.bearing.loads.geometry import Speeds
 from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
@@ -26,9 +27,6 @@ from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
-    numbers_of,
-    read_many_numbers,
-    read_numbers,
     values_of,
     warnings_in_tables,
 )
@@ -45,9 +43,7 @@ RINGS = ("inner", "outer")
 # with the friction of their most loaded contacts.
 _HEAT, _FRICTIONS = "heat_factor", Part(ContactFriction, ("ring",), "solved_")
 
-# Rows of a duty cycle, and attributes with its numbers and its worst stretches.
-_DUTY = Part(DutyRows, prefix="duty_")
-_DUTY_NUMBERS, _DUTY_STRETCHES, _DUTY_WARNINGS = "duty", "duty_stretches", "duty_warnings"
+_DUTY = StoredDuty(DutyResult, DutyRows, {"stretches": Stretch})
 
 # Contacts of all elements, and what these contacts are made of: solved contacts of each ring over the load.
 _OVER = ("cage_position", "ring", "element")
@@ -91,8 +87,7 @@ def layout_of(solution: BearingSolution, duty: DutyResult | None = None) -> Layo
     variables |= _STATES.written(states)
     variables |= _VALUES.written([[ring.values for ring in rings] for rings in states])
     variables |= _equilibrium_variables([position.equilibrium for position in solution.positions])
-    if duty is not None:
-        variables |= _DUTY.written(duty.rows)
+    variables |= _DUTY.variables(duty)
     rings, shape = (solution.inner, solution.outer), solution.positions[0].shape
     return Layout(
         variables | {"ring": ("ring", list(RINGS))},
@@ -103,7 +98,7 @@ def layout_of(solution: BearingSolution, duty: DutyResult | None = None) -> Layo
             "seconds": solution.seconds,
             "equilibrium": type(solution.positions[0].equilibrium).__name__,
             **_solved_heat(solution),
-            **({} if duty is None else _duty_attributes(duty)),
+            **_DUTY.attributes(duty),
             "weibull_shape": "" if shape is None else repr(shape),
             "contact_angle": [ring.angle for ring in rings],
             "entrainment_speed": [ring.speed for ring in rings],
@@ -114,32 +109,11 @@ def layout_of(solution: BearingSolution, duty: DutyResult | None = None) -> Layo
     )
 
 
-def _duty_attributes(duty: DutyResult) -> dict[str, str]:
-    """Attributes with the numbers, the worst stretches and the warnings of a duty cycle."""
-    return {
-        _DUTY_NUMBERS: numbers_of(duty),
-        _DUTY_STRETCHES: json.dumps([json.loads(numbers_of(one)) for one in duty.stretches]),
-        _DUTY_WARNINGS: json.dumps(texts_and_codes(duty.warnings)),
-    }
-
-
 def duty_of(dataset: xr.Dataset) -> DutyResult | None:
     """Result of the duty cycle in a dataset that ``dataset_of`` made; None without one. Raises UnfitError
     where a variable or an attribute is missing, or is not as it was written.
     """
-    attributes = dataset.attrs
-    if _DUTY_NUMBERS not in attributes:
-        return None
-    check_parts(dataset, [_DUTY])
-    rows = DutyRows(**_DUTY.read(values_of(dataset)))
-    if np.any(rows.state >= len(STATES)):
-        raise UnfitError("duty_state is no state")
-    return DutyResult(
-        rows=rows,
-        stretches=tuple(Stretch(**one) for one in read_many_numbers(Stretch, attributes, _DUTY_STRETCHES)),
-        **read_numbers(DutyResult, attributes, _DUTY_NUMBERS),
-        warnings=warnings_in_tables(attributes, depth=0, name=_DUTY_WARNINGS),
-    )
+    return _DUTY.read(dataset)
 
 
 def _solved_heat(solution: BearingSolution) -> dict[str, Any]:
@@ -204,11 +178,16 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
     )
 
 
-def _case(table: dict[str, Any]) -> BearingCase:
-    """Case of the tables of a stored file; the films of a file that knows no summits are smooth."""
-    if isinstance(table.get("bearing"), dict):
-        table["bearing"].setdefault("summit_height", 0.0)
-    return BearingCase.from_dict(table)
+def _case(tables: dict[str, Any]) -> BearingCase:
+    return BearingCase.from_dict(with_smooth_films(tables))
+
+
+def with_smooth_films(tables: dict[str, Any]) -> dict[str, Any]:
+    """Tables of the case of a bearing in a file, with smooth films where the file knows no summits."""
+    bearing = tables.get("bearing")
+    if not isinstance(bearing, dict):
+        return tables
+    return {**tables, "bearing": {"summit_height": 0.0, **bearing}}
 
 
 def _curve_of(values: Mapping[str, Array], ring: int, warnings: list[Any]) -> ContactCurve:

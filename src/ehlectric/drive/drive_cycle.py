@@ -17,19 +17,19 @@ import numpy as np
 from scipy.special import stdtrit
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.bearing.duty_cycle import (
+from ehlectric.bearing.cycle_rows import (
     FULL_FILM,
     LEFT_OUT,
+    MOST_STRETCHES,
     PARTIAL_FILM,
     STANDSTILL,
-    STATES,
     TOUCHING,
-    DutyRows,
-    check_rows,
+    CycleRows,
+    duty_csv,
     edges_of,
-    file_warnings,
-    rows_of,
+    stretches_of,
 )
+from ehlectric.bearing.duty_cycle import DutyRows, check_rows, file_warnings, rows_of
 from ehlectric.bearing.duty_points import between_places
 from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
@@ -39,9 +39,8 @@ from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import data_file
-from ehlectric.runtime.files import Content, column_head, csv_of
+from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.result_names import DUTY
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
 
@@ -50,9 +49,6 @@ SIMULATED, _GROUPS = 48, 8
 
 # Least and longest time that a row is simulated [s]: whole periods of the fundamental in between.
 LEAST_TIME, MOST_TIME = 0.02, 0.5
-
-# Largest number of stretches that are listed, the worst first.
-_MOST_STRETCHES = 10
 
 # Change of temperature that counts as much as films thicker by a factor of e [K]: the oil conducts better.
 _WARMER = 25.0
@@ -78,15 +74,12 @@ _pair = partial(stored, "duty_row bearing")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DriveDutyRows(Values):
+class DriveDutyRows(CycleRows):
     """Rows of a duty cycle with both films and their discharges, SI units; NaN where a row has no value.
 
     Numbers of both bearings have the shape (n, 2).
     """
 
-    time: Array = field(metadata=_row("s", "increasing"))
-    duration: Array = field(metadata=_row("s", "positive"))  # time for which a row stands
-    speed: Array = field(metadata=_row("rad/s"))
     temperature: Array = field(metadata=_row("K", "positive"))
     common_mode_voltage: Array = field(metadata=_row("V", "not negative"))  # peak of the source
     lambda_ratio: Array = field(metadata=_pair("", _MAYBE))
@@ -99,10 +92,6 @@ class DriveDutyRows(Values):
     def known(self) -> Mask:
         """Rows with a rate of discharges, shape (n,)."""
         return np.isfinite(self.discharge_rate[:, 0])
-
-    def share(self, within: Mask) -> float:
-        """Share of the time of some rows, from 0 to 1."""
-        return float(np.sum(self.duration[within]) / np.sum(self.duration))
 
 
 @dataclass(frozen=True)
@@ -157,7 +146,7 @@ class DriveDuty(Values):
     source: str = field(metadata=number("text"))
     points: int = field(metadata=number("whole"))
     simulated: float = field(metadata=number())
-    touching_ratio: float = field(metadata=number())
+    touching_ratio: float = field(metadata=number("positive"))
     warnings: tuple[ResultWarning, ...] = ()
 
     def summary(self) -> dict[str, Any]:
@@ -190,19 +179,14 @@ class DriveDuty(Values):
 
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name."""
-        columns: dict[str, list[Any]] = {}
+        columns: dict[str, Array] = {}
         for each in fields(self.rows):
             values = getattr(self.rows, each.name)
-            if each.name == "state":
-                values = np.array(STATES, dtype=object)[values.astype(int)]
-            pairs = [(each.name, values)]
-            if values.ndim == 2:
-                pairs = [(f"{end}.{each.name}", values[:, b]) for b, end in enumerate(ENDS)]
-            for name, column in pairs:
-                unit = COLUMNS[each.name].get("unit", "")
-                head = column_head(name, unit.removeprefix("-")) if unit else name
-                columns[head] = ["" if value != value else value for value in column.tolist()]
-        return {DUTY: csv_of(list(columns), zip(*columns.values(), strict=True))}
+            if values.ndim == 1:
+                columns[each.name] = values
+            else:
+                columns |= {f"{end}.{each.name}": values[:, b] for b, end in enumerate(ENDS)}
+        return duty_csv(columns, COLUMNS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -457,10 +441,9 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
     rate = np.nan_to_num(np.sum(rows.discharge_rate, axis=1))
     power = np.nan_to_num(np.sum(rows.discharge_power, axis=1))
     often = rate > np.average(rate, weights=rows.duration)
-    ends = np.flatnonzero(np.diff(np.concatenate([[0], often, [0]]))).reshape(-1, 2)
     edges = edges_of(rows.time)
     found = []
-    for first, after in ends.tolist():
+    for first, after in stretches_of(often):
         part, time = slice(first, after), rows.duration[first:after]
         found.append(
             DriveStretch(
@@ -472,7 +455,7 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
                 lambda_ratio=float(np.min(rows.lambda_ratio[part])),
             )
         )
-    yield from sorted(found, key=lambda one: -one.discharges)[:_MOST_STRETCHES]
+    yield from sorted(found, key=lambda one: -one.discharges)[:MOST_STRETCHES]
 
 
 def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import Path
-from ehlectric.bearing.duty_cycle import STATES
+from ehlectric.bearing.cycle_rows import StoredDuty
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
@@ -23,9 +23,6 @@ from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, number_of, t
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
-    numbers_of,
-    read_many_numbers,
-    read_numbers,
     stored,
     values_of,
     warnings_in_tables,
@@ -74,9 +71,9 @@ class _Samples:
 _SOLUTION, _RECORD = Part(DriveSolution, (_VARIANT,)), Part(Record, (_VARIANT,))
 _EVENTS, _SAMPLES = Part(_Events, (_VARIANT,), "event_"), Part(_Samples, (_VARIANT,), "sample_")
 _ELEMENT, _PATH = Part(BearingElement, (_VARIANT, _END), "element_"), Part(Path, (_VARIANT, _END), "path_")
-# Rows of a duty cycle, and attributes with its numbers, its lists of objects and its warnings.
-_DUTY, _DUTY_NUMBERS, _DUTY_WARNINGS = Part(DriveDutyRows, prefix="duty_"), "duty", "duty_warnings"
-_DUTY_LISTS = {"discharges": Expected, "energy": Expected, "stretches": DriveStretch}
+_DUTY = StoredDuty(
+    DriveDuty, DriveDutyRows, {"discharges": Expected, "energy": Expected, "stretches": DriveStretch}
+)
 _PARTS = (_SOLUTION, _RECORD, _EVENTS, _SAMPLES, _ELEMENT, _PATH)
 
 
@@ -103,7 +100,7 @@ def dataset_of(
             **_SAMPLES.written([_Samples(one[:, 0], one[:, 1], one[:, 2:]) for one in traces]),
             **_ELEMENT.written(elements),
             **_PATH.written([[one.path for one in pair] for pair in elements]),
-            **({} if duty is None else _DUTY.written(duty.rows)),
+            **_DUTY.variables(duty),
         },
         coords={_END: list(ENDS), "limit": ("limit", records[0].limits, {"units": "V"})},
         attrs={
@@ -112,47 +109,19 @@ def dataset_of(
             "case": solution.case.to_toml(),
             "seconds": seconds,
             TEXTS: json.dumps([texts_and_codes(one.told) for one in solutions]),
-            **({} if duty is None else _duty_attributes(duty)),
+            **_DUTY.attributes(duty),
         },
     )
-
-
-def _duty_attributes(duty: DriveDuty) -> dict[str, str]:
-    """Attributes with the numbers, the sums, the worst stretches and the warnings of a duty cycle."""
-    lists = {name: getattr(duty, name) for name in _DUTY_LISTS}
-    return {
-        _DUTY_NUMBERS: numbers_of(duty),
-        _DUTY_WARNINGS: json.dumps(texts_and_codes(duty.warnings)),
-        **{
-            f"duty_{name}": json.dumps([json.loads(numbers_of(one)) for one in found])
-            for name, found in lists.items()
-        },
-    }
 
 
 def duty_of(dataset: xr.Dataset) -> DriveDuty | None:
     """Result of the duty cycle in a dataset that ``dataset_of`` made; None without one. Raises UnfitError
     where a variable or an attribute is missing, or is not as it was written.
     """
-    attributes = dataset.attrs
-    if _DUTY_NUMBERS not in attributes:
-        return None
-    check_parts(dataset, [_DUTY])
-    rows = DriveDutyRows(**_DUTY.read(values_of(dataset)))
-    if np.any(rows.state >= len(STATES)):
-        raise UnfitError("duty_state is no state")
-    lists: dict[str, Any] = {
-        name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"duty_{name}"))
-        for name, kind in _DUTY_LISTS.items()
-    }
-    if any(len(lists[name]) != len(ENDS) for name in ("discharges", "energy")):
+    duty = _DUTY.read(dataset)
+    if duty is not None and any(len(one) != len(ENDS) for one in (duty.discharges, duty.energy)):
         raise UnfitError("duty_discharges or duty_energy has not the values of two bearings")
-    return DriveDuty(
-        rows=rows,
-        **lists,
-        **read_numbers(DriveDuty, attributes, _DUTY_NUMBERS),
-        warnings=warnings_in_tables(attributes, depth=0, name=_DUTY_WARNINGS),
-    )
+    return duty
 
 
 def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:

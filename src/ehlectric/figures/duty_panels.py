@@ -7,15 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.duty_cycle import (
-    PARTIAL_FILM,
-    STANDSTILL,
-    TOUCHING,
-    DutyResult,
-    DutyRows,
-    edges_of,
-)
-from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.cycle_rows import PARTIAL_FILM, STANDSTILL, TOUCHING, edges_of
+from ehlectric.bearing.duty_cycle import DutyResult, DutyRows
+from ehlectric.bearing.solution import PARTIAL
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE
@@ -47,8 +41,7 @@ def time_axis(rows: DutyRows | DriveDutyRows) -> Along:
 
 def duty_panels(duty: DutyResult) -> Iterator[Panel]:
     """Speed, lambda ratio and, where any row has one, margin over time."""
-    rows = duty.rows
-    touching = _touching(duty)
+    rows, touching = duty.rows, duty.touching_ratio
     limits = (touching, PARTIAL)
     yield _panel(rows, touching, "speed", "rpm", rows.speed / RPM)
     yield _panel(rows, touching, "lambda ratio", "", rows.lambda_ratio, limits=limits, colours=(BLUE,))
@@ -111,11 +104,6 @@ def _bands(rows: DutyRows | DriveDutyRows, touching: float) -> Iterator[Area]:
         within = np.repeat(thinner == state, 2)
         if np.any(within):
             yield Area(name.format(touching=touching), edges, within, colour, opacity)
-
-
-def _touching(duty: DutyResult) -> float:
-    """Lambda ratio up to which surfaces are called touching."""
-    return CONDUCTING if duty.touching_ratio is None else duty.touching_ratio
 
 
 def _unit(rows: DutyRows | DriveDutyRows) -> tuple[float, str]:

@@ -173,7 +173,16 @@ def check_parts(
 
 def numbers_of(thing: Any) -> str:
     """Numbers of an object as the JSON text of an attribute."""
-    return json.dumps({name: getattr(thing, name) for name in _rules_of_numbers(type(thing))})
+    return json.dumps(_numbers(thing))
+
+
+def many_numbers_of(things: Iterable[Any]) -> str:
+    """Numbers of objects of a class as the JSON text of an attribute, a list."""
+    return json.dumps([_numbers(thing) for thing in things])
+
+
+def _numbers(thing: Any) -> dict[str, Any]:
+    return {name: getattr(thing, name) for name in _rules_of_numbers(type(thing))}
 
 
 def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> dict[str, Any]:

@@ -1,0 +1,151 @@
+"""Rows of a duty cycle, of a bearing or a drive: states, stretches of rows, duty.csv, and stored form."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.errors import ResultWarning, texts_and_codes
+from ehlectric.runtime.file_rules import UnfitError
+from ehlectric.runtime.files import Content, column_head, csv_of
+from ehlectric.runtime.result_names import DUTY
+from ehlectric.runtime.stored import (
+    Part,
+    check_parts,
+    many_numbers_of,
+    numbers_of,
+    read_many_numbers,
+    read_numbers,
+    stored,
+    values_of,
+    warnings_in_tables,
+)
+from ehlectric.runtime.values import Values
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# States of a bearing by their numbers.
+STATES = ("standstill", "touching", "partial film", "full film", "not computed")
+STANDSTILL, TOUCHING, PARTIAL_FILM, FULL_FILM, LEFT_OUT = range(len(STATES))
+
+# Largest number of stretches that are listed, the worst first.
+MOST_STRETCHES = 10
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CycleRows(Values):
+    """Rows of a duty cycle, SI units; a subclass has their films, and ``state``, numbers in ``STATES``."""
+
+    time: Array = field(metadata=stored("duty_row", "s", "increasing"))
+    duration: Array = field(metadata=stored("duty_row", "s", "positive"))  # time for which a row stands
+    speed: Array = field(metadata=stored("duty_row", "rad/s"))
+
+    def share(self, within: Mask) -> float:
+        """Share of the time of some rows, from 0 to 1."""
+        return float(np.sum(self.duration[within]) / np.sum(self.duration))
+
+
+def edges_of(time: Array) -> Array:
+    """Times between rows, halfway, with the first and the last time as ends, shape (n + 1,)."""
+    return np.concatenate([time[:1], 0.5 * (time[1:] + time[:-1]), time[-1:]])
+
+
+def stretches_of(within: Mask) -> list[tuple[int, int]]:
+    """Places of the first row of each stretch of rows, and of the row after its last one.
+
+    Examples
+    --------
+    >>> stretches_of(np.array([True, True, False, True]))
+    [(0, 2), (3, 4)]
+    """
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], within, [0]])))
+    return [(int(first), int(after)) for first, after in ends.reshape(-1, 2)]
+
+
+def duty_csv(columns: Mapping[str, Array], about: Mapping[str, Mapping[str, str]]) -> dict[str, Content]:
+    """Content of duty.csv by its name.
+
+    ``columns``, values of the rows by name, shape (n,), empty for NaN; ``about``, unit of a column by its
+    name, or by the part of it after a point, none for a text.
+    """
+    heads, cells = [], []
+    for name, values in columns.items():
+        quantity = name.rpartition(".")[2]
+        unit = about[quantity].get("unit", "")
+        shown = np.array(STATES, dtype=object)[values.astype(int)] if quantity == "state" else values
+        heads.append(column_head(name, unit.removeprefix("-")) if unit else name)
+        cells.append(["" if value != value else value for value in shown.tolist()])
+    return {DUTY: csv_of(heads, zip(*cells, strict=True))}
+
+
+class _Result(Protocol):
+    """Result of a duty cycle."""
+
+    def __init__(self, **values: Any) -> None: ...
+
+    @property
+    def rows(self) -> CycleRows: ...
+
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]: ...
+
+
+R = TypeVar("R", bound=_Result)
+
+# Attributes of a file with the numbers of a duty cycle and with its warnings.
+_NUMBERS, _WARNINGS = "duty", "duty_warnings"
+
+
+@dataclass(frozen=True)
+class StoredDuty(Generic[R]):
+    """Duty cycle in the file of a result: a variable for each quantity of its rows, and attributes with its
+    numbers, its lists of objects and its warnings.
+    """
+
+    kind: type[R]
+    rows: type[CycleRows]
+    lists: Mapping[str, type[Any]]  # class of the objects of a list, by the name of its field
+
+    @cached_property
+    def _part(self) -> Part:
+        return Part(self.rows, prefix="duty_")
+
+    def variables(self, duty: R | None) -> dict[str, Any]:
+        """Variables of the rows; none without a duty cycle."""
+        return {} if duty is None else self._part.written(duty.rows)
+
+    def attributes(self, duty: R | None) -> dict[str, str]:
+        """Attributes of everything else; none without a duty cycle."""
+        if duty is None:
+            return {}
+        lists = {f"duty_{name}": many_numbers_of(getattr(duty, name)) for name in self.lists}
+        return {_NUMBERS: numbers_of(duty), _WARNINGS: json.dumps(texts_and_codes(duty.warnings)), **lists}
+
+    def read(self, dataset: xr.Dataset) -> R | None:
+        """Duty cycle with these variables and attributes; None without one. Raises UnfitError where one is
+        missing, or is not as it was written.
+        """
+        attributes = dataset.attrs
+        if _NUMBERS not in attributes:
+            return None
+        check_parts(dataset, [self._part])
+        found = self._part.read(values_of(dataset))
+        if np.any(found["state"] >= len(STATES)):
+            raise UnfitError("duty_state is no state")
+        lists: dict[str, Any] = {
+            name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"duty_{name}"))
+            for name, kind in self.lists.items()
+        }
+        return self.kind(
+            rows=self.rows(**found),
+            **lists,
+            **read_numbers(self.kind, attributes, _NUMBERS),
+            warnings=warnings_in_tables(attributes, depth=0, name=_WARNINGS),
+        )
