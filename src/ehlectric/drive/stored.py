@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import Path
 from ehlectric.bearing.cycle_rows import StoredDuty
+from ehlectric.bearing.stored import with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
@@ -129,7 +130,7 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     UnfitError where a variable or an attribute is missing, or is not as it was written.
     """
     attributes = dataset.attrs
-    case = case_of(attributes, DriveCase.from_dict)
+    case = case_of(attributes, _case)
     cases = [case, *case.variants()]
     check(dataset, len(cases))
     values, told = values_of(dataset), warnings_in_tables(attributes)
@@ -140,6 +141,12 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
         (one.title, dict(one.changes), found) for one, found in zip(case.remedies, solutions[1:], strict=True)
     )
     return solutions[0], remedies, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+def _case(tables: dict[str, Any]) -> DriveCase:
+    """Case of the tables in a file; the films of its bearings are smooth where the file knows no summits."""
+    bearings = {end: with_smooth_films(tables[end]) for end in ENDS if isinstance(tables.get(end), dict)}
+    return DriveCase.from_dict(tables | bearings)
 
 
 def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolution:

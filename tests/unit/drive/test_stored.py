@@ -8,8 +8,9 @@ import pytest
 from ehlectric import InputError, load, save, solve_drive
 from ehlectric.drive import run as of_drives
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.stored import check
+from ehlectric.drive.stored import check, parts_of
 from ehlectric.errors import ResultWarning
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.file_rules import UnfitError
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
@@ -54,6 +55,16 @@ def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
         check(whole.drop_vars("line_count"), 2)
     with pytest.raises(UnfitError):
         check(whole.drop_vars("line_amplitude"), 2)
+
+
+def test_a_file_that_knows_no_summits_has_smooth_films(drive):
+    dataset = drive.to_xarray()
+    lines = drive.case.replace({"bearings.bearing.film_factor": 0.9}).to_toml().splitlines()
+    without = [line for line in lines if not line.startswith("summit_height")]
+    assert len(without) == len(lines) - len(ENDS)
+    dataset.attrs["case"] = "\n".join(without)
+    solution, *_ = parts_of(dataset)
+    assert [one.bearing.summit_height for one in solution.case.bearings] == [0.0, 0.0]
 
 
 def test_a_result_without_discharges_is_loaded_too(drive, tmp_path):
