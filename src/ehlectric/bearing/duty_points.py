@@ -11,7 +11,14 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.many_points import gathered, solved_parts
-from ehlectric.bearing.solution import BearingSolution, capacitance, lambda_ratio, touches, touching_ratio
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    capacitance,
+    lambda_ratio,
+    part_over_summits,
+    touches,
+    touching_ratio,
+)
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
 
@@ -96,7 +103,7 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     # No voltage is computed where surfaces touch. Points next to those with touching surfaces are solved.
     touching = touches(values["lambda_ratio"], height)
     for name in _VOLTAGES:
-        part = 1.0 - height / values["lambda_ratio"] if name in _OVER_SUMMITS else 1.0
+        part = part_over_summits(values["lambda_ratio"], height) if name in _OVER_SUMMITS else 1.0
         values[name] = np.where(touching, np.nan, values[name] * part)
     edge = _next_to_touching(design.values, corners, height)
     edge &= values["lambda_ratio"] > _NEARLY * touching_ratio(height)
@@ -115,8 +122,7 @@ def _smooth(values: Mapping[str, Array], height: float) -> dict[str, Array]:
     """Quantities with the voltages of smooth films, which are powers of the inputs, in place of those over
     summits of a height in units of the composite Rq.
     """
-    part = 1.0 - height / values["lambda_ratio"]
-    part = np.where(part > 0.0, part, np.nan)
+    part = part_over_summits(values["lambda_ratio"], height)
     return {name: column / part if name in _OVER_SUMMITS else column for name, column in values.items()}
 
 

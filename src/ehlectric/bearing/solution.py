@@ -248,6 +248,18 @@ def touching_ratio(summit_height: Numbers) -> Numbers:
     return np.maximum(CONDUCTING, summit_height)
 
 
+def part_over_summits(ratio: Numbers, summit_height: Numbers) -> Array:
+    """Gap under the highest summits over the film, by its lambda ratio, shape (...); NaN where there is none.
+
+    Examples
+    --------
+    >>> part_over_summits(np.array([4.0, 2.0]), 2.0).tolist()
+    [0.5, nan]
+    """
+    part = 1.0 - summit_height / ratio
+    return np.where(part > 0.0, part, np.nan)
+
+
 def touches(ratio: Numbers, summit_height: Numbers) -> Any:
     """Whether surfaces touch so that no voltage is given, by their lambda ratio, shape (...).
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -23,7 +24,13 @@ from ehlectric.bearing.changed_bearings import (
 )
 from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
-from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio, touching_ratio
+from ehlectric.bearing.solution import (
+    CONDUCTING,
+    BearingSolution,
+    lambda_ratio,
+    part_over_summits,
+    touching_ratio,
+)
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.units import rpm
@@ -172,13 +179,8 @@ class Curves:
         if key not in _OVER_SUMMITS or not self.summit_height:
             return self._between(speed, self.values[key])
         ratio = self.values["lambda_ratio"] / self.scaled.get("lambda_ratio", 1.0)
-        smooth = self.values[key] / self._left(ratio)
-        return self._between(speed, smooth) * self._left(self._between(speed, ratio))
-
-    def _left(self, ratio: Array) -> Array:
-        """Part of a film of a lambda ratio that its highest summits leave; NaN where they leave none."""
-        part = 1.0 - self.summit_height / ratio
-        return np.where(part > 0.0, part, np.nan)
+        part = partial(part_over_summits, summit_height=self.summit_height)
+        return self._between(speed, self.values[key] / part(ratio)) * part(self._between(speed, ratio))
 
     def _between(self, speed: float | Array, known: Array) -> Any:
         """Value at a speed [rad/s] that is a power of it between two speeds with known values."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask, Numbers
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin
 from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
@@ -301,33 +301,40 @@ def uncertainty_of(
 
     Raises InputError where no point has a result.
     """
+    design, computed, at = _sampled(solution, margins, samples, seed)
+    spread = spread_at(design, computed, at, seed)
+    inputs, predicted = _inputs(design, computed, at)
+    return Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
+
+
+def _sampled(
+    solution: BearingSolution, margins: QuickMargins, samples: int, seed: int
+) -> tuple[Design, Array, Array]:
+    """Design of a solved bearing, margins at its points without the factors, shape (n,), and these points."""
     design = Design.of(solution)
     at = sobol_points(design.width, samples, seed)
-    computed, solved = _computed(design, margins, at)
-    spread = spread_at(design, np.where(solved, computed, np.nan), at, seed)
-    inputs, predicted = _inputs(design, at, computed, solved)
-    return Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
+    return design, _computed(design, margins, at), at
 
 
 def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
     """Distribution of the margin of a solved bearing; None where it has no margin. Raises InputError where it
     has none at any other inputs.
     """
-    if not solution.converged or first_margin(solution) is None:
-        return None
-    return uncertainty_of(solution, QuickMargins.of(solution))
+    return uncertainty_of(solution, QuickMargins.of(solution)) if _has_margin(solution) else None
+
+
+def _has_margin(solution: BearingSolution) -> bool:
+    """Whether a bearing has a margin, and its films are converged."""
+    return solution.converged and first_margin(solution) is not None
 
 
 def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) -> MarginSpread | None:
     """Distribution of the margin of a solved bearing as ``uncertainty_of_result``, without the shares of its
     inputs, at so many points.
     """
-    if not solution.converged or first_margin(solution) is None:
+    if not _has_margin(solution):
         return None
-    design = Design.of(solution)
-    at = sobol_points(design.width, samples, seed)
-    computed, solved = _computed(design, QuickMargins.of(solution), at)
-    return spread_at(design, np.where(solved, computed, np.nan), at, seed)
+    return spread_at(*_sampled(solution, QuickMargins.of(solution), samples, seed), seed)
 
 
 def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSpread:
@@ -336,12 +343,19 @@ def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSp
     ``computed``, margins without the factors, 0 where surfaces touch, NaN without a result, shape (n,).
     Raises InputError where no point has a result.
     """
-    solved = np.isfinite(computed)
-    if not np.any(solved):
-        raise InputError.worded(None, NO_MARGINS)
-    margins = (computed * np.exp(np.sum(design.log_factors(at), axis=-1)))[solved]
+    margins = _with_factors(design, computed, at)
+    solved = np.isfinite(margins)
+    margins = margins[solved]
     touching, failed = float(np.mean(margins == 0.0)), int(np.count_nonzero(~solved))
     return MarginSpread(margins, touching, failed, len(at), seed, design.left_out)
+
+
+def _with_factors(design: Design, computed: Array, at: Array) -> Array:
+    """Margins with the factors of the design; see ``spread_at``."""
+    if not np.any(np.isfinite(computed)):
+        raise InputError.worded(None, NO_MARGINS)
+    margins: Array = computed * np.exp(np.sum(design.log_factors(at), axis=-1))
+    return margins
 
 
 def without_spread(error: InputError) -> str:
@@ -353,7 +367,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     """Chance of a solved bearing at once, with its own films at all points: what changes them is left out, as
     temperature, load and clearance. None where there is no margin.
     """
-    if not solution.converged or first_margin(solution) is None:
+    if not _has_margin(solution):
         return None
     design = Design.of(solution, beside_films=True)
     at = sobol_points(design.width, samples, SEED)
@@ -365,10 +379,8 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     return _chance(margin * np.exp(np.sum(design.log_factors(at), axis=-1)))
 
 
-def _computed(
-    design: Design, margins: QuickMargins, at: Array, speed: Array | None = None
-) -> tuple[Array, Mask]:
-    """Margins without the factors, 0 where the surfaces touch, and which points have a result, shape (n,).
+def _computed(design: Design, margins: QuickMargins, at: Array, speed: Array | None = None) -> Array:
+    """Margins without the factors, 0 where the surfaces touch, NaN without a result, shape (n,).
 
     ``speed`` of the inner ring at the points [rad/s], by default that of the case.
     """
@@ -377,20 +389,15 @@ def _computed(
         arrays["bearing.inner_speed"] = speed
     many = many_of(margins.quick_case, arrays, len(at))
     margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
-    solved = np.isfinite(margin)
-    if not np.any(solved):
-        raise InputError.worded(None, NO_MARGINS)
-    return margins.margin_factor * design.film_scale(at) * np.where(solved, margin, 0.0), solved
+    return np.asarray(margins.margin_factor * design.film_scale(at) * margin)
 
 
-def _inputs(
-    design: Design, at: Array, computed: Array, solved: Mask
-) -> tuple[tuple[UncertainInput, ...], float]:
+def _inputs(design: Design, computed: Array, at: Array) -> tuple[tuple[UncertainInput, ...], float]:
     """Uncertain inputs with their shares of the variance of ln(margin), the largest first, and the share of
     this variance that is predicted.
     """
     number = design.number
-    separated = solved & (computed > 0.0)
+    separated = computed > 0.0
     own = np.var(design.log_factors(at), axis=0)
     first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
     if number and np.count_nonzero(separated) > 1:
@@ -448,9 +455,8 @@ def margin_band(
     design = Design.of(solution)
     at = sobol_points(design.width, _AT_EACH, seed)
     many = np.tile(at, (speed.size, 1))
-    computed, solved = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
-    margin = computed * np.exp(np.sum(design.log_factors(many), axis=-1))
-    rows = np.where(solved, margin, np.nan).reshape(speed.size, _AT_EACH)
+    computed = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
+    rows = _with_factors(design, computed, many).reshape(speed.size, _AT_EACH)
     known = np.any(np.isfinite(rows), axis=1)
     low, median, high = np.nanquantile(rows[known], INTERVAL, axis=1)
     below = np.nanmean(np.where(np.isfinite(rows[known]), rows[known] < 1.0, np.nan), axis=1)

@@ -73,8 +73,8 @@ def test_the_probability_is_that_of_plain_random_points(usual):
     found = uncertainty_of(solution, margins)
     design = Design.of(solution)
     at = np.random.default_rng(11).random((4000, design.width))
-    computed, solved = _computed(design, margins, at)
-    assert solved.all()
+    computed = _computed(design, margins, at)
+    assert np.isfinite(computed).all()
     below = float(np.mean(computed * np.exp(np.sum(design.log_factors(at), axis=-1)) < 1.0))
     assert 0.05 < found.probability < 0.5
     assert abs(found.probability - below) < found.probability_error + sampling_error(below, 4000)
@@ -172,7 +172,8 @@ def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
     design, rng, below = Design.of(solution), np.random.default_rng(7), 0.0
     for _ in range(20):
         at = rng.random((10000, design.width))
-        computed, _ = _computed(design, margins, at)
+        computed = _computed(design, margins, at)
+        assert np.isfinite(computed).all()
         below += np.mean(computed * np.exp(np.sum(design.log_factors(at), axis=-1)) < 1.0) / 20.0
     assert abs(found.probability - below) < found.probability_error
 
