@@ -136,6 +136,10 @@ class Session:
             self._folder = self._server.scratch.new()
         return self._folder
 
+    def path_of(self, file: str) -> Path | None:
+        """Path of an uploaded file of this session; None where it has none of this name."""
+        return None if self._folder is None else own_file(file, self._folder)
+
     def name_of(self, file: str) -> str:
         """Name of a file as its user knows it."""
         return self._names.get(file, shown_name(file))

@@ -56,8 +56,8 @@ from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as dra
 from ehlectric.figures.breakdown_over_speed import margin_over_speed, rpm_text
 from ehlectric.figures.data import Panel
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.duty_panels import duty_panels, time_axis
-from ehlectric.figures.figure_names import DUTY_FIGURE, in_formats, literal, of_cut
+from ehlectric.figures.duty_panels import cycle_lines, duty_panels, time_axis
+from ehlectric.figures.figure_names import DUTY_FIGURE, in_formats, of_cut
 from ehlectric.figures.style import (
     drawing_of,
     legend_above,
@@ -160,8 +160,7 @@ def duty_lines(result: BearingResult) -> list[str]:
     text = f"{duty.points} operating points, contacts {HOW[duty.contacts]}"
     if duty.interpolation_error is not None:
         text += f", interpolated within {100.0 * duty.interpolation_error:.2g} %"
-    title = textwrap.shorten(result.case.title, 70, placeholder=" ...")
-    return [*filter(None, [title]), f"{literal(Path(duty.source).name)}: {text}"]
+    return cycle_lines(result.case.title, duty.source, text)
 
 
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:

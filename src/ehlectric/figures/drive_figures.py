@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,7 @@ from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel
-from ehlectric.figures.duty_panels import drive_duty_panels
+from ehlectric.figures.duty_panels import cycle_lines, drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
 from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, literal
 from ehlectric.figures.style import (
@@ -160,15 +159,6 @@ def _count(number: float) -> str:
     ('41.2 million', '520')
     """
     return f"{1e-6 * number:.3g} million" if number >= 1e6 else number_text(number)
-
-
-def cycle_lines(result: DriveResult) -> list[str]:
-    """Lines: title of the case, file of the duty cycle and the number of simulated rows."""
-    duty = result.duty
-    assert duty is not None
-    title = textwrap.shorten(result.case.title, 70, placeholder=" ...")
-    text = f"{literal(Path(duty.source).name)}: {duty.points} rows simulated, the others interpolated"
-    return [*filter(None, [title]), text]
 
 
 def case_lines(result: DriveResult) -> list[str]:
@@ -504,8 +494,10 @@ def figure(result: DriveResult, name: str) -> Figure:
     """Figure of a drive. Raises InputError where the drive has no figure of this name."""
     drawing = drawing_of(drive_figures_of(result), name)
     lines = [drawing.finding(result), *case_lines(result)]
-    if drawing.finding is duty_cycle:
-        lines[1:] = cycle_lines(result)
+    duty = result.duty
+    if drawing.finding is duty_cycle and duty is not None:
+        text = f"{duty.points} rows simulated, the others interpolated"
+        lines[1:] = cycle_lines(result.case.title, duty.source, text)
     if drawing.finding is discharges:
         lines.append(arc_line(result))
     with style():

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from ehlectric.bearing.duty_cycle import DutyResult, DutyRows
 from ehlectric.bearing.solution import PARTIAL
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows
 from ehlectric.figures.data import Along, Area, Curve, Panel, is_wide
+from ehlectric.figures.figure_names import literal
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.units import RPM
@@ -30,6 +33,12 @@ _BANDS = (
 
 # Colours and dashes of both bearings of a drive.
 _ENDS, _DASHES = (BLUE, ORANGE), ("solid", "dash")
+
+
+def cycle_lines(title: str, source: str, text: str) -> list[str]:
+    """Lines below a figure over a duty cycle: title of the case, and text about the file of the cycle."""
+    shown = textwrap.shorten(title, 70, placeholder=" ...")
+    return [*filter(None, [shown]), f"{literal(Path(source).name)}: {text}"]
 
 
 def time_axis(rows: DutyRows | DriveDutyRows) -> Along:

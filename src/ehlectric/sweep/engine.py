@@ -228,12 +228,10 @@ def _attempt(
 def _solved(table: Mapping[str, Any], samples: int | None) -> tuple[bool, dict[str, Any], str]:
     """Whether a case converged, its summary, and the reason if it did not."""
     case = swept_case_of_dict(table)
-    if isinstance(case, BearingCase):
-        return _solve_bearing(case, samples)
-    return _SOLVERS[type(case)](case)
+    return _SOLVERS[type(case)](case, samples)
 
 
-def _solve_contact(case: Case) -> tuple[bool, dict[str, Any], str]:
+def _solve_contact(case: Case, _: int | None) -> tuple[bool, dict[str, Any], str]:
     result = solve(case)
     # This warning says what residual was reached and what to try.
     reasons = (warning.text for warning in result.warnings if warning.code == "not-converged")
@@ -250,7 +248,7 @@ def _solve_bearing(case: BearingCase, samples: int | None) -> tuple[bool, dict[s
     return bearing.converged, summary, "a contact of the bearing is not converged"
 
 
-def _solve_drive(case: DriveCase) -> tuple[bool, dict[str, Any], str]:
+def _solve_drive(case: DriveCase, _: int | None) -> tuple[bool, dict[str, Any], str]:
     # Imported here because it loads the compiler of the simulation, which other sweeps do not need.
     from ehlectric.drive.result import solve_drive
 
@@ -260,9 +258,10 @@ def _solve_drive(case: DriveCase) -> tuple[bool, dict[str, Any], str]:
     return drive.converged, summary, "a contact of a bearing is not converged"
 
 
-# Solution of a case of each other kind: whether it converged, its summary, and the reason if it did not.
-_SOLVERS: Mapping[type, Callable[[Any], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
-    {Case: _solve_contact, DriveCase: _solve_drive}
+# Solution of a case of each kind, and of bearings with samples for the probability of breakdown: whether it
+# converged, its summary, and the reason if it did not.
+_SOLVERS: Mapping[type, Callable[[Any, int | None], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
+    {Case: _solve_contact, BearingCase: _solve_bearing, DriveCase: _solve_drive}
 )
 
 

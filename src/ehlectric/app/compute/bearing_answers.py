@@ -310,8 +310,7 @@ def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) ->
 
 
 def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:
-    """Answer about the duty cycle of a bearing, which takes some seconds. Its probability of breakdown has
-    the spread of the margin with quick contacts.
+    """Answer about the duty cycle of a bearing, which takes some seconds.
 
     Raises InputError if the tables are no valid case or name no cycle, or its file cannot be used.
     """
@@ -319,7 +318,7 @@ def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAn
     duty = run_duty(case)
     if duty is None:
         raise InputError.missing("duty.file", "a file of a duty cycle")
-    result = solved_quickly(_without_cycle(table, session))
+    result = solved_quickly(case.model_copy(update={"duty": None}))
     summary = summary_of(result.solution) | {"duty": plain(duty.summary())}
     return shown_duty(duty, summary)
 

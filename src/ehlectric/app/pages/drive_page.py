@@ -20,11 +20,11 @@ from ehlectric.app.form_fields.drive_fields import (
 )
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
-from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import GroupBox, removable
 from ehlectric.app.pages.result_parts import table_html
-from ehlectric.app.session import LARGEST, Session, own_file
+from ehlectric.app.session import LARGEST, Session
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
 # Figures of either answer, in their order, and those that have a whole row.
@@ -154,13 +154,9 @@ class WaveformField:
         self._used.set_visibility(isinstance(file, str))
         if not isinstance(file, str):
             return
-        self._used.text = (
-            f"Measured: {self._session.name_of(file)}. A link cannot hold the file; a download "
-            "with everything has it."
-        )
-        folder = self._session.made_folder
-        if folder is None or own_file(file, folder) is None:
-            self._error.text = "This file was uploaded in another session. Upload it again."
+        self._used.text = f"Measured: {self._session.name_of(file)}. {NOT_IN_LINKS}"
+        if self._session.path_of(file) is None:
+            self._error.text = f"{LOST_FILE}."
 
     async def _take(self, name: str) -> None:
         await self._change({_FILE: name})

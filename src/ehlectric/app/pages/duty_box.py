@@ -10,10 +10,10 @@ from nicegui import ui
 
 from ehlectric.app.answers import DutyAnswer, Note
 from ehlectric.app.calls import DUTY_LOOK
-from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, table_html, told
-from ehlectric.app.session import LARGEST, Session, own_file
+from ehlectric.app.session import LARGEST, Session
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
 
@@ -78,7 +78,7 @@ class DutyField:
     @property
     def lost(self) -> bool:
         """Whether the present inputs name a file that this session does not have."""
-        return self.file is not None and self._path(self.file) is None
+        return self.file is not None and self._session.path_of(self.file) is None
 
     def refresh(self) -> None:
         """Show the file of the present inputs, as after an undo."""
@@ -93,10 +93,10 @@ class DutyField:
             say(self._used, "")
             return
         about, name = self._found.get(file), self._session.name_of(file)
-        link = "A link cannot hold the file; a download with everything has it."
-        say(self._used, f"{name}: {about} {link}" if about else f"The file is {name}. {link}")
+        what = f"{name}: {about}" if about else f"The file is {name}."
+        say(self._used, f"{what} {NOT_IN_LINKS}")
         if self.lost:
-            self.refuse("This file was uploaded in another session. Upload it again, or remove the cycle.")
+            self.refuse(f"{LOST_FILE}, or remove the cycle.")
 
     def refuse(self, error: Exception | str) -> None:
         """Show why there is no cycle; files have the names that their user knows."""
@@ -108,14 +108,12 @@ class DutyField:
 
     def named(self, text: str) -> str:
         """Text in which the path of the file is the name that its user knows."""
-        file = self.file
-        path = None if file is None else self._path(file)
-        return text if file is None or path is None else text.replace(path, self._session.name_of(file))
+        return text if self.file is None else self._with_name(text, self.file)
 
-    def _path(self, file: str) -> str | None:
-        folder = self._session.made_folder
-        path = None if folder is None else own_file(file, folder)
-        return None if path is None else str(path)
+    def _with_name(self, text: str, file: str) -> str:
+        """Text in which the path of an uploaded file is the name that its user knows."""
+        path = self._session.path_of(file)
+        return text if path is None else text.replace(str(path), self._session.name_of(file))
 
     async def _example(self) -> None:
         try:
@@ -131,8 +129,7 @@ class DutyField:
         try:
             self._found[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
         except (InputError, LostError) as error:
-            path = self._path(name) or name
-            self._tell(str(error).replace(path, self._session.name_of(name)))
+            self._tell(self._with_name(str(error), name))
             return
         await self._change({DUTY_FILE: name})
 

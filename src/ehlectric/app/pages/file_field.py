@@ -12,6 +12,10 @@ from ehlectric.app.pages.page_parts import script, weakly
 from ehlectric.app.session import ENDINGS, LARGEST, Session, shown_name
 from ehlectric.errors import InputError, LostError
 
+# What pages say of an uploaded file, and of one that the session does not have.
+NOT_IN_LINKS = "A link cannot hold the file; a download with everything has it."
+LOST_FILE = "This file was uploaded in another session. Upload it again"
+
 
 class UploadField:
     """Field for the file of an instrument, which is stored in the folder of the session.

@@ -12,7 +12,7 @@ from ehlectric.app.answers import SummitsTable, SurfaceAnswer
 from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say, warnings
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
@@ -25,7 +25,7 @@ from ehlectric.app.roughness_keys import (
     RoughKey,
     value_of,
 )
-from ehlectric.app.session import Session, own_file
+from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 
@@ -203,7 +203,7 @@ class RoughnessBox:
 
     def _show_used(self, table: Mapping[str, Any]) -> None:
         file = table.get("file")
-        lost = isinstance(file, str) and own_file(file, self._session.folder) is None
+        lost = isinstance(file, str) and self._session.path_of(file) is None
         with ui.element("div").classes("used"):
             text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
             ui.label(text).props('data-testid="surfaces-used"')
@@ -211,10 +211,9 @@ class RoughnessBox:
             if not lost:
                 ui.button("Change", on_click=lambda: self._reopen(table), color=None).props("flat no-caps")
         if lost:
-            text = "This file was uploaded in another session. Upload it again, or remove the surface."
-            ui.label(text).classes("error").props('role="alert"')
+            ui.label(f"{LOST_FILE}, or remove the surface.").classes("error").props('role="alert"')
         elif isinstance(file, str):
-            ui.label("A link cannot hold the file; a download with everything has it.").classes("hint")
+            ui.label(NOT_IN_LINKS).classes("hint")
 
     def _is_point(self) -> bool:
         return geometry_of(self._session.inputs) == "point"
@@ -301,7 +300,7 @@ class RoughnessBox:
         self._view.classes("old")
         self._use.disable()
         file = self._draft.get("file", "")
-        path = own_file(file, self._session.folder) if file else None
+        path = self._session.path_of(file) if file else None
         inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
         values = dict(self._draft), inputs, folder, self._session.name_of(file) if file else ""
         if path is not None and path.stat().st_size > _LARGE:
