@@ -7,17 +7,8 @@ import pytest
 
 from tests.browser.driving import complete, seen, type_into, wait_for_address
 from tests.browser.outputs import downloaded, fits
+from tests.helpers.cycles import HEADS, ROWS
 from tests.helpers.processes import wait_until
-
-ROWS = """\
-0,0,1800,70,1
-10,15,1800,90,1
-20,900,2500,80,2
-30,1000,1800,80,2
-40,-3000,1200,60,3
-100,6000,900,40,4
-"""
-HEADS = "time [s],speed [rpm],radial load [N],temperature [degC],gear"
 
 
 def cycle(folder, rows=ROWS, name="my <i>cycle.csv"):

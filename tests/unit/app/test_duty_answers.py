@@ -27,19 +27,8 @@ from ehlectric.quantities.units import RPM
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
 from ehlectric.tables.bearing_tables import total_rows
+from tests.helpers.cycles import HEADS, ROWS
 from tests.helpers.each import each
-
-HEADS = "time [s],speed [rpm],radial load [N],temperature [degC],gear"
-
-# Rows that stand still, touch, have a partial film, and full films with a low and with a high margin.
-ROWS = """\
-0,0,1800,70,1
-10,15,1800,90,1
-20,900,2500,80,2
-30,1000,1800,80,2
-40,-3000,1200,60,3
-100,6000,900,40,4
-"""
 
 
 def silent(_done, _of, _text):

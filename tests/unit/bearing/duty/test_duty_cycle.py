@@ -59,19 +59,24 @@ def duty(case):
     return run_duty(case)
 
 
+def at_row(case, rows, k):
+    """Bearing alone at the inputs of a row."""
+    return solve_bearing(
+        case.replace(
+            {
+                "bearing.inner_speed": abs(float(rows.speed[k])),
+                "bearing.radial_load": float(rows.radial_load[k]),
+                "bearing.temperature": float(rows.temperature[k]),
+                "motor.common_mode_voltage": float(rows.common_mode_voltage[k]),
+            }
+        )
+    )
+
+
 def test_each_row_is_the_bearing_alone(case, duty):
     rows = duty.rows
     for k in (2, 3, 4, 6):
-        alone = solve_bearing(
-            case.replace(
-                {
-                    "bearing.inner_speed": abs(float(rows.speed[k])),
-                    "bearing.radial_load": float(rows.radial_load[k]),
-                    "bearing.temperature": float(rows.temperature[k]),
-                    "motor.common_mode_voltage": float(rows.common_mode_voltage[k]),
-                }
-            )
-        )
+        alone = at_row(case, rows, k)
         assert rows.lambda_ratio[k] == pytest.approx(lambda_ratio(alone.solution), rel=1e-8)
         assert rows.capacitance[k] == pytest.approx(alone.capacitance(), rel=1e-8)
         expected = (alone.margin, alone.shaft_voltage, alone.breaks()["first_break"])
@@ -111,16 +116,7 @@ def test_the_probability_of_each_row_is_that_of_its_bearing(case, duty):
     known = np.flatnonzero(np.isfinite(rows.margin))
     assert np.array_equal(known, np.flatnonzero(np.isfinite(rows.breakdown_probability)))
     for k in known.tolist():
-        alone = solve_bearing(
-            case.replace(
-                {
-                    "bearing.inner_speed": abs(float(rows.speed[k])),
-                    "bearing.radial_load": float(rows.radial_load[k]),
-                    "bearing.temperature": float(rows.temperature[k]),
-                    "motor.common_mode_voltage": float(rows.common_mode_voltage[k]),
-                }
-            )
-        )
+        alone = at_row(case, rows, k)
         found = spread_of_result(alone.solution, SAMPLES_OF_ROW, SEED)
         assert rows.breakdown_probability[k] == pytest.approx(found.probability, abs=1e-9)
     parts = rows.breakdown_probability[known] * rows.duration[known]
