@@ -36,16 +36,23 @@ def smooth():
 
 # Film by formula of the present inputs.
 _FORMULA = (
-    "[data-testid=by-formula]:not(.old) "
-    "[data-testid^='number-formula-film_formulas.'][data-testid$='.minimum_thickness']"
+    "[data-testid=answer][aria-busy=false] "
+    "[data-testid^='number-film_formulas.'][data-testid$='.minimum_thickness']"
 )
 _FILM = "film.minimum_thickness"
 
 
 def shown(page, name):
-    """First number that a card of the page shows; the name of its quantity has no digits."""
-    text = page.get_by_test_id(f"number-{name}").inner_text()
-    return float(_NUMBER.search(text.split("\n", 1)[1])[0])
+    """Value that the page shows of a quantity."""
+    text = page.get_by_test_id(f"number-{name}").get_by_test_id("value").inner_text()
+    return float(_NUMBER.search(text)[0])
+
+
+def open_group(page, name):
+    """Open a group of inputs that is folded away."""
+    box = page.get_by_test_id(f"group-{name}")
+    if box.get_attribute("open") is None:
+        box.locator("summary").first.click()
 
 
 def solve(page):
@@ -62,8 +69,8 @@ def is_drawn(page, name):
 
 
 def wait_until_solved(page):
-    page.get_by_test_id("solve-state").filter(has_text="Solved").wait_for()
-    page.locator("[data-testid=solved]:not(.old)").wait_for()
+    page.locator("[data-testid=answer][data-solved=true][aria-busy=false]").wait_for()
+    page.get_by_test_id("how").filter(has_text="Solved").wait_for()
 
 
 @pytest.mark.slow
@@ -115,7 +122,7 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
         page.locator(_FORMULA).wait_for()
         path = downloaded(page, "download-toml", tmp_path)
         checked = json.loads(command("check", path, "--json", folder=tmp_path)[0])
-        assert shown(page, "formula-hertz.max_pressure") == pytest.approx(
+        assert shown(page, "hertz.max_pressure") == pytest.approx(
             1e-9 * checked["hertz"]["max_pressure"], rel=5e-4
         )
 
@@ -139,27 +146,21 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
     table = example("rough_contact", roughness=[rough], grid__nodes=401)
     table["contact"] |= {"load_per_length": "1.57 MN/m", "entrainment_speed": "0.05 m/s"}
     page = open_page(app_server, address_of("/contact", table))
-    page.get_by_test_id("number-formula-film_formulas.pan_hamrock.minimum_thickness").wait_for()
+    page.get_by_test_id("number-film_formulas.pan_hamrock.minimum_thickness").wait_for()
     assert_touching(page, tmp_path, micrometres=0.001)
-    assert "give the resistivity" in page.get_by_test_id("number-spots-asperities.resistance").inner_text()
+    assert "give the resistivity" in page.get_by_test_id("number-asperities.resistance").inner_text()
     for group in ("contact", "voltage-and-breakdown"):
-        box = page.get_by_test_id(f"group-{group}-more")
-        if box.get_attribute("open") is None:
-            box.locator("summary").click()
+        open_group(page, f"{group}-more")
     for key, typed in {"contact.boundary_film": "2", **_OF_SPOTS}.items():
         type_into(page, key, typed)
-    page.get_by_test_id("solve-state").filter(has_text="earlier inputs").wait_for()
+    page.get_by_test_id("how").filter(has_text="earlier inputs").wait_for()
     found = assert_touching(page, tmp_path, micrometres=0.002)["asperities"]
-    assert found["behaviour"] in page.get_by_test_id("number-spots-asperities.behaviour").inner_text()
-    assert shown(page, "spots-asperities.spots") == found["spots"]
-    assert shown(page, "spots-asperities.contact_area") == pytest.approx(
-        1e6 * found["contact_area"], rel=0.05
-    )
-    assert shown(page, "spots-asperities.boundary_friction") == pytest.approx(
-        found["boundary_friction"], rel=0.05
-    )
-    assert shown(page, "spots-asperities.breakdown_5") == pytest.approx(found["breakdown_5"], rel=0.05)
-    assert "Ω" in page.get_by_test_id("number-spots-asperities.resistance").inner_text()
+    assert found["behaviour"] in page.get_by_test_id("number-asperities.behaviour").inner_text()
+    assert shown(page, "asperities.spots") == found["spots"]
+    assert shown(page, "asperities.contact_area") == pytest.approx(1e6 * found["contact_area"], rel=0.05)
+    assert shown(page, "asperities.boundary_friction") == pytest.approx(found["boundary_friction"], rel=0.05)
+    assert shown(page, "asperities.breakdown_5") == pytest.approx(found["breakdown_5"], rel=0.05)
+    assert "Ω" in page.get_by_test_id("number-asperities.resistance").inner_text()
     assert fits(page)
 
 
@@ -179,6 +180,7 @@ def assert_touching(page, folder, *, micrometres):
 
 def upload(page, path):
     """Upload a file of an instrument."""
+    open_group(page, "rough-surfaces")
     page.get_by_test_id("upload-surface").set_input_files(path)
 
 
@@ -346,7 +348,7 @@ def test_a_movie_is_computed_and_its_slider_goes_through_time(open_page, app_ser
 def test_a_movie_is_cancelled_with_its_process(own_server, open_page):
     server = own_server()
     page = open_page(server, address_of("/contact", example("moving_roughness")))
-    page.get_by_test_id("number-formula-film_formulas.pan_hamrock.minimum_thickness").wait_for()
+    page.get_by_test_id("number-film_formulas.pan_hamrock.minimum_thickness").wait_for()
     before = set(server.started())
     page.get_by_test_id("solve-motion").click()
     motion = page.get_by_test_id("motion")

@@ -186,7 +186,7 @@ def test_a_case_with_a_measured_surface_is_downloaded_with_its_file_and_runs(ope
     page.get_by_test_id("field-roughness-rescale_rq").press("Tab")
     page.locator("[data-testid=surface-statistics]", has_text="Rq").filter(has_text="20.0").wait_for()
     page.get_by_test_id("use-surface").click()
-    page.locator("[data-testid=solved].old").wait_for()
+    page.locator("[data-testid=answer][data-solved=false]").wait_for()
     # A film over a rough surface takes longer and is solved on demand.
     solve(page)
     packed = downloaded(page, "download-all", tmp_path)

@@ -7,6 +7,7 @@ import pytest
 
 from tests.browser.driving import loaded_again, seen, type_into, wait_for_number
 from tests.browser.outputs import address_of, downloaded
+from tests.browser.test_contact_page import open_group
 from tests.browser.test_first_page import LOAD, capacitance
 from tests.browser.test_sweep_page import run, sweep, wait_for_points
 from tests.helpers.app_server import kept_port
@@ -20,7 +21,7 @@ PATHS = ("/", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare
 def test_a_page_asks_no_other_host_and_has_no_error(open_page, app_server, path):
     page = open_page(app_server, path)
     page.get_by_test_id("theme").wait_for()
-    answer = page.locator(".js-plotly-plot, [data-testid=by-formula] .value, [data-testid=plan]")
+    answer = page.locator(".js-plotly-plot, [data-testid=panel] .value, [data-testid=plan]")
     assert wait_until(lambda: answer.filter(visible=True).count() > 0)
     page.wait_for_load_state("networkidle")
     hosts = {url.split("/")[2] for url in page.watch.requests if "://" in url}
@@ -41,7 +42,7 @@ def test_a_page_asks_no_other_host_and_has_no_error(open_page, app_server, path)
 )
 def test_a_wrong_link_is_told_in_words(open_page, app_server, path):
     page = open_page(app_server, path)
-    alert = page.locator("[role=alert], .light, [data-testid=notice]").filter(has_text="expected")
+    alert = page.locator("[role=alert], .verdict, [data-testid=notice]").filter(has_text="expected")
     assert wait_until(lambda: alert.filter(visible=True).count() > 0)
     assert "Traceback" not in page.inner_text("body")
     assert "Server error" not in page.inner_text("body")
@@ -107,6 +108,7 @@ def test_a_file_that_is_too_large_is_refused_before_it_is_read(open_page, app_se
         file.truncate(120_000_000)
     page = open_page(app_server, "/contact")
     page.get_by_test_id("upload-surface").wait_for(state="attached")
+    open_group(page, "rough-surfaces")
     # Playwright sends files of at most 50 MB; the field takes larger ones by their path only.
     page.get_by_test_id("upload-surface").set_input_files(large)
     page.get_by_test_id("roughness").get_by_role("alert").filter(has_text="at most").wait_for()

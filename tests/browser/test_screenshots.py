@@ -44,7 +44,7 @@ def contact(page):
 
 
 def contact_point(page):
-    page.get_by_test_id("number-formula-film_formulas.chittenden.minimum_thickness").wait_for()
+    page.get_by_test_id("number-film_formulas.chittenden.minimum_thickness").wait_for()
     page.get_by_test_id("solve").click()
     wait_until_solved(page)
 
@@ -53,7 +53,7 @@ def swept(page):
     page.get_by_test_id("plan").filter(has_text="36 points").wait_for()
     run(page)
     wait_for_points(page, "36 solved")
-    page.get_by_test_id("verdict").locator(".light").wait_for()
+    page.get_by_test_id("number-sweep.margin").wait_for()
 
 
 def compared(page):

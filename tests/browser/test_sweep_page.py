@@ -175,7 +175,7 @@ def test_a_click_on_the_map_opens_the_point_in_a_new_tab(open_page, app_server):
     page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
     run(page)
     wait_for_points(page, "4 solved")
-    page.get_by_test_id("verdict").locator(".light").wait_for()  # Its place is above the map.
+    page.get_by_test_id("number-sweep.margin").wait_for()  # Its place is above the map.
     layer = page.get_by_test_id("map").locator(".nsewdrag")
     layer.scroll_into_view_if_needed()
 
@@ -227,6 +227,6 @@ def test_the_probability_of_breakdown_is_asked_for_by_showing_it(open_page, app_
 
 def choose_result(page, name):
     """Choose what the map shows by the beginning of its name."""
-    page.get_by_test_id("show").click()
-    page.get_by_test_id("show").fill(name)
+    page.get_by_test_id("field-show").click()
+    page.get_by_test_id("field-show").fill(name)
     page.get_by_role("option", name=re.compile(f"^{name}", re.IGNORECASE)).first.click()

@@ -59,17 +59,6 @@ def counts(warnings: Iterable[PageWarning]) -> str:
 
 
 @dataclass(frozen=True)
-class Shown:
-    """Figure of an answer about a contact."""
-
-    name: str  # name for a file and for tests, such as "film-map"
-    title: str  # heading above the figure
-    label: str  # text for a screen reader: what the figure shows, with its main numbers
-    plot: Mapping[str, Any]  # figure of Plotly: data, layout and config, of built-in types
-    caption: str = ""  # what a reader must know of the figure, such as what was left out
-
-
-@dataclass(frozen=True)
 class Line:
     """Line of the table that the command prints; a line without text is a heading."""
 
@@ -267,6 +256,9 @@ class SweepView:
     """State of a sweep, finished or not."""
 
     counts: Mapping[str, int]  # number of points by state
+    judged: Judged
+    deciding: Deciding
+    number: Number | None  # lowest margin; None where no point has one
     chart: Chart  # what the map shows
     figure: Mapping[str, Any]  # the map or the line, for Plotly
     columns: tuple[str, ...]  # heads of the table of points
@@ -274,9 +266,7 @@ class SweepView:
     values: Mapping[str, str]  # names of all numbers that some point has, by dotted key
     # Sentence about the error of films where contacts are not solved; empty where they are.
     accuracy: str = ""
-    level: str = ""  # level of the verdict; empty where no point has a margin
-    text: str = ""
-    warnings: tuple[PageWarning, ...] = field(default=())
+    warnings: tuple[PageWarning, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -290,6 +280,9 @@ class SweepPoint:
 
 # Change of a result that is shown as none: the results have four digits [%].
 _NO_CHANGE = 0.005
+
+# Smallest change that is marked [%].
+_MARKED = 1.0
 
 # Critical speeds are found along speeds that depend on that of the case: a smaller change means nothing [%].
 _SPEED_ACCURACY = 1.0
@@ -339,16 +332,29 @@ class Film:
 
 
 @dataclass(frozen=True)
+class OverSpeed:
+    """Voltage of a bearing over the speed of its inner ring [rpm, V]; None where there is none."""
+
+    name: str
+    speed: tuple[float, ...]
+    voltage: tuple[float | None, ...]
+    own: tuple[float, float | None]  # at the speed of the case
+
+
+@dataclass(frozen=True)
 class Side:
     """Answer about one of two cases."""
 
     kind: str
     title: str
-    level: str  # level of the verdict, without solving
-    text: str
+    judged: Judged  # verdict, without solving
+    deciding: Deciding
+    number: Number | None  # number that decides; None where there is none
     results: tuple[Result, ...]
     warnings: tuple[PageWarning, ...] = ()
     films: tuple[Film, ...] = ()
+    # Voltages of a bearing over its speed; none unless the answer is whole.
+    voltages: tuple[OverSpeed, ...] = ()
     method: str = ""  # how the results were obtained, and their error
 
 
@@ -389,6 +395,13 @@ class Effect:
     def _accuracy(self) -> float:
         """Change that is none, within the accuracy of the method and of the shown digits [%]."""
         return _SPEED_ACCURACY if self.either.unit == "rpm" else _NO_CHANGE
+
+    @property
+    def large(self) -> bool:
+        """Whether it is marked among the others: it is no number, or changes by 1 % or more."""
+        if self.change is None:
+            return not self.same
+        return abs(self.change) >= _MARKED
 
     @property
     def words(self) -> str:
@@ -576,7 +589,7 @@ class Figure:
     title: str
     label: str  # what it shows, for those who do not see it
     plot: Mapping[str, Any]  # data and layout of Plotly
-    table: Table
+    table: Table | None = None  # its numbers; None for a map, and for curves of hundreds of nodes
     caption: str = ""  # what a reader must know of the figure
 
 
@@ -593,7 +606,7 @@ class Difference:
 
 @dataclass(frozen=True, kw_only=True)
 class PageAnswer:
-    """Parts that the answers about a bearing and about a drive share."""
+    """Parts that the answers about a bearing, a drive and a contact share."""
 
     title: str
     judged: Judged  # the verdict in its parts
@@ -603,12 +616,13 @@ class PageAnswer:
     lines: tuple[Line, ...]  # all rows that the command prints
     warnings: tuple[PageWarning, ...]  # warnings, with the numbers of ``shown`` that they concern
     # Of a bearing "load" and "film", and with a whole answer "breakdown" and "capacitance" over the speed; of
-    # a simulated drive "voltages", "histogram", "spectrum", "remedies", "discharge-voltage" and others. Empty
-    # where the films are not converged.
+    # a simulated drive "voltages", "histogram", "spectrum", "remedies", "discharge-voltage" and others; of a
+    # solved contact "profiles" and "section", or "surface" and maps. Empty where the films are not converged.
     figures: Mapping[str, Figure] = field(default_factory=dict)
     seconds: float = 0.0  # computing time [s]
     # Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
     whole: bool = True
+    solvable: bool = True  # whether the page offers its solution, which takes longer
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""
@@ -646,27 +660,6 @@ class BearingAnswer(PageAnswer):
 
 
 @dataclass(frozen=True)
-class ContactAnswer:
-    """Parts that the answers about a contact before and after its solution share."""
-
-    title: str
-    geometry: str  # "line" or "point"
-    level: str  # level of the verdict, "grey" where there is none
-    text: str  # the verdict in sentences
-    numbers: tuple[Number, ...]  # main numbers; none where a solved film is not converged
-    rows: tuple[Line, ...]  # table that the command prints
-    warnings: tuple[PageWarning, ...]  # warnings that concern no single one of the numbers
-
-
-@dataclass(frozen=True)
-class ContactCheck(ContactAnswer):
-    """Answer about a contact before its film is solved, as of ``ehlectric check``."""
-
-    summary: Mapping[str, Any] = field(repr=False)  # numbers in SI units with the keys of the command
-    quick: bool = False  # whether the contact is solved so fast that the page need not be asked to
-
-
-@dataclass(frozen=True)
 class Reach:
     """Range of the points through which a point contact can be cut, and the first one."""
 
@@ -678,17 +671,15 @@ class Reach:
     first: str = "the smallest film"
 
 
-@dataclass(frozen=True)
-class ContactView(ContactAnswer):
-    """Solved contact."""
+@dataclass(frozen=True, kw_only=True)
+class ContactAnswer(PageAnswer):
+    """Answer about a contact: before its film is solved, as of ``ehlectric check``, or solved."""
 
-    converged: bool  # whether the film converged; if not, no number may be used
-    figures: tuple[Shown, ...] = field(repr=False)
-    # Figures of the cuts through one point of a point contact.
-    cuts: tuple[Shown, ...] = field(default=(), repr=False)
-    reach: Reach | None = None  # range of these points; None for a line contact
-    # Numbers of the spots in which the surfaces touch; none where they do not touch.
-    spots: tuple[Number, ...] = ()
+    solved: bool
+    converged: bool = True  # whether a solved film converged; if not, no number may be used
+    # Figures of the cuts through one point of a point contact, and the range of these points.
+    cuts: Mapping[str, Figure] = field(default_factory=dict, repr=False)
+    reach: Reach | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,12 +9,11 @@ from typing import Any, Generic, TypeVar, cast
 
 from ehlectric.app.answers import (
     BearingAnswer,
-    ContactCheck,
-    ContactView,
+    ContactAnswer,
     DriveAnswer,
     DutyAnswer,
+    Figure,
     MotionAnswer,
-    Shown,
     Side,
     SurfaceAnswer,
     SweepChoices,
@@ -67,10 +66,10 @@ DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")
 DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
 
 # A contact.
-CONTACT_CHECK: Call[ContactCheck] = Call("contact_answers.check_contact")
-CONTACT_SOLVED: Call[ContactView] = Call("contact_answers.solve_contact")
-CONTACT_AT_ONCE: Call[ContactView] = Call("contact_answers.solve_at_once")
-CONTACT_CUTS: Call[tuple[Shown, ...]] = Call("contact_answers.cuts_of")
+CONTACT_CHECK: Call[ContactAnswer] = Call("contact_answers.check_contact")
+CONTACT_AT_ONCE: Call[ContactAnswer] = Call("contact_answers.solved_if_quick")
+CONTACT_SOLVED: Call[ContactAnswer] = Call("contact_answers.solve_contact")
+CONTACT_CUTS: Call[Mapping[str, Figure]] = Call("contact_answers.cuts_of")
 
 # Roughness and motion of a contact.
 SURFACE: Call[SurfaceAnswer] = Call("surface_answers.look")

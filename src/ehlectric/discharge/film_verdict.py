@@ -32,6 +32,8 @@ class Verdict:
         The answer in whole sentences, with the numbers that decide and the assumptions behind them.
     margin : float or None
         Breakdown voltage / applied voltage, dimensionless; None where there is none.
+    interval : tuple of float or None
+        Smallest and largest margin that are possible, dimensionless; None where none is stated.
 
     Examples
     --------
@@ -42,6 +44,7 @@ class Verdict:
     level: Level
     text: str
     margin: float | None = None
+    interval: tuple[float, float] | None = None
 
     @property
     def lead(self) -> str:
@@ -253,7 +256,8 @@ def contact_verdict(
         span = f" at a probability of 63.2 %, {lowest:.3g} to {highest:.3g} V from 5 to 95 %"
         spread = f", {ratio_text(margin * lowest / at)} to {ratio_text(margin * highest / at)}"
     weakest, strongest = strength_interval(margin)
-    level = level_of(min(low, weakest), max(margin * (1.0 + off), strongest))
+    interval = min(low, weakest), max(margin * (1.0 + off), strongest)
+    level = level_of(*interval)
     doubts += filter(None, [strength_doubt(discharge, margin)])
     if doubts and level == "green":
         level = "yellow"
@@ -267,7 +271,7 @@ def contact_verdict(
         f"{lead}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
         f"(margin {ratio_text(margin)}{spread})."
     )
-    return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin)
+    return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin, interval)
 
 
 def weibull_part(shape: float, probability: float) -> float:

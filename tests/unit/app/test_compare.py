@@ -3,16 +3,19 @@
 import tomllib
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 from ehlectric import BearingCase, solve
 from ehlectric.app.answers import Effect, Result, effects, in_both, input_rows, only_in
 from ehlectric.app.charts import compare_charts as figures
+from ehlectric.app.compute.bearing_answers import judged
 from ehlectric.app.compute.compare_answers import side, whole_side
-from ehlectric.app.compute.contact_answers import check_contact
+from ehlectric.app.compute.contact_answers import check_contact, contact_case
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
 from ehlectric.errors import InputError
+from ehlectric.runs.meaning import check
 from tests.helpers.bearings import numbers_of
 from tests.helpers.places import EXAMPLES
 
@@ -53,7 +56,9 @@ def test_results_are_those_of_the_package(both, solved):
         assert found[name].value == summary[key]
         assert found[name].main
     whole = whole_side(FAST.table)
-    assert (whole.level, whole.text) == (solved.verdict.level, solved.verdict.text)
+    assert whole.judged == judged(solved.verdict)
+    assert whole.number.key == whole.deciding.key == "bearing.margin"
+    assert float(whole.number.text) == pytest.approx(summary["margin"], rel=1e-3)
     assert {told.text for told in whole.warnings} == {warning.text for warning in solved.warnings}
 
 
@@ -150,11 +155,13 @@ def test_contacts_are_compared_by_formula(tmp_path):
     assert found["minimum film (Pan-Hamrock)"].change == pytest.approx(100.0 * (2.0**0.694 - 1.0), rel=1e-3)
     alone = check_contact(case.table, str(tmp_path))
     both = side(case.table)
-    assert (both.level, both.text) == (alone.level, alone.text)
+    assert (both.judged, both.deciding) == (alone.judged, alone.deciding)
+    assert both.number.text == alone.number(alone.deciding.key).text
     broken = {row.name: row for row in both.results}["breakdown voltage by formula"]
     assert broken.main
     assert (broken.group, broken.bound) == ("breakdown", "≤")
-    assert broken.value == alone.summary["breakdown_by_formula"]["breakdown_voltage"]
+    expected = check(contact_case(case.table)).summary["breakdown_by_formula"]
+    assert broken.value == expected["breakdown_voltage"]
 
 
 def test_a_wrong_case_is_an_error_of_its_key():
@@ -189,10 +196,6 @@ def test_tables_escape_what_a_user_typed(both):
 
 
 def test_figures_hold_the_numbers_of_the_tables(both):
-    main = [effect for effect in effects(*both) if effect.either.main]
-    bars = figures.changes(main)["data"][0]
-    words = [name.partition("<br>")[2] for name in bars["y"]]
-    assert words[::-1] == [effect.words for effect in main if effect.change is not None]
     traces = figures.films(both)["data"]
     assert [trace["name"] for trace in traces] == [
         "A, inner ring",
@@ -200,6 +203,31 @@ def test_figures_hold_the_numbers_of_the_tables(both):
         "B, inner ring",
         "B, outer ring",
     ]
+    assert figures.over_speed(both)["data"] == [], "voltages over the speed follow with the whole answer"
     thinnest = min(value for trace in traces[:2] for value in trace["r"])
     shown = {row.name: row for row in both[0].results}["minimum film, inner ring"]
     assert thinnest == pytest.approx(1e6 * shown.value)
+
+
+@pytest.mark.slow
+def test_voltages_over_the_speed_are_those_of_the_package_at_the_speed_of_each_case(solved):
+    sides = [whole_side(one.table) for one in (FAST, SLOW)]
+    data = figures.over_speed(sides)["data"]
+    curves = {one["name"]: one for one in data if one["mode"] == "lines"}
+    assert list(curves) == [
+        f"{name}, {voltage}" for name in "AB" for voltage in ("first breakdown voltage", "shaft voltage")
+    ]
+    summary, first = numbers_of(solved)["bearing"], curves["A, first breakdown voltage"]
+    # A curve goes through the voltage at the speed of its case, 3000 rpm.
+    near = np.interp(3000.0, first["x"], first["y"])
+    assert near == pytest.approx(summary["first_break"], rel=1e-2)
+    assert next(one["y"] for one in data if one["mode"] != "lines") == [summary["first_break"]]
+
+
+def test_only_changes_of_a_percent_are_marked():
+    def marked(change, first="1", second="2"):
+        return Effect(Result("g", "n", 1.0, first), Result("g", "n", 1.0, second), change).large
+
+    assert [marked(change) for change in (-55.0, 1.0, 0.99, -0.04)] == [True, True, False, False]
+    assert marked(None)
+    assert not marked(None, "full film", "full film")

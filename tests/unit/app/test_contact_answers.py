@@ -9,12 +9,12 @@ import pytest
 from ehlectric import Case
 from ehlectric.app.compute.answer_parts import concerned
 from ehlectric.app.compute.contact_answers import (
+    answer_of,
     check_contact,
     contact_case,
     cuts_of,
-    solve_at_once,
     solve_contact,
-    view_of,
+    solved_if_quick,
 )
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.form_fields.field import written_text
@@ -50,8 +50,19 @@ SMALL = {"nodes": 65}
 
 
 def number(answer, key):
-    (found,) = (one for one in answer.numbers if one.key == key)
+    (found,) = (one for one in answer.shown if one.key == key)
     return found
+
+
+def solved_at_once(table, folder):
+    """Solved answer of a contact on a small grid, with the files of its session in a folder."""
+    return answer_of(solve(contact_case(table, folder)))
+
+
+def words(answer):
+    """All sentences of a verdict."""
+    judged = answer.judged
+    return " ".join([judged.lead, judged.meaning, judged.numbers, *judged.reasons, judged.assumptions])
 
 
 @pytest.mark.parametrize(
@@ -60,27 +71,31 @@ def number(answer, key):
 def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
     answer = check_contact(table_of(name), str(tmp_path))
     expected = check(Case.from_toml(EXAMPLES / f"{name}.toml"))
-    assert answer.summary == expected.summary
-    assert [(row.name, row.text) for row in answer.rows] == [(row.name, row.text) for row in expected.rows]
+    assert [(row.name, row.text) for row in answer.lines] == [(row.name, row.text) for row in expected.rows]
     assert float(number(answer, "hertz.max_pressure").text) == pytest.approx(
         expected.summary["hertz"]["max_pressure"] / 1e9, rel=1e-3
     )
-    assert answer.quick == quick
-    assert any("(Pan-Hamrock)" in one.label or "(Chittenden" in one.label for one in answer.numbers)
+    # A contact that is solved at once follows by itself; another one is solved on request.
+    assert (not answer.whole, answer.solvable) == (quick, not quick)
+    assert solved_if_quick(table_of(name), str(tmp_path)).solved == quick
+    assert any("(Pan-Hamrock)" in one.label or "(Chittenden" in one.label for one in answer.shown)
 
 
 def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
     # examples/discharge.toml: margin 1.03, which 40 % of film and 20 % of strength take across 1.
     answer = check_contact(table_of("discharge"), str(tmp_path))
-    assert answer.level == "yellow"
-    assert "by formula" in answer.text
+    assert answer.judged.level == "yellow"
+    assert "By formula" in words(answer)
+    # 40 % of the film and 20 % of the strength, either way.
+    margin = float(number(answer, answer.deciding.key).text)
+    ends = (margin * 0.8 / 1.4, margin * 1.2 / 0.6)
+    assert answer.deciding.gauge.interval == pytest.approx(ends, rel=5e-3)
     strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
     # Far above 1; a film by formula is an upper bound of a real one, and the light says so.
     answer = check_contact(strong, str(tmp_path))
-    light = light_of(answer.level, answer.text)
-    assert (light.level, "ideal film" in light.words) == ("green", True)
+    assert (answer.judged.level, "ideal film" in answer.judged.lead) == ("green", True)
     weak = table_of("discharge", discharge={"dielectric_strength": "3 V/um"})
-    assert check_contact(weak, str(tmp_path)).level == "red"
+    assert check_contact(weak, str(tmp_path)).judged.level == "red"
 
 
 @pytest.mark.slow
@@ -94,7 +109,7 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
     case = read_case(EXAMPLES / f"{name}.toml")
     outcome = run_contact(case.replace({"grid.nodes": 65}) if grid else case, tmp_path / "command")
     expected = [(row.name, row.text) for row in result_rows(outcome.result) if row.name != "computing time"]
-    assert [(row.name, row.text) for row in view.rows if row.name != "computing time"] == expected
+    assert [(row.name, row.text) for row in view.lines if row.name != "computing time"] == expected
     film, field = outcome.summary["film"], outcome.summary["field"]
     capacitance = ("capacitance_per_length", "F/m") if name == "line_contact" else ("capacitance", "F")
     shown = {
@@ -108,35 +123,36 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
         assert to_si(f"{one.text} {one.unit}", unit) == pytest.approx(value, rel=1e-3, abs=0.0), key
     assert {path.name for path in (tmp_path / "app").iterdir()} >= {"summary.json", "result.nc", "film.csv"}
     assert told[-1] == (0, 0, "drawing")
-    assert view_of(load(tmp_path / "app")).numbers == view.numbers
+    assert answer_of(load(tmp_path / "app")).shown == view.shown
     assert pickle.loads(pickle.dumps(view)) == view
 
 
 def test_answer_without_files_is_that_with_files(tmp_path):
     table = table_of("discharge", grid={"nodes": 401})
-    at_once = solve_at_once(table, str(tmp_path))
+    at_once = solved_at_once(table, str(tmp_path))
     assert not list(tmp_path.iterdir())
     stored = solve_contact(table, str(tmp_path), str(tmp_path / "line"), silent)
-    assert at_once.numbers == stored.numbers
+    assert at_once.shown == stored.shown
     assert at_once.figures == stored.figures
 
 
 def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(tmp_path):
     strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
-    view = solve_at_once(strong, str(tmp_path))
+    view = solved_at_once(strong, str(tmp_path))
     assert number(view, "discharge.breakdown_voltage").bound == "≤"
     solve_contact(strong, str(tmp_path), str(tmp_path / "result"), silent)
     verdict = load(tmp_path / "result").verdict
-    assert (view.level, view.text) == (verdict.level, verdict.text)
-    light = light_of(view.level, view.text)
-    assert (light.level, light.bound) == ("green", "upper bound")
-    assert "ideal film" in light.words
+    light = light_of(verdict.level, verdict.text)
+    judged = view.judged
+    assert (judged.level, judged.bound, judged.lead) == ("green", "upper bound", light.words)
+    assert "ideal film" in judged.lead
+    assert f"{judged.numbers} {judged.assumptions}" == light.rest
 
 
 def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
     answer = check_contact(table_of("discharge"), str(tmp_path))
     assert number(answer, "breakdown_by_formula.breakdown_voltage").bound == "≤"
-    assert "Upper bound" in answer.text
+    assert "Upper bound" in answer.judged.assumptions
 
 
 @pytest.mark.parametrize(
@@ -152,12 +168,13 @@ def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
 def test_missing_verdict_by_formula_says_why(discharge, told, tmp_path):
     table = table_of("ball_contact") | ({} if discharge is None else {"discharge": discharge})
     answer = check_contact(table, str(tmp_path))
-    assert (answer.level, told in answer.text) == ("grey", True)
+    assert (answer.judged.level, told in words(answer)) == ("grey", True)
 
 
 def test_contact_without_a_strength_is_told_to_give_one(tmp_path):
-    view = solve_at_once(table_of("line_contact", grid={"nodes": 401}), str(tmp_path))
-    assert "dielectric strength" in view.text
+    view = solved_at_once(table_of("line_contact", grid={"nodes": 401}), str(tmp_path))
+    assert "dielectric strength" in words(view)
+    assert view.deciding.key == "film.minimum_thickness"
     # The examples have potentials of -1 V and 1 V.
     assert "2 V" in number(view, "field.max_strength").note
 
@@ -166,17 +183,17 @@ def solved_coarsely(tmp_path):
     table = table_of(
         "ball_contact", grid=SMALL | {"wedge": "second-order"}, discharge={"dielectric_strength": "15 V/um"}
     )
-    return solve_at_once(table, str(tmp_path))
+    return solved_at_once(table, str(tmp_path))
 
 
 def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     view = solved_coarsely(tmp_path)
-    assert (view.level, "must not be used" in view.text) == ("grey", True)
-    assert len(view.numbers) == 6
-    for one in view.numbers:
+    assert (view.judged.level, "must not be used" in words(view)) == ("grey", True)
+    assert len(view.shown) == 7
+    for one in view.shown:
         assert "severe" in [told.severity for told in one.warnings], one.key
     severe = [set(cause.concerns) for cause in CODES.values() if cause.severity == "severe"]
-    shown = {one.key for one in view.numbers}
+    shown = {one.key for one in view.shown}
     assert severe
     assert all(shown <= keys for keys in severe)
 
@@ -184,10 +201,10 @@ def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
 @pytest.mark.slow
 def test_quantities_that_warnings_concern_are_numbers_of_a_contact(tmp_path):
     numbers = [
-        *solved_coarsely(tmp_path).numbers,
-        *check_contact(table_of("ball_contact"), str(tmp_path)).numbers,
-        *view_of(solve(touching_case("line"))).spots,
-        *view_of(solve(Case.from_dict(HOT_LINE))).numbers,
+        *solved_coarsely(tmp_path).shown,
+        *check_contact(table_of("ball_contact"), str(tmp_path)).shown,
+        *answer_of(solve(touching_case("line"))).shown,
+        *answer_of(solve(Case.from_dict(HOT_LINE))).shown,
     ]
     tables = ("hertz.", "film.", "field.", "asperities.", "discharge.")
     named = {key for cause in CODES.values() for key in cause.concerns if key.startswith(tables)}
@@ -201,10 +218,9 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
         inputs = switched(contact_start("line"), contact_start("point"))
     else:
         inputs = contact_start(geometry)
-    view = solve_at_once(dict(inputs.table), str(tmp_path))
-    told = [*view.warnings, *(one for shown in view.numbers for one in shown.warnings)]
-    assert [one.code for one in told if one.severity != "note"] == []
-    assert view.level != "grey"
+    view = solved_at_once(dict(inputs.table), str(tmp_path))
+    assert [one.code for one in view.warnings if one.severity != "note"] == []
+    assert view.judged.level != "grey"
 
 
 def touching_case(geometry, **tables):
@@ -222,21 +238,16 @@ def touching_case(geometry, **tables):
     return Case.from_dict(table)
 
 
-def spot(view, key):
-    (found,) = (one for one in view.spots if one.key == key)
-    return found
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     discharge = {"dielectric_strength": "15 V/um"} | ({"length": "10 mm"} if geometry == "line" else {})
     result = solve(touching_case(geometry, discharge=discharge, electric={"resistivity": "2.2e-7 ohm m"}))
-    view, summary = view_of(result), result.summary()["asperities"]
+    view, summary = answer_of(result), result.summary()["asperities"]
     size, per = ("µm", 1e6) if geometry == "line" else ("µm²", 1e12)
     capacitance = ("nF/m", 1e9) if geometry == "line" else ("pF", 1e12)
-    assert spot(view, "asperities.behaviour").text == summary["behaviour"]
-    assert spot(view, "asperities.spots").text == str(summary["spots"])
+    assert number(view, "asperities.behaviour").text == summary["behaviour"]
+    assert number(view, "asperities.spots").text == str(summary["spots"])
     for key, name, unit, factor in (
         ("asperities.contact_area", "contact_area", size, per),
         ("asperities.boundary_friction", "boundary_friction", "", 1.0),
@@ -245,15 +256,15 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
         ("asperities.breakdown_5", "breakdown_5", "V", 1.0),
         ("asperities.breakdown_50", "breakdown_50", "V", 1.0),
     ):
-        shown = spot(view, key)
+        shown = number(view, key)
         assert (shown.unit, float(shown.text)) == (unit, pytest.approx(factor * summary[name], rel=0.05)), key
     # The load share has the digits that the grid leaves, and its change beside it.
     share, before = summary["load_share"], summary["load_share_coarser"]
-    shown = spot(view, "asperities.load_share")
+    shown = number(view, "asperities.load_share")
     assert float(shown.text) == pytest.approx(100.0 * share, abs=max(100.0 * abs(share - before), 0.1))
     assert f"{100.0 * abs(share - before):.2g} " in shown.note
     prefixes = {"Ω": 1.0, "mΩ": 1e-3, "µΩ": 1e-6, "kΩ": 1e3}
-    shown = spot(view, "asperities.resistance")
+    shown = number(view, "asperities.resistance")
     assert float(shown.text) * prefixes[shown.unit] == pytest.approx(summary["resistance"], rel=0.05)
     assert shown.bound == ("≤" if geometry == "line" else "")
 
@@ -262,7 +273,7 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
 def test_resistance_of_spots_says_what_it_needs():
     metal = {"resistivity": "2.2e-7 ohm m"}
     for given, told in (({}, "resistivity"), (metal, "length of the contact")):
-        shown = spot(view_of(solve(touching_case("line", electric=given))), "asperities.resistance")
+        shown = number(answer_of(solve(touching_case("line", electric=given))), "asperities.resistance")
         assert (shown.text, told in shown.note) == ("not known", True)
 
 
@@ -270,10 +281,10 @@ def test_resistance_of_spots_says_what_it_needs():
 def test_breakdown_around_spots_by_a_weibull_law():
     law = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1e-8 m^2"}
     result = solve(touching_case("point", discharge={"weibull": law}, electric={"potential_2": "1 V"}))
-    view, summary = view_of(result), result.summary()["asperities"]
-    shown = spot(view, "asperities.breakdown_voltage")
+    view, summary = answer_of(result), result.summary()["asperities"]
+    shown = number(view, "asperities.breakdown_voltage")
     assert float(shown.text) == pytest.approx(summary["breakdown_voltage"], rel=0.05)
-    shown = spot(view, "asperities.breakdown_probability")
+    shown = number(view, "asperities.breakdown_probability")
     assert float(shown.text) == pytest.approx(100.0 * summary["breakdown_probability"], rel=0.05)
 
 
@@ -283,7 +294,7 @@ def test_surfaces_that_do_not_touch_have_no_spots():
     assert result.rough
     assert result.converged
     assert result.spots is None
-    assert view_of(result).spots == ()
+    assert not [one for one in answer_of(result).shown if one.key.startswith("asperities.")]
 
 
 @each("geometry", ["line", "point"])
@@ -318,22 +329,22 @@ def test_length_of_a_line_contact_is_left_when_it_becomes_a_point():
 
 def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
     table = table_of("ball_contact", grid={"nodes": 129, "inlet": -2.5, "side": 2.0})
-    view = solve_at_once(table, str(tmp_path))
-    codes = {one.key: [told.code for told in one.warnings] for one in view.numbers}
+    view = solved_at_once(table, str(tmp_path))
+    codes = {one.key: [told.code for told in one.warnings] for one in view.shown}
     (code,) = {code for found in codes.values() for code in found if code.startswith("domain-")}
     assert code in codes["film.minimum_thickness"]
     assert code in codes["film.central_thickness"]
-    assert code not in [told.code for told in view.warnings]
+    assert code in [told.code for told in view.warnings]
 
 
 def test_film_that_did_not_converge_has_no_numbers():
     case = Case.from_toml(EXAMPLES / "line_contact.toml").replace({"grid.nodes": 401})
     result = solve(case)
     bad = replace(result, film=replace(result.film, status="stalled"))
-    view = view_of(bad)
-    assert (view.converged, view.level, view.numbers, view.cuts) == (False, "grey", (), ())
-    assert "do not use" in view.text
-    assert view.rows[0].alarm
+    view = answer_of(bad)
+    assert (view.converged, view.judged.level, view.shown, view.cuts) == (False, "grey", (), {})
+    assert "do not use" in words(view).lower()
+    assert view.lines[0].alarm
 
 
 @each(
@@ -371,7 +382,7 @@ def test_cuts_need_a_point_contact(tmp_path):
         cuts_of(str(tmp_path / "line"), 0.0, 0.0)
 
 
-def test_change_of_geometry_keeps_what_both_have(tmp_path):
+def test_change_of_geometry_keeps_what_both_have():
     line, ball = Inputs(table_of("discharge")), Inputs(table_of("ball_contact"))
     point = switched(line.changed({"contact.entrainment_speed": "3 m/s"}), ball)
     assert geometry_of(point) == "point"
@@ -380,11 +391,11 @@ def test_change_of_geometry_keeps_what_both_have(tmp_path):
     assert point.value("contact.load") == "20 N"
     assert point.value("contact.load_per_length") is None
     assert point.value("grid.error") == "2 %"
-    assert check_contact(dict(point.table), str(tmp_path)).geometry == "point"
+    assert contact_case(point.table).contact.geometry == "point"
     back = switched(point, line)
     assert back.value("contact.load_per_length") == "1.57 MN/m"
     assert back.value("discharge.length") == line.value("discharge.length")
-    assert check_contact(dict(back.table), str(tmp_path)).geometry == "line"
+    assert contact_case(back.table).contact.geometry == "line"
 
 
 @pytest.mark.parametrize("geometry", ["line", "point"])

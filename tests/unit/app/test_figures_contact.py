@@ -10,7 +10,7 @@ from ehlectric import Case
 from ehlectric.app.charts.line_charts import line_figures
 from ehlectric.app.charts.plotly_panels import values
 from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
-from ehlectric.app.compute.contact_answers import view_of
+from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.contact.solver import solve
 from ehlectric.figures.contact_profiles import Line, heat
 from tests.conftest import PAPER_CONTACT
@@ -54,8 +54,8 @@ def touching_point():
     return solve(case.replace(roughness=({**_ROUGH, "rq": 1.5e-7, "correlation_length": 15e-6},)))
 
 
-def by_name(figures):
-    return {shown.name: shown for shown in figures}
+def all_of(*drawn):
+    return [shown for figures in drawn for shown in figures.values()]
 
 
 def trace(shown, name):
@@ -73,7 +73,7 @@ def stopped(result):
 
 
 def test_curves_of_a_line_contact_keep_their_extremes(line):
-    shown = by_name(line_figures(line))["profiles"]
+    shown = line_figures(line)["profiles"]
     written(shown)
     film, field = line.film, line.field
     assert max(trace(shown, "pressure")["y"]) == pytest.approx(film.max_pressure / 1e9, rel=1e-6)
@@ -88,14 +88,14 @@ def test_curves_of_a_line_contact_keep_their_extremes(line):
 
 
 def test_panels_share_the_axis_that_is_zoomed(line):
-    layout = by_name(line_figures(line))["profiles"].plot["layout"]
+    layout = line_figures(line)["profiles"].plot["layout"]
     assert [name for name in layout if name.startswith("xaxis")] == ["xaxis"]
     assert {layout[f"yaxis{k}"]["anchor"] for k in ("", "2", "3")} == {"x"}
     assert layout["xaxis"]["title"]["text"] == "x [µm]"
 
 
 def test_map_of_the_film_has_the_field_and_its_maximum(line):
-    shown = by_name(line_figures(line))["section"]
+    shown = line_figures(line)["section"]
     heat = written(shown)["data"][0]
     assert heat["zmax"] == pytest.approx(line.field.max_strength / 1e6)
     drawn = [value for row in heat["z"] for value in row if value is not None]
@@ -107,17 +107,17 @@ def test_map_of_the_film_has_the_field_and_its_maximum(line):
 
 @pytest.mark.slow
 def test_figures_say_in_words_what_they_show(line, point):
-    for shown in (*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)):
+    for shown in all_of(line_figures(line), point_figures(point), point_cuts(point, 0.0, 0.0)):
         assert shown.title
         assert shown.label
         assert shown.caption
-    text = by_name(line_figures(line))["profiles"].label
+    text = line_figures(line)["profiles"].label
     assert f"{1e6 * line.film.minimum_thickness:.4g} µm" in text
     assert f"{1e-6 * line.field.max_strength:.4g} V/µm" in text
 
 
 def test_maps_of_a_point_contact_keep_their_extremes(point):
-    figures = by_name(point_figures(point))
+    figures = point_figures(point)
     film, pressure, field = (written(figures[name])["data"][0] for name in _MAPS)
     assert np.min(film["z"]) == pytest.approx(point.film.minimum_thickness * 1e6, rel=1e-4)
     assert np.max(pressure["z"]) == pytest.approx(point.film.max_pressure / 1e9, rel=1e-4)
@@ -133,7 +133,7 @@ _MAPS = ("film-map", "pressure-map", "field-map")
 
 def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatch):
     monkeypatch.setattr("ehlectric.app.charts.point_charts._MOST", 12)
-    shown = by_name(point_figures(point))["surface"]
+    shown = point_figures(point)["surface"]
     surface = written(shown)["data"][0]
     gap = point.field.z[:, :, -1] - point.field.z[:, :, 0]
     assert np.shape(surface["z"]) == np.shape(surface["surfacecolor"])
@@ -149,13 +149,13 @@ def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatc
 
 def test_cuts_run_through_the_nodes_nearest_to_the_point(point):
     at = point.film.minimum_position
-    cuts = by_name(point_cuts(point, *at))
+    cuts = point_cuts(point, *at)
     for name in ("cut-x", "cut-y"):
         film = trace(cuts[name], "film thickness")
         assert min(film["y"]) == pytest.approx(1e6 * point.film.minimum_thickness, rel=1e-6)
     field = trace(cuts["cut-x"], "maximum field across the film")
     x, y = point.field.max_strength_position
-    through = by_name(point_cuts(point, x, y))["cut-x"]
+    through = point_cuts(point, x, y)["cut-x"]
     assert max(trace(through, "maximum field across the film")["y"]) == pytest.approx(
         point.field.max_strength / 1e6, rel=1e-6
     )
@@ -166,7 +166,7 @@ def test_cuts_run_through_the_nodes_nearest_to_the_point(point):
 
 
 def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
-    cuts = by_name(point_cuts(long_point, 0.0, 0.0))
+    cuts = point_cuts(long_point, 0.0, 0.0)
     conditions = long_point.conditions
     for name, edge in (("cut-x", conditions.semi_axis_x), ("cut-y", conditions.semi_axis_y)):
         hertz = trace(cuts[name], "Hertz pressure")
@@ -178,7 +178,7 @@ def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
 def test_dashed_lines_of_a_cut_are_the_edges_of_the_dry_contact_there(long_point):
     b, a = long_point.conditions.semi_axes
     for off in (0.0, 0.6, -0.8):
-        cuts = by_name(point_cuts(long_point, off * b, off * a))
+        cuts = point_cuts(long_point, off * b, off * a)
         for name, along, across in (
             ("cut-x", long_point.film.x / b, long_point.film.y / a),
             ("cut-y", long_point.film.y / a, long_point.film.x / b),
@@ -198,13 +198,13 @@ def test_dashed_lines_of_a_cut_are_the_edges_of_the_dry_contact_there(long_point
 
 def test_cut_beside_the_dry_contact_has_no_edges(long_point):
     b, _ = long_point.conditions.semi_axes
-    cut = by_name(point_cuts(long_point, 1.3 * b, 0.0))["cut-y"]
+    cut = point_cuts(long_point, 1.3 * b, 0.0)["cut-y"]
     assert not cut.plot["layout"]["shapes"]
     assert "outside" in cut.caption
 
 
 def test_long_contacts_lie_along_the_page(long_point):
-    layout = by_name(point_figures(long_point))["film-map"].plot["layout"]
+    layout = point_figures(long_point)["film-map"].plot["layout"]
     assert layout["xaxis"]["title"]["text"].startswith("y [")
     low, high = layout["yaxis"]["range"]
     assert low > high  # entrainment points down
@@ -214,10 +214,10 @@ def test_long_contacts_lie_along_the_page(long_point):
 
 
 def test_what_did_not_converge_is_not_drawn_as_a_solution(line, point):
-    (shown,) = line_figures(stopped(line))
+    (shown,) = line_figures(stopped(line)).values()
     assert "NOT CONVERGED" in shown.plot["layout"]["annotations"][0]["text"]
     assert {one["line"]["color"] for one in shown.plot["data"]} == {"#777777"}
-    figures = by_name(point_figures(stopped(point)))
+    figures = point_figures(stopped(point))
     assert list(figures) == ["film-map", "pressure-map"]
     for one in figures.values():
         assert one.plot["data"][0]["colorscale"] == "Greys"
@@ -229,7 +229,7 @@ def test_values_that_are_no_numbers_are_not_drawn(line, point):
     for result, figures in ((line, line_figures), (point, point_figures)):
         thickness = np.full_like(result.film.thickness, np.nan)
         broken = replace(result, film=replace(result.film, thickness=thickness, status="diverged"))
-        assert figures(broken) == ()
+        assert figures(broken) == {}
 
 
 def test_values_have_digits_and_gaps():
@@ -242,7 +242,7 @@ def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line)
     film = touching_line.film
     assert film.converged
     assert film.contact.any()
-    shown = by_name(line_figures(touching_line))["profiles"]
+    shown = line_figures(touching_line)["profiles"]
     written(shown)
     spots = trace(shown, "surfaces touch")
     assert spots["x"] == pytest.approx(1e6 * film.x[film.contact], rel=1e-6)
@@ -262,7 +262,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
     film = touching_point.film
     assert film.converged
     assert film.contact.any()
-    shown = by_name(point_figures(touching_point))
+    shown = point_figures(touching_point)
     i, j = np.nonzero(film.contact)
     for name in ("film-map", "pressure-map", "field-map"):
         written(shown[name])
@@ -272,7 +272,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
         # Numbers of the page have seven digits.
         np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-9)
     reach = reach_of(touching_point)
-    for cut in point_cuts(touching_point, *(1e-6 * at for at in reach.at)):
+    for cut in point_cuts(touching_point, *(1e-6 * at for at in reach.at)).values():
         written(cut)
         most = max(trace(cut, "pressure of asperities")["y"])
         assert most == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
@@ -281,7 +281,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
 
 
 def test_surfaces_that_do_not_touch_have_no_spots(line, point):
-    drawn = [*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)]
+    drawn = all_of(line_figures(line), point_figures(point), point_cuts(point, 0.0, 0.0))
     names = {one.get("name") for shown in drawn for one in shown.plot["data"]}
     assert not names & {"surfaces touch", "pressure of asperities"}
     assert reach_of(point).first == "the smallest film"
@@ -290,7 +290,7 @@ def test_surfaces_that_do_not_touch_have_no_spots(line, point):
 @pytest.mark.slow
 def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
     for result in (touching_line, touching_point):
-        numbers = {one.key: one for one in view_of(result).numbers}
+        numbers = {one.key: one for one in answer_of(result).shown}
         assert (numbers["film.minimum_thickness"].text, numbers["film.minimum_thickness"].unit) == (
             "0.001",
             "µm",
@@ -325,4 +325,4 @@ def test_heat_and_shear_have_a_panel(film, title, curves):
     values = np.concatenate([curve.y for curve in panel.curves])
     assert panel.bottom <= values.min()
     assert 0.0 < values.max() < panel.top
-    assert title in by_name(line_figures(result))["profiles"].label
+    assert title in line_figures(result)["profiles"].label

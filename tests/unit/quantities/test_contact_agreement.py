@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.compute.contact_answers import view_of
+from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.contact.result import PointResult
 from ehlectric.quantities.quantity import key_of
@@ -43,8 +43,8 @@ def test_every_output_has_the_label_unit_digits_and_bound_of_the_book(results, n
     bounds = contact_bounds(book, summary)
     html = plain(result._repr_html_())
     cells = {row[0]: row for one in row_tables(rows, "all") if isinstance(one, Table) for row in one.rows}
-    view = view_of(result)
-    large = {number.key: number for number in (*view.numbers, *view.spots)}
+    view = answer_of(result)
+    large = {number.key: number for number in view.shown}
     assert len(rows) > 25
     for row in rows:
         about = key_of(book, row.key)

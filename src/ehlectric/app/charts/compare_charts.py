@@ -1,54 +1,45 @@
-"""Figures of two cases side by side: changes of the results, and films over the position of the elements.
+"""Figures of two cases side by side: voltages over the speed, and films over the position of the elements.
 
 They are built in the process of the server, so that nothing here loads NumPy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from ehlectric.app.answers import Effect, Side
+from ehlectric.app.answers import Side
 from ehlectric.quantities.palette import AMBER, BLUE
 
 # Colours of both cases.
 _FIRST, _SECOND = BLUE, AMBER
 
-# Largest change that is drawn [%]; a longer bar is cut, and its name has the number.
-_LONGEST = 200.0
 
-
-def changes(effects: Iterable[Effect]) -> dict[str, Any]:
-    """Bars of the changes of results from A to B [%]. Returns figure for Plotly."""
-    rows = [effect for effect in effects if effect.change is not None][::-1]
-    values = [effect.change or 0.0 for effect in rows]
-    # The change stands below the name, where no narrow screen cuts it.
-    short = [effect.either.name.partition(" (")[0] for effect in rows]
-    whole = [effect.either.name.replace(" (", "<br>(") for effect in rows]
-    names = [
-        f"{name if short.count(name) == 1 else full}<br>{effect.words}"
-        for name, full, effect in zip(short, whole, rows, strict=True)
-    ]
-    bars = {
-        "type": "bar",
-        "orientation": "h",
-        "y": names,
-        "x": [min(_LONGEST, max(-_LONGEST, value)) for value in values],
-        "customdata": [
-            [effect.first.shown if effect.first else "", effect.second.shown if effect.second else ""]
-            for effect in rows
-        ],
-        "hovertemplate": "%{y}<br>A: %{customdata[0]}<br>B: %{customdata[1]}<extra></extra>",
-        "marker": {"color": [_SECOND if value > 0.0 else _FIRST for value in values]},
-    }
-    reach = 1.05 * max([10.0, *(min(_LONGEST, abs(value)) for value in values)])
+def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
+    """Voltages of A and B over the speed; breakdown is expected where a first breakdown lies below its shaft
+    voltage. Returns figure for Plotly [rpm, V].
+    """
+    looks = (("A", _FIRST, 6), ("B", _SECOND, 2.5))
+    traces: list[dict[str, Any]] = []
+    for side, (name, colour, width) in zip(sides, looks, strict=True):
+        for curve, dash in zip(side.voltages, ("solid", "dash"), strict=False):
+            whole = f"{name}, {curve.name}"
+            over = {"x": list(curve.speed), "y": list(curve.voltage), "name": whole, "mode": "lines"}
+            line = {"color": colour, "width": width, "dash": dash}
+            hover = f"{whole}<br>%{{x:.0f}} rpm: %{{y:.3g}} V<extra></extra>"
+            traces.append({"type": "scatter", **over, "line": line, "hovertemplate": hover})
+            at = {"x": [curve.own[0]], "y": [curve.own[1]], "mode": "markers+text", "text": [name]}
+            look = {"marker": {"color": colour, "size": 11}, "textposition": "top left", "showlegend": False}
+            traces.append({"type": "scatter", **at, **look, "hovertemplate": hover})
+    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1, 2, 5)]
+    log = {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": [f"{tick:g}" for tick in ticks]}
     layout = {
-        "xaxis": {"title": {"text": "change from A to B [%]"}, "range": [-reach, reach], "zeroline": True},
-        "yaxis": {"automargin": True, "fixedrange": True, "ticks": ""},
-        "showlegend": False,
-        "bargap": 0.4,
+        "xaxis": {"title": {"text": "speed of the inner ring [rpm]"}, **log},
+        "yaxis": {"title": {"text": "voltage [V]"}, **log},
+        "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
+        "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top"},
     }
-    return _figure([bars], 70 + 40 * len(rows), layout)
+    return _figure(traces, 400, layout)
 
 
 def films(sides: Sequence[Side]) -> dict[str, Any]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import Shown
+from ehlectric.app.answers import Figure
 from ehlectric.app.charts.plotly_panels import (
     FIELD_COLOURS,
     Indices,
@@ -118,19 +119,25 @@ _COLUMNS, _ROWS = 300, 90
 _POTENTIALS = 9
 
 
-def line_figures(result: Result) -> tuple[Shown, ...]:
-    """Figures of a line contact. Returns pressure, film and field over the position, and the map of the field
-    in the film.
+def line_figures(result: Result) -> dict[str, Figure]:
+    """Figures of a line contact by name: pressure, film and field over the position ("profiles"), and the map
+    of the field in the film ("section").
     """
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):
-        return ()
-    if not result.converged:
-        return (_profiles(result),)
-    return _profiles(result), _section(result)
+        return {}
+    section = {"section": _section(result)} if result.converged else {}
+    return {"profiles": _profiles(result)} | section
 
 
-def _profiles(result: Result) -> Shown:
+# Layout of a figure whose legend of long names stands below it.
+_BELOW: dict[str, Any] = {
+    "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
+    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.14, "yanchor": "top"},
+}
+
+
+def _profiles(result: Result) -> Figure:
     film, conditions = result.film, result.conditions
     lengths = Lengths.of(result)
     factor, unit = lengths.factor, lengths.unit
@@ -147,16 +154,15 @@ def _profiles(result: Result) -> Shown:
         spots_text(result),
         BEYOND if result.converged and touches(result) else "",
     )
-    return Shown(
-        "profiles",
+    return Figure(
         "Pressure, film and field along entrainment",
         f"{told} {main_numbers(result)}" if result.converged else f"{told} The film did not converge.",
-        stack(along, panels, converged=result.converged),
-        " ".join(filter(None, notes)),
+        stack(along, panels, converged=result.converged, **_BELOW),
+        caption=" ".join(filter(None, notes)),
     )
 
 
-def _section(result: Result) -> Shown:
+def _section(result: Result) -> Figure:
     """Map of the field in the film, over position and height."""
     field, conditions = result.field, result.conditions
     to_x, unit = (lengths := Lengths.of(result)).factor, lengths.unit
@@ -186,8 +192,7 @@ def _section(result: Result) -> Shown:
     name = f"maximum, {to_e * field.max_strength:.4g} {strength}"
     cross = mark(to_x * field.x[k], to_z * field.y[k, j], name)
     traces = [heat, *_bodies(x, walls), _potentials(result, kept, to_x, to_z), cross]
-    return Shown(
-        "section",
+    return Figure(
         "Field in the film",
         f"Map of the field strength in {strength} in the film, over x in {unit} and height in {height}. "
         f"{main_numbers(result)}",
@@ -198,7 +203,7 @@ def _section(result: Result) -> Shown:
             yaxis=plot_axis(f"height [{height}]", range=[float(z[0]), float(z[-1])]),
             hovermode="closest",
         ),
-        f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
+        caption=f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
         f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own."
         + (f" {BEYOND}" if touches(result) else ""),
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import Reach, Shown
+from ehlectric.app.answers import Figure, Reach
 from ehlectric.app.charts.line_charts import (
     BEYOND,
     Lengths,
@@ -59,7 +59,7 @@ _MOST, _MAP = 129, 141
 _THICKER = 2.0
 
 
-def film_surface(result: PointResult) -> Shown:
+def film_surface(result: PointResult) -> Figure:
     """Film thickness as a surface over the columns of the field, coloured by the field."""
     lengths, field = Lengths.of(result), result.field
     to_h, film_unit = unit_for(film_scale(result), "m")
@@ -85,14 +85,13 @@ def film_surface(result: PointResult) -> Shown:
     }
     nodes = f"{gap.shape[0]} x {gap.shape[1]} nodes"
     some = f"{height.shape[1]} x {height.shape[0]} of" if gap.size > height.size else "all"
-    return Shown(
-        "surface",
+    return Figure(
         "Film thickness, coloured by the field",
         f"Surface of the film thickness in {film_unit}, coloured by the maximum field in {unit}. "
         f"It can be rotated. {main_numbers(result)}",
         plot([surface, *_pins(result, lengths)], height=470, **_scene(result, lengths, film_unit)),
-        f"Drag to rotate, scroll to come nearer. Drawn: {some} {nodes} of the field, with those of the "
-        "smallest film and of the largest field; each value is a node's own.",
+        caption=f"Drag to rotate, scroll to come nearer. Drawn: {some} {nodes} of the field, with those of "
+        "the smallest film and of the largest field; each value is a node's own.",
     )
 
 
@@ -168,12 +167,12 @@ def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
     }
 
 
-def point_cuts(result: PointResult, x: float, y: float) -> tuple[Shown, ...]:
+def point_cuts(result: PointResult, x: float, y: float) -> dict[str, Figure]:
     """Pressure, film and field along x and along y through the nodes nearest to a point (x, y) [m]."""
-    return tuple(_cut(result, along, y if along == "x" else x) for along in ("x", "y"))
+    return {f"cut-{along}": _cut(result, along, y if along == "x" else x) for along in ("x", "y")}
 
 
-def _cut(result: PointResult, along: str, at: float) -> Shown:
+def _cut(result: PointResult, along: str, at: float) -> Figure:
     lengths, conditions, first = Lengths.of(result), result.conditions, along == "x"
     line = Line.through(result, lengths.factor, along, at)
     assert line.film_cut is not None
@@ -188,12 +187,11 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
         caption = "This cut is outside of the dry contact."
     else:
         caption = f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {lengths.unit}."
-    return Shown(
-        f"cut-{along}",
+    return Figure(
         title,
         f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
         stack(Along(along, lengths.unit, window, () if edge is None else (-edge, edge)), panels),
-        f"{caption} {BEYOND}" if touches(result) else caption,
+        caption=f"{caption} {BEYOND}" if touches(result) else caption,
     )
 
 
@@ -213,22 +211,22 @@ def reach_of(result: PointResult) -> Reach:
     return Reach(ends[0], ends[1], (x, y), lengths.unit, is_turned(result.conditions), first)
 
 
-def point_figures(result: PointResult) -> tuple[Shown, ...]:
-    """Maps of film, pressure and field of a point contact, and its film as a surface."""
+def point_figures(result: PointResult) -> dict[str, Figure]:
+    """Figures of a point contact by name: its film as a surface, and maps of film, pressure and field."""
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):
-        return ()
-    film_and_pressure = _drawn(result, _film_map(result)), _drawn(result, _pressure_map(result))
-    if not result.converged:
-        return film_and_pressure
-    return *film_and_pressure, _drawn(result, _field_map(result)), film_surface(result)
+        return {}
+    maps = {"film-map": _film_map(result), "pressure-map": _pressure_map(result)}
+    if result.converged:
+        maps["field-map"] = _field_map(result)
+    surface = {"surface": film_surface(result)} if result.converged else {}
+    return surface | {name: _drawn(result, one) for name, one in maps.items()}
 
 
 @dataclass(frozen=True)
 class _Map:
     """Map over x and y: values with their unit, the ends of its colours, and its marked extreme."""
 
-    name: str
     title: str
     axes: tuple[Array, Array]
     values: Array
@@ -248,7 +246,6 @@ def _film_map(result: PointResult) -> _Map:
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
     least = factor * film.minimum_thickness
     return _Map(
-        name="film-map",
         title="Film thickness",
         axes=(film.x, film.y),
         values=factor * film.thickness,
@@ -267,7 +264,6 @@ def _pressure_map(result: PointResult) -> _Map:
     i, j = np.unravel_index(np.argmax(film.pressure), film.pressure.shape)
     most = factor * film.max_pressure
     return _Map(
-        name="pressure-map",
         title="Pressure",
         axes=(film.x, film.y),
         values=factor * film.pressure,
@@ -287,7 +283,6 @@ def _field_map(result: PointResult) -> _Map:
     below = f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
     beyond = BEYOND if touches(result) else ""
     return _Map(
-        name="field-map",
         title="Maximum field across the film",
         axes=(field.x, field.y),
         values=factor * np.max(field.strength, axis=-1),
@@ -300,7 +295,7 @@ def _field_map(result: PointResult) -> _Map:
     )
 
 
-def _drawn(result: PointResult, what: _Map) -> Shown:
+def _drawn(result: PointResult, what: _Map) -> Figure:
     """Map with lines of equal values, the edge of the dry contact, its extreme and the lines of the cuts."""
     lengths, turned = Lengths.of(result), is_turned(result.conditions)
     kept = [_window(result, axis_, k, what.mark[k]) for k, axis_ in enumerate(what.axes)]
@@ -340,12 +335,11 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
     said = f": {extreme}. A click, or the sliders below, choose the point of the cuts."
     if not result.converged:
         said = ". The film did not converge."
-    return Shown(
-        what.name,
+    return Figure(
         what.title,
         f"Map of the {what.title.lower()} in {what.unit} over x and y in {lengths.unit}{said}",
         figure,
-        " ".join(filter(None, ["Dashed: edge of the dry contact.", what.caption, entrainment])),
+        caption=" ".join(filter(None, ["Dashed: edge of the dry contact.", what.caption, entrainment])),
     )
 
 

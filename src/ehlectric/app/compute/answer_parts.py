@@ -17,7 +17,7 @@ from ehlectric.app.answers import SEVERITIES, Judged, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.cases.input_keys import describe
-from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
@@ -79,16 +79,24 @@ def concerned(key: str) -> str:
     return f"{solved}.{name.rpartition('.')[2]}".removesuffix("_per_length")
 
 
-def with_warnings(
-    numbers: Iterable[Number], warnings: Sequence[PageWarning]
-) -> tuple[tuple[Number, ...], tuple[PageWarning, ...]]:
-    """Numbers with the warnings that concern them, and the warnings that concern none of them."""
-    placed = tuple(
+def with_warnings(numbers: Iterable[Number], warnings: Sequence[PageWarning]) -> tuple[Number, ...]:
+    """Numbers with the warnings that concern them."""
+    return tuple(
         replace(one, warnings=tuple(each for each in warnings if concerned(one.key) in each.concerns))
         for one in numbers
     )
-    keys = {concerned(one.key) for one in placed}
-    return placed, tuple(each for each in warnings if not keys & set(each.concerns))
+
+
+def gauge_text(margin: float, facts: Iterable[tuple[str, str]]) -> str:
+    """Sentence about a gauge of a margin for those who do not see it, with names and values beside it.
+
+    Examples
+    --------
+    >>> gauge_text(1.5, [("probability", "3 %")])
+    'Margin 1.50 on a scale from 0.1 to 10, with breakdown below 1; probability 3 %'
+    """
+    scale = f"Margin {ratio_text(margin)} on a scale from 0.1 to 10, with breakdown below 1"
+    return "; ".join([scale, *(f"{name} {text}" for name, text in facts)])
 
 
 # Keys that name a file wherever they stand, as ``roughness.file`` and the varied ``roughness.1.file``, and

@@ -8,17 +8,20 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import Film, Result, Side
-from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
+from ehlectric.app.answers import Film, Number, OverSpeed, Result, Side
+from ehlectric.app.compute import bearing_answers, contact_answers
+from ehlectric.app.compute.answer_parts import card, case_of, page_warnings_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
-from ehlectric.app.compute.contact_answers import verdict_by_formula
 from ehlectric.bearing.solution import error_text
+from ehlectric.bearing.speed_curves import curves_of, over_speed
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import OF_CONTACTS
+from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.sheets import COMPARED, NOT_COMPARED
+from ehlectric.quantities.units import rpm
 from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing_tables import check_rows
 
@@ -40,30 +43,63 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
     result = solved_quickly(case)
     verdict = result.verdict if whole else quick_verdict(result.solution)
     summary = result.summary() if whole else summary_of(result.solution)
+    decides, rows = bearing_answers.deciding(summary, probable=whole), check_rows(summary)
     return Side(
         kind="bearing",
         title=case.title,
-        level=verdict.level,
-        text=verdict.text,
-        results=tuple(_results(check_rows(summary))),
+        judged=bearing_answers.judged(verdict),
+        deciding=decides,
+        number=_number(rows, decides.key),
+        results=tuple(_results(rows)),
         warnings=page_warnings_of(result.warnings, verdict.level),
         films=tuple(_over_position(summary)),
+        voltages=tuple(_over_speed(result.case, summary)) if whole else (),
         method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
     )
 
 
 def _contact(case: Case) -> Side:
     meaning = check(case)
-    level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    verdict = contact_answers.verdict_by_formula(
+        case, meaning.summary.get("breakdown_by_formula"), meaning.warnings
+    )
+    decides = contact_answers.deciding(contact_answers.deciding_by_formula(case, verdict), verdict)
     return Side(
         kind="contact",
         title=case.title,
-        level=level,
-        text=text,
+        judged=contact_answers.judged(verdict),
+        deciding=decides,
+        number=_number(meaning.rows, decides.key),
         results=tuple(_results(_outcomes_first(meaning.rows))),
         warnings=page_warnings_of(meaning.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
+
+
+def _number(rows: Iterable[Row], key: str) -> Number | None:
+    """Number of a key; None where no row has it."""
+    return next((card(row) for row in rows if row.key == key), None)
+
+
+# Voltages of a bearing that are compared over its speed.
+_OVER_SPEED = ("first_break", "shaft_voltage")
+
+
+def _over_speed(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[OverSpeed]:
+    """First breakdown voltage and shaft voltage over the speed; none where no other speed is solved."""
+    points, _ = over_speed(case)
+    if len(points) < 2:
+        return
+    at = case.bearing.inner_speed
+    curves = curves_of(points, (at, dict(summary)))
+    for key in _OVER_SPEED:
+        speed, voltage = curves.between(key)
+        yield OverSpeed(
+            BEARING_BOOK[f"bearing.{key}"].label,
+            tuple(rpm(float(one)) for one in speed),
+            tuple(float(one) if math.isfinite(one) else None for one in voltage),
+            (rpm(at), summary["bearing"][key]),
+        )
 
 
 def _outcomes_first(rows: Iterable[Row]) -> list[Row]:

@@ -3,20 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import ContactCheck, ContactView, Shown
+from ehlectric.app.answers import ContactAnswer, Deciding, Figure, Gauge, Judged
 from ehlectric.app.charts.line_charts import Lengths, line_figures, spot_position
 from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
-from ehlectric.app.compute.answer_parts import cards, case_of, lines_of, page_warnings_of, with_warnings
+from ehlectric.app.compute.answer_parts import (
+    cards,
+    case_of,
+    gauge_text,
+    judged_of,
+    lines_of,
+    page_warnings_of,
+    with_warnings,
+)
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN, doubts_of, lead_of, level_of, ratio_text
+from ehlectric.discharge.film_verdict import (
+    STRENGTH_UNKNOWN,
+    Verdict,
+    doubts_of,
+    lead_of,
+    level_of,
+    ratio_text,
+)
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
+from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -35,39 +53,53 @@ _FORMULA = 0.4
 FORMULA_BY_GEOMETRY = {"line": "pan_hamrock", "point": "chittenden"}
 
 
-def contact_case(table: Mapping[str, Any], folder: str) -> Case:
-    """Case of a contact of tables as a person writes them. ``folder``, folder of the session, where the files
-    of roughness lie. Raises InputError if the tables are no valid case, or name a file that was not uploaded.
+def contact_case(table: Mapping[str, Any], session: Path | str | None = None) -> Case:
+    """Case of a contact of tables as a person writes them. ``session``, folder of the session, where the
+    files of roughness lie; None where it has none. Raises InputError if the tables are no valid case, or name
+    a file that was not uploaded.
     """
     if "bearing" in table:
         raise InputError(
             "bearing", got="a table", takes="the inputs of one contact; the first page has bearings"
         )
-    case = case_of(table, Path(folder))
+    case = case_of(table, None if session is None else Path(session))
     assert isinstance(case, Case)
     return case
 
 
-def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
+def check_contact(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
     """Answer about a contact before its film is solved, as of ``ehlectric check``. Raises InputError if the
     tables are no valid case of a contact.
     """
-    case = contact_case(table, folder)
+    return _by_formula(contact_case(table, session))
+
+
+def solved_if_quick(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
+    """Answer about a contact, solved and without files where that takes a fraction of a second. Raises
+    InputError if the tables are no valid case of a contact.
+    """
+    case = contact_case(table, session)
+    return answer_of(solve(case)) if _is_quick(case) else _by_formula(case)
+
+
+def _by_formula(case: Case) -> ContactAnswer:
     meaning = check(case)
-    level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    verdict = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
-    numbers, others = with_warnings(cards(meaning.rows, keys), page_warnings_of(meaning.warnings))
-    return ContactCheck(
+    told = page_warnings_of(meaning.warnings)
+    moving, quick = case.motion is not None, _is_quick(case)
+    return ContactAnswer(
         title=meaning.title,
-        geometry=case.contact.geometry,
-        level=level,
-        text=text,
-        numbers=numbers,
-        rows=lines_of(meaning.rows),
-        warnings=others,
-        summary=meaning.summary,
-        quick=_is_quick(case),
+        judged=judged(verdict),
+        how=_TEXTS["moving" if moving else "at_once" if quick else "by_formula"],
+        shown=with_warnings(cards(meaning.rows, keys), told),
+        deciding=deciding(deciding_by_formula(case, verdict), verdict),
+        lines=lines_of(meaning.rows),
+        warnings=told,
+        whole=not quick,
+        solvable=not (moving or quick),
+        solved=False,
     )
 
 
@@ -81,50 +113,47 @@ _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakd
 _NOT_BY_FORMULA = "No verdict before solving: a dielectric strength over the pressure needs the solved film."
 _NO_VOLTAGE = "No verdict: give a voltage (group Voltage and breakdown) for a margin."
 
+_TEXTS = data_file("ehlectric.app", "page_texts.toml")["contact"]
+
 
 def verdict_by_formula(
     case: Case, estimate: Mapping[str, Any] | None, warnings: Iterable[ResultWarning]
-) -> tuple[str, str]:
-    """Level and sentences of the verdict by formula, within the errors of film and strength."""
+) -> Verdict:
+    """Verdict by formula, within the errors of film and strength."""
     if estimate is None:
         given = case.discharge is not None and case.discharge.has_strength
-        return "grey", _NOT_BY_FORMULA if given else _NO_STRENGTH
-    if estimate["margin"] is None:
-        return "grey", _NO_VOLTAGE
-    margin, voltage = estimate["margin"], estimate["applied_voltage"]
+        return Verdict("grey", _NOT_BY_FORMULA if given else _NO_STRENGTH)
+    margin = estimate["margin"]
+    if margin is None:
+        return Verdict("grey", _NO_VOLTAGE)
     # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
     high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
     level, doubts = level_of(low, high), doubts_of(warnings)
     if doubts and level == "green":
         level = "yellow"
-    last = " ".join([*doubts, "Upper bound: isothermal, fully flooded film."])
-    return level, (
-        f"{lead_of(level, likely=margin < 1.0)}, by formula: the film breaks down at "
-        f"{estimate['breakdown_voltage']:.3g} V, {voltage:.3g} V are applied: margin {ratio_text(margin)}. "
-        "The formula may be up to 40 % off, and the "
-        f"dielectric strength {estimate['dielectric_strength'] / 1e6:.3g} V/µm is an assumption; "
-        f"the margin may be from {ratio_text(low)} to {ratio_text(high)}. {last}"
+    text = (
+        f"{lead_of(level, likely=margin < 1.0)}: by formula the film breaks down at "
+        f"{estimate['breakdown_voltage']:.3g} V, {estimate['applied_voltage']:.3g} V are applied (margin "
+        f"{ratio_text(margin)})."
     )
+    strength = f"dielectric strength {estimate['dielectric_strength'] / 1e6:.3g} V/µm is an assumption"
+    last = f"Upper bound: isothermal, fully flooded film; {strength}."
+    return Verdict(level, " ".join([text, *doubts, last]), margin, (low, high))
 
 
-def solve_contact(table: Mapping[str, Any], session: str, folder: str, progress: Progress) -> ContactView:
+def solve_contact(
+    table: Mapping[str, Any], session: Path | str | None, folder: Path | str, progress: Progress
+) -> ContactAnswer:
     """Solve a contact as ``ehlectric run`` does, with all its files. Raises InputError if the tables are no
     valid case of a contact.
     """
     outcome = run_contact(contact_case(table, session), folder, progress)
     progress(0, 0, "drawing")
-    return view_of(outcome.result)
+    return answer_of(outcome.result)
 
 
-def solve_at_once(table: Mapping[str, Any], folder: str) -> ContactView:
-    """Solve a contact that takes a fraction of a second, without files; see ``solve_contact``. Raises
-    InputError if the tables are no valid case of a contact.
-    """
-    return view_of(solve(contact_case(table, folder)))
-
-
-def cuts_of(folder: str, x: float, y: float) -> tuple[Shown, ...]:
+def cuts_of(folder: str, x: float, y: float) -> dict[str, Figure]:
     """Cuts through a point of a solved point contact. Raises InputError if the folder has no result of a
     point contact that converged.
     """
@@ -144,36 +173,66 @@ def _stored(folder: str) -> Result | PointResult:
     return result
 
 
-def view_of(result: Result | PointResult) -> ContactView:
+def answer_of(result: Result | PointResult) -> ContactAnswer:
     """Answer of a solved contact."""
-    level, text = _verdict(result)
-    rows, touching = result_rows(result), result.spots is not None
-    large = TOUCHING_CARDS if touching else CONTACT_CARDS
-    shown = cards(rows, large) if result.converged else []
-    found, others = with_warnings([*shown, *cards(rows, SPOT_CARDS)], page_warnings_of(result.warnings))
-    numbers, spots = found[: len(shown)], found[len(shown) :]
+    rows, verdict = result_rows(result), _verdict(result)
+    large = TOUCHING_CARDS if result.spots is not None else CONTACT_CARDS
+    told = page_warnings_of(result.warnings)
+    shown = [*(cards(rows, large) if result.converged else ()), *cards(rows, SPOT_CARDS)]
     whole = result if isinstance(result, PointResult) and result.converged else None
-    return ContactView(
+    drawn = point_figures(result) if isinstance(result, PointResult) else line_figures(result)
+    known = "film.minimum_thickness" if result.converged else ""
+    if result.spots is not None:
+        known = "asperities.behaviour"
+    return ContactAnswer(
         title=result.case.title,
-        geometry=result.conditions.geometry,
+        judged=judged(verdict),
+        how="Solved." if result.converged else "Not converged.",
+        shown=with_warnings(shown, told),
+        deciding=deciding("discharge.margin" if verdict.interval else known, verdict, next(iter(drawn), "")),
+        lines=lines_of(rows),
+        warnings=told,
+        figures=drawn,
+        solvable=False,
+        solved=True,
         converged=result.converged,
-        level=level,
-        text=text,
-        numbers=numbers,
-        spots=spots,
-        rows=lines_of(rows),
-        warnings=others,
-        figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
-        cuts=() if whole is None else point_cuts(whole, *spot_position(whole)),
+        cuts={} if whole is None else point_cuts(whole, *spot_position(whole)),
         reach=None if whole is None else reach_of(whole),
     )
 
 
-def _verdict(result: Result | PointResult) -> tuple[str, str]:
-    """Level and sentences of the verdict of the command."""
+def _verdict(result: Result | PointResult) -> Verdict:
+    """Verdict of the command."""
     if not result.converged:
-        return "grey", f"Not converged ({result.film.status}): do not use this result."
-    verdict = result.verdict
-    if verdict is None:
-        return "grey", _NO_STRENGTH
-    return verdict.level, verdict.text
+        return Verdict("grey", f"Not converged ({result.film.status}): do not use this result.")
+    return result.verdict or Verdict("grey", _NO_STRENGTH)
+
+
+# Beginnings of sentences of a verdict on what is assumed.
+_ASSUMED = ("Upper bound", "Dielectric strength ", "The table of ", "The Weibull law ")
+
+
+def judged(verdict: Verdict) -> Judged:
+    """Verdict in its parts, with a heading that says where it is that of an ideal film."""
+    words = light_of(verdict.level, verdict.text).words
+    return replace(judged_of(verdict, _ASSUMED), lead=words, meaning=_TEXTS["meanings"][verdict.level])
+
+
+def deciding_by_formula(case: Case, verdict: Verdict) -> str:
+    """Key of the number that decides before the film is solved: the margin, or the film without one."""
+    if verdict.margin is not None:
+        return "breakdown_by_formula.margin"
+    return f"film_formulas.{FORMULA_BY_GEOMETRY[case.contact.geometry]}.minimum_thickness"
+
+
+# Beginnings of sentences, and code of a warning, that say no more than the margin beside its voltages.
+_SAID = ("Applied voltage ", "By formula the film ", "breakdown-expected")
+
+
+def deciding(key: str, verdict: Verdict, figure: str = "") -> Deciding:
+    """Number of a key, the margin where the verdict has one, with the interval of a margin."""
+    if verdict.margin is None or verdict.interval is None:
+        return Deciding(key, figure=figure)
+    facts = (("margin within what is uncertain", " to ".join(map(ratio_text, verdict.interval))),)
+    gauge = Gauge(gauge_text(verdict.margin, facts), verdict.margin, verdict.interval)
+    return Deciding(key, facts, gauge, figure, _SAID)

@@ -16,6 +16,10 @@ from ehlectric.app.answers import (
     Axis,
     Chart,
     ChartPoint,
+    Deciding,
+    Gauge,
+    Judged,
+    Number,
     PageWarning,
     PointState,
     SweepChoices,
@@ -26,7 +30,7 @@ from ehlectric.app.answers import (
 )
 from ehlectric.app.charts.sweep_charts import figure_of
 from ehlectric.app.compute import answer_parts
-from ehlectric.app.compute.answer_parts import page_warnings_of, run_case_of
+from ehlectric.app.compute.answer_parts import gauge_text, judged_of, page_warnings_of, run_case_of
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field
@@ -39,6 +43,7 @@ from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
+from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
@@ -46,6 +51,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
+from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -77,9 +83,12 @@ def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
 def view_of(results: SweepResults, shown: str) -> SweepView:
     """State of a sweep as the page shows it."""
     chart = _chart(results, shown)
-    verdict = results.verdict
+    verdict, lowest = results.verdict, _lowest(chart)
     return SweepView(
         counts=dict(Counter(point.state for point in chart.points)),
+        judged=_NO_VERDICT if verdict is None else judged(verdict),
+        deciding=Deciding("") if lowest is None else deciding(chart),
+        number=lowest,
         chart=chart,
         figure=figure_of(chart),
         columns=(
@@ -94,15 +103,58 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         ),
         values=_values(results),
         accuracy=_accuracy(results),
-        level="" if verdict is None else verdict.level,
-        text="" if verdict is None else verdict.text,
         warnings=tuple(map(_without_code, page_warnings_of(sweep_warnings(results)))),
     )
 
 
+# Judgement on points without margins, such as drives, whose discharges depend on both bearings.
+_NO_VERDICT = Judged("grey", "No margin to judge by", "The map has the results of the points.", "", (), "")
+
+
+def judged(verdict: Verdict) -> Judged:
+    """Verdict on a sweep in its parts.
+
+    Examples
+    --------
+    >>> text = "Breakdown is likely at 3 of 8 points: the margin is 0.5 to 2.00. Best estimate: rough film."
+    >>> found = judged(Verdict("yellow", text, 0.5))
+    >>> found.lead, found.meaning, found.assumptions
+    ('Breakdown likely at some points', 'Breakdown is likely at 3 of 8 points.', 'Best estimate: rough film.')
+    """
+    parts = judged_of(verdict, ("Upper bound", "Best estimate"))
+    words = light_of(verdict.level, verdict.text).words
+    return replace(parts, lead=words, meaning="" if words.startswith(parts.lead) else f"{parts.lead}.")
+
+
+def _lowest(chart: Chart) -> Number | None:
+    """Lowest margin of the points with the inputs of its point; None where none has a margin."""
+    known = [point for point in chart.points if point.margin is not None]
+    if not known:
+        return None
+    worst = min(known, key=lambda point: point.margin or 0.0)
+    inputs = worst.texts[: 2 if chart.y else 1]
+    return Number("sweep.margin", "Lowest margin", ratio_text(worst.margin or 0.0), note=", ".join(inputs))
+
+
+def deciding(chart: Chart) -> Deciding:
+    """Lowest margin of the points, with the margins of all as its interval."""
+    margins = [point.margin for point in chart.points if point.margin is not None]
+    ends = min(margins), max(margins)
+    below = sum(margin < 1.0 for margin in margins)
+    facts = (
+        ("margins of the points", " to ".join(map(ratio_text, ends))),
+        ("points with a margin below 1", f"{below} of {len(margins)}"),
+    )
+    said = ("The margin is ", "breakdown-expected")
+    return Deciding("sweep.margin", facts, Gauge(gauge_text(ends[0], facts), ends[0], ends), said=said)
+
+
 def _without_code(warning: PageWarning) -> PageWarning:
-    """Warning on a kind of warnings without the code of this kind, which only files and commands need."""
-    return replace(warning, text=_CODE.sub(lambda found: f"{found[1]}: ", warning.text))
+    """Warning on a kind of warnings without the code of this kind, which only files and commands need.
+
+    Its text says all that the meaning of its own code does.
+    """
+    return replace(warning, meaning="", text=_CODE.sub(lambda found: f"{found[1]}: ", warning.text))
 
 
 _CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")

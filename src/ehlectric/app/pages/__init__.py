@@ -11,7 +11,7 @@ from ehlectric.app.work import Work
 PAGES: tuple[Callable[[Work], None], ...] = (
     bearing_page.BearingPage.add,
     drive_page.DrivePage.add,
-    contact_page.add,
+    contact_page.ContactPage.add,
     sweep_page.add,
     compare_page.add,
 )

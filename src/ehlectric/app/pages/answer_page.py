@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Iterable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any, ClassVar, Generic, Literal, TypeVar
 
 from fastapi import Request
@@ -34,7 +35,7 @@ class AnswerPage(Generic[A]):
     path: ClassVar[str]
     title: ClassVar[str]
     start: ClassVar[Inputs]  # inputs with which the page begins
-    kind: ClassVar[Literal["bearing", "drive"]]
+    kind: ClassVar[Literal["bearing", "drive", "contact"]]
     groups: ClassVar[Sequence[Group]]
     short: ClassVar[Sequence[str]]  # keys of the numbers of the short answer
     # Time for which the page waits for its first answer before it is sent without one [s].
@@ -68,12 +69,17 @@ class AnswerPage(Generic[A]):
         @ui.page(cls.path, response_timeout=PAGE_PATIENCE)
         async def page(request: Request) -> None:
             inputs, error = Inputs.of_link(request.query_params.multi_items(), cls.start)
-            page = cls(session_of(work, inputs))
+            page = cls(session_of(work, cls.starting(inputs)))
             ui.context.client.on_delete(page.close)
             with framed(cls.title, cls.path):
                 page.build(error)
             # The first answer comes with the page, unless the processes are still starting.
             await asyncio.wait([page.refresh()], timeout=cls.wait)
+
+    @classmethod
+    def starting(cls, inputs: Inputs) -> Inputs:
+        """Inputs with which the page begins, from those of its address."""
+        return inputs
 
     def build(self, error: InputError | None) -> None:
         """Build the form and the places of the answer; with the error of a wrong address."""
@@ -84,7 +90,7 @@ class AnswerPage(Generic[A]):
         self._address.props('role="alert" data-testid="error-address"').set_visibility(error is not None)
         with ui.element("div").classes("columns"):
             with ui.element("div").classes("inputs"):
-                self.form = Form(self.groups, self.session.inputs, self.change, elsewhere=self.elsewhere)
+                self.build_form()
                 self.build_boxes()
             with ui.element("section").classes("answer").props('aria-label="Answer"'):
                 self._build_answer()
@@ -93,12 +99,20 @@ class AnswerPage(Generic[A]):
         self.solving: Solving[A] = Solving(self.solved, self.kind, self.session, self._ask, self.go_to)
         self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
         self._notice.set_visibility(False)
-        leads = button("Go to the field", "to-field", self.form.go_to_wrong, "no-caps dense")
+        leads = button("Go to the field", "to-field", lambda: self.form.go_to_wrong(), "no-caps dense")
         leads.bind_visibility_from(
             self._notice, "visible", lambda shown: shown and self.form.wrong is not None
         )
         self.build_view()
-        self._downloads = Downloads(self.session, self.kind, self.solving.folder)
+        self._downloads = Downloads(self.session, self.kind, self.folder)
+
+    def build_form(self) -> None:
+        """Build the form."""
+        self.form = Form(self.groups, self.session.inputs, self.change, elsewhere=self.elsewhere)
+
+    def folder(self) -> Path | None:
+        """Folder with the files of the answer that is shown; None where they are still to be made."""
+        return self.solving.folder()
 
     def build_boxes(self) -> None:
         """Build further parts of the inputs below the form."""

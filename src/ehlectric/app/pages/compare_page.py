@@ -13,10 +13,15 @@ from fastapi import Request
 from nicegui import ui
 
 from ehlectric.app.answers import (
+    Deciding,
     Effect,
+    Figure,
     InputRow,
+    Judged,
+    Note,
     Result,
     Side,
+    counts,
     effects,
     file_title,
     in_both,
@@ -40,7 +45,7 @@ from ehlectric.app.pages.frame import (
     session_of,
     show_address,
 )
-from ehlectric.app.pages.result_parts import behind
+from ehlectric.app.pages.result_parts import FigureBox, Panel, behind, told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
@@ -86,7 +91,7 @@ def _effects(effects: Iterable[Effect]) -> str:
             group = either.group
             body += f"<tr class=grouped><th colspan=4 scope=rowgroup>{escape(group)}</th></tr>"
         test = f"effect-{file_title(either.name)}"
-        differs = "" if effect.words == "no change" else " class=differs"
+        differs = " class=differs" if effect.large else ""
         body += (
             f"<tr{differs} data-testid={_quoted(test)}><th scope=row>{escape(either.name)}</th>"
             f"{_cell(effect.first)}{_cell(effect.second)}<td>{escape(effect.words)}</td></tr>"
@@ -108,6 +113,34 @@ def _named(label: str, key: str) -> str:
 
 def _quoted(text: str) -> str:
     return f'"{escape(text, quote=True)}"'
+
+
+def notes_html(first: Side, second: Side) -> str:
+    """Notes of two cases: of one alone, and of both."""
+    parts = (
+        ("Only A", only_in(first, second)),
+        ("Only B", only_in(second, first)),
+        ("Both, in the words of A", in_both(first, second)),
+    )
+    return "".join(
+        f"<h3>{words}: {counts(found)}</h3>{''.join(told(Note(one)) for one in found)}"
+        for words, found in parts
+    )
+
+
+def drawn(sides: tuple[Side, Side]) -> dict[str, Figure | None]:
+    """Figures of two cases by name; None where one of them has no numbers for it."""
+    over_speed = films = None
+    if all(side.voltages for side in sides):
+        title, words = (
+            "First breakdown and shaft voltage over the speed",
+            "Voltages of A and B over the speed",
+        )
+        over_speed = Figure(title, words, figures.over_speed(sides))
+    if all(side.films for side in sides):
+        title, words = "Minimum film of the elements [µm]", "Minimum film over the position of the elements"
+        films = Figure(title, words, figures.films(sides))
+    return {"over-speed": over_speed, "films": films}
 
 
 _PATH = "/compare"
@@ -151,6 +184,32 @@ def add(work: Work) -> None:
         await asyncio.wait([page.refresh()], timeout=_FIRST)
 
 
+class SideBox:
+    """Title, panel and link of one of two cases."""
+
+    def __init__(self, name: Name) -> None:
+        with ui.element("section").classes(f"{_LOOKS[name]} answer").props(f'data-testid="side-{name}"'):
+            page_parts.heading(f"Case {name.upper()}", 2)
+            self._title = ui.label("").props(f'data-testid="title-{name}"')
+            self._panel = Panel((), "")
+            self._link = ui.link("Open this case alone", "/")
+
+    def show(self, answer: Side | Exception, case: Inputs) -> None:
+        """Show the answer about a case, or why there is none."""
+        self._link.set_visibility(isinstance(answer, Side))
+        if isinstance(answer, Exception):
+            self._title.text = ""
+            self._panel.verdict.show(Judged("grey", "No answer", str(answer), "", (), ""))
+            self._panel.tell(Deciding(""), None, ())
+            return
+        self._title.text = answer.title or "no title"
+        self._panel.verdict.show(answer.judged, answer.deciding.said)
+        self._panel.tell(answer.deciding, answer.number, ())
+        path = PATHS["bearing" if answer.kind == "bearing" else "contact"]
+        self._link.props["href"] = address_of(path, case)
+        self._link.update()
+
+
 class ComparePage:
     """Page of one tab; its inputs have one case in the table ``a`` and one in ``b``."""
 
@@ -183,10 +242,10 @@ class ComparePage:
             page_parts.tool("Take B as A", "b-as-a", partial(self._take, "b", "b"))
             page_parts.tool("Take A as B", "a-as-b", partial(self._take, "a", "a"))
         with ui.element("div").classes("sides"):
-            self._verdicts = {name: self._side(name) for name in _NAMES}
+            self._sides = {name: SideBox(name) for name in _NAMES}
         self._notice = ui.label(_EARLIER).classes("wrong notice").props('role="status" data-testid="notice"')
         self._notice.set_visibility(False)
-        with ui.element("div").props('data-testid="compared"'):
+        with ui.element("div").classes("answer").props('data-testid="compared"'):
             # The effects stand above the forms, so that a form that is opened does not push them away.
             self._answers = [ui.element("div").classes("compared")]
             with ui.element("div").classes("sides changing"):
@@ -194,12 +253,6 @@ class ComparePage:
             self._answers.append(ui.element("div").classes("compared"))
         self._build_answer()
         self._set_forms()
-
-    def _side(self, name: Name) -> ui.element:
-        """Place of the verdict of a case."""
-        with ui.element("section").classes(_LOOKS[name]).props(f'data-testid="side-{name}"'):
-            page_parts.heading(f"Case {name.upper()}", 2)
-            return ui.element("div").props('aria-live="polite"')
 
     def _inputs_of(self, name: Name) -> ui.expansion:
         """Place of the form of a case, which is opened where an input is wrong."""
@@ -209,28 +262,16 @@ class ComparePage:
 
     def _build_answer(self) -> None:
         first, second = self._answers
-        with first, page_parts.card("Effect on the results"):
-            self._method = ui.label()
+        with first:
+            self._figures = {"over-speed": FigureBox("over-speed")}
+            page_parts.heading("Effect on the results", 2)
+            self._method = ui.label().classes("soft")
             self._effects = ui.html(_NOTHING, sanitize=False)
         with second:
-            self._build_details()
-
-    def _build_details(self) -> None:
-        with ui.element("div").classes("figures") as self._figures:
-            with page_parts.card("Change of the main results"):
-                self._changes = page_parts.figure(
-                    figures.changes([]),
-                    "Changes of the results from A to B in percent, as in the table",
-                )
-            with page_parts.card("Minimum film of the elements [µm]") as self._films_card:
-                self._films = page_parts.figure(
-                    figures.films([]), "Minimum film over the position of the elements"
-                )
-        self._figures.set_visibility(False)
-        with page_parts.card("Inputs"):
+            page_parts.heading("Inputs", 2)
             self._inputs = ui.html("", sanitize=False)
-        with page_parts.card("Warnings"):
-            self._warnings = ui.element("div")
+            self._notes = ui.html("", sanitize=False).props('data-testid="warnings"')
+            self._figures["films"] = FigureBox("films")
 
     def _set_forms(self) -> None:
         """Show the present inputs in the forms, which are made anew where a case needs another one."""
@@ -326,19 +367,10 @@ class ComparePage:
         return answer
 
     def _show_side(self, name: Name, answer: Side | Exception) -> None:
-        place = self._verdicts[name]
         self._forms[name].tell(answer if isinstance(answer, Exception) else None)
-        place.clear()
-        with place:
-            if isinstance(answer, Exception):
-                self._places[name].open()
-                page_parts.light("grey", f"No answer: {answer}")
-                return
-            ui.label(answer.title or "no title").props(f'data-testid="title-{name}"')
-            with ui.element("div").props(f'data-testid="verdict-{name}"'):
-                page_parts.light(answer.level, answer.text)
-            path = PATHS["bearing" if answer.kind == "bearing" else "contact"]
-            ui.link("Open this case alone", address_of(path, self.case(name)))
+        if isinstance(answer, Exception):
+            self._places[name].open()
+        self._sides[name].show(answer, self.case(name))
 
     def _show_both(self, inputs: Inputs, first: Side, second: Side) -> None:
         """Show the differences of two answers."""
@@ -347,26 +379,11 @@ class ComparePage:
         self._method.text = "; ".join(dict.fromkeys((first.method, second.method)))
         self._effects.content = effects_table(found)
         self._inputs.content = inputs_table(input_rows(cases[0].table, cases[1].table), _labels(cases))
-        self._draw([effect for effect in found if effect.either.main], (first, second))
-        self._warnings.clear()
-        with self._warnings:
-            for words, told in (
-                ("Only A", only_in(first, second)),
-                ("Only B", only_in(second, first)),
-                ("Both, in the words of A", in_both(first, second)),
-            ):
-                page_parts.heading(f"{words}: {len(told) or 'none'}", 3)
-                page_parts.warnings(told)
+        for name, shown in drawn((first, second)).items():
+            self._figures[name].show(shown)
+        self._notes.content = notes_html(first, second)
         for one in self._answers:
             one.classes(remove="old")
-
-    def _draw(self, main: Sequence[Effect], sides: tuple[Side, Side]) -> None:
-        self._figures.set_visibility(True)
-        self._changes.update_figure(figures.changes(main))
-        both = all(side.films for side in sides)
-        self._films_card.set_visibility(both)
-        if both:
-            self._films.update_figure(figures.films(sides))
 
 
 def _labels(sides: Iterable[Inputs]) -> dict[str, str]:

@@ -2,76 +2,40 @@
 
 from __future__ import annotations
 
-import shutil
-from collections.abc import Awaitable, Callable, Iterable
+from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import ContactCheck, ContactView, Reach, Shown
+from ehlectric.app.answers import ContactAnswer, Reach
 from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
 from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.app.pages.downloads import Downloads
+from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.form import Form
-from ehlectric.app.pages.frame import (
-    PAGE_PATIENCE,
-    Toolbar,
-    connected,
-    contact_start,
-    framed,
-    session_of,
-    show_address,
-)
+from ehlectric.app.pages.frame import PATHS, contact_start
 from ehlectric.app.pages.movie_box import MovieBox
-from ehlectric.app.pages.page_parts import (
-    JobBox,
-    Strip,
-    address_error,
-    button,
-    card,
-    figure,
-    heading,
-    light,
-    light_shown,
-    lines_behind,
-    mark,
-    number_cards,
-    warnings,
-)
+from ehlectric.app.pages.page_parts import GroupBox, heading
+from ehlectric.app.pages.result_parts import FigureBox
 from ehlectric.app.pages.roughness_box import RoughnessBox
 from ehlectric.app.session import Session
-from ehlectric.app.work import Job, Work
-from ehlectric.errors import ConvergenceError, InputError, LostError
+from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
 
-# Figures on which a click chooses the point of the cuts, and those that take the whole width.
+# Figures beside the verdict, further ones, and those on which a click chooses the point of the cuts.
+_LEADING = ("profiles", "surface")
 _MAPS = ("film-map", "pressure-map", "field-map")
-_WIDE = ("profiles", "section", "surface")
+_FURTHER = ("section", *_MAPS)
+_WIDE = ("section",)
+_CUTS = ("cut-x", "cut-y")
 
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"
 
-
-class FigureBox:
-    """Figure with its heading and its caption, which can be replaced by another one of the same name."""
-
-    def __init__(self, shown: Shown) -> None:
-        wide = " wide" if shown.name in _WIDE else ""
-        with ui.element("figure").classes("figure-box" + wide).props(f'data-testid="figure-{shown.name}"'):
-            with ui.element("h3"):
-                self._title = ui.label(shown.title)
-            self.plot = figure(shown.plot, shown.label)
-            with ui.element("figcaption").classes("caption"):
-                self._caption = ui.label(shown.caption)
-
-    def show(self, shown: Shown) -> None:
-        """Replace the figure; what was zoomed stays so."""
-        self._title.text, self._caption.text = shown.title, shown.caption
-        self.plot.props["aria-label"] = shown.label
-        self.plot.update_figure(dict(shown.plot))
+# Formulas whose films an answer shows, by geometry.
+_FORMULAS = ("pan_hamrock", "chittenden")
 
 
 class CutSlider:
@@ -112,65 +76,27 @@ class CutSlider:
         self._slider.props["aria-valuetext"] = self._label.text
 
 
-class ContactViewBox:
-    """Solved contact of a tab, empty at first."""
+class CutsBox:
+    """Cuts of a solved point contact through a point that is chosen on a map or by sliders."""
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
-        self._figures: dict[str, FigureBox] = {}
-        self._cuts: dict[str, FigureBox] = {}
-        self._folder: Path | None = None
+    def __init__(
+        self, session: Session, folder: Callable[[], Path | None], maps: Sequence[FigureBox]
+    ) -> None:
+        self._session, self._folder, self._maps = session, folder, maps
         self._reach: Reach | None = None
         self._sliders: dict[str, CutSlider] = {}
         self._cut = OnlyLast(self._cut_through)
-        with ui.element("div").props('data-testid="solved"') as self._box:
-            self._words = ui.element("div").classes("told-answer").props('aria-live="polite"')
-            self._plots = ui.element("div").classes("figures")
-            self._choice = ui.element("div").classes("cut-choice")
-            self._cut_plots = ui.element("div").classes("figures")
-            self._table = ui.element("div")
-        self._box.set_visibility(False)
+        self._choice = ui.element("div").classes("cut-choice")
+        with ui.element("div").classes("figures"):
+            self._figures = {name: FigureBox(name) for name in _CUTS}
+        for one in maps:
+            one.plot.on("plotly_click", self._clicked, js_handler=_PLACE)
 
-    def dim(self, *, old: bool) -> None:
-        """Dim the answer where it belongs to earlier inputs."""
-        mark(self._box, "old", on=old)
-
-    def show(self, view: ContactView, folder: Path | None) -> None:
-        """Show a solved contact."""
-        self._folder = folder
-        self._box.set_visibility(True)
-        self._words.clear()
-        with self._words:
-            light(view.level, view.text)
-            number_cards(view.numbers)
-            if view.spots:
-                heading("Where the surfaces touch", 3)
-                number_cards(view.spots, prefix="spots-")
-            warnings(view.warnings)
-        self._show_figures(self._plots, self._figures, view.figures)
-        self._show_figures(self._cut_plots, self._cuts, view.cuts)
-        self._show_choice(view.reach)
-        self._table.clear()
-        with self._table:
-            title = "All numbers, as the command prints them"
-            lines_behind(title, view.rows, "Numbers of the solved contact", "rows")
-
-    def _show_figures(self, place: ui.element, boxes: dict[str, FigureBox], figures: Iterable[Shown]) -> None:
-        figures = tuple(figures)
-        if list(boxes) == [shown.name for shown in figures]:
-            for shown in figures:
-                boxes[shown.name].show(shown)
-            return
-        place.clear()
-        boxes.clear()
-        with place:
-            for shown in figures:
-                boxes[shown.name] = FigureBox(shown)
-                if shown.name in _MAPS:
-                    boxes[shown.name].plot.on("plotly_click", self._clicked, js_handler=_PLACE)
-
-    def _show_choice(self, reach: Reach | None) -> None:
-        """Sliders for the point of the cuts."""
+    def show(self, answer: ContactAnswer) -> None:
+        """Show the cuts of an answer; nothing where it has none."""
+        for name, box in self._figures.items():
+            box.show(answer.cuts.get(name))
+        reach = answer.reach
         if reach is not None and reach == self._reach:
             return
         self._reach = reach
@@ -178,8 +104,8 @@ class ContactViewBox:
         if reach is None:
             return
         with self._choice:
-            heading("Cuts through a point", 3)
-            ui.label(f"Click on a map, or move the sliders. At first: {reach.first}.").classes("note")
+            heading("Cuts through a point", 2)
+            ui.label(f"Click on a map, or move the sliders. At first: {reach.first}.").classes("soft")
             for name, ends, at in (("x", reach.x, reach.at[0]), ("y", reach.y, reach.at[1])):
                 self._sliders[name] = CutSlider(name, ends, at, reach.unit, self._slid)
 
@@ -195,140 +121,162 @@ class ContactViewBox:
         await self._cut(self._sliders["x"].value, self._sliders["y"].value)
 
     async def _cut_through(self, x: float, y: float) -> None:
-        reach, folder = self._reach, self._folder
+        reach, folder = self._reach, self._folder()
         if reach is None or folder is None:
             return
-        self._draw_lines(*((y, x) if reach.turned else (x, y)))
+        across, down = (y, x) if reach.turned else (x, y)
+        # The shapes of the cuts on the maps are the third and the fourth.
+        places = {f"shapes[2].{end}": down for end in ("y0", "y1")}
+        places |= {f"shapes[3].{end}": across for end in ("x0", "x1")}
+        for one in self._maps:
+            one.plot.run_plot_method("relayout", places)
         try:
             cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), x, y)
         except (InputError, LostError) as error:
             ui.notify(str(error), type="negative")
             return
-        if folder == self._folder:
-            self._show_figures(self._cut_plots, self._cuts, cuts)
-
-    def _draw_lines(self, across: float, down: float) -> None:
-        """Move the lines of the cuts on the maps; their shapes are the third and the fourth."""
-        places = {f"shapes[2].{end}": down for end in ("y0", "y1")}
-        places |= {f"shapes[3].{end}": across for end in ("x0", "x1")}
-        for name in _MAPS:
-            if name in self._figures:
-                self._figures[name].plot.run_plot_method("relayout", places)
+        if folder == self._folder():
+            for name, box in self._figures.items():
+                box.show(cuts.get(name))
 
 
-_PATH = "/contact"
-_GEOMETRIES = {"line": "Line contact", "point": "Point contact"}
+class ContactView(AnswerView[ContactAnswer]):
+    """Place of an answer about a contact."""
 
-# Ends of the keys of the numbers of the short answer, by formula or solved, and where the surfaces touch.
-_SHORT = (".minimum_thickness", ".breakdown_voltage")
-_SHORT_OF_SPOTS = (".behaviour", ".breakdown_5")
+    rows_name = "Numbers of the contact"
+    keys = tuple(
+        dict.fromkeys(
+            key.replace("*", formula)
+            for cards in (CONTACT_CARDS, TOUCHING_CARDS, SPOT_CARDS, CHECK_CARDS)
+            for key in cards
+            for formula in _FORMULAS
+        )
+    )
+    leading = _LEADING
+    waits = "Film, pressure and field stand here when the film is solved."
 
-# Places of the movie among the cards of the answer, while surfaces move and at rest.
-_MOVIE_FIRST, _MOVIE_LAST = 1, 3
+    def __init__(self, session: Session, folder: Callable[[], Path | None]) -> None:
+        self._session, self._folder = session, folder
+        super().__init__()
 
-_MOVING = (
-    "These surfaces move, so that the command solves their film over time. The movie above is that solution; "
-    "switch the motion off to solve them at rest."
-)
+    def build(self) -> None:
+        """Build the parts of the answer below its numbers."""
+        self.build_figures(_FURTHER, _WIDE)
+        self._cuts = CutsBox(self._session, self._folder, [self.figures[name] for name in _MAPS])
+
+    def show(self, answer: ContactAnswer) -> None:
+        """Show an answer; while a film is being solved at once, figures of the one before stay, dimmed."""
+        self._follows = not answer.whole and self.shown
+        super().show(answer)
+        self.body.props(f'data-solved="{str(answer.solved).lower()}"')
+        if self._follows:
+            self.panel.dim(dimmed=True)
+            return
+        self.panel.dim(dimmed=False)
+        if answer.solved:
+            self.panel.lead(answer.deciding.figure, answer.figures.get(answer.deciding.figure))
+        else:
+            self.panel.empty(self.waits)
+        self._cuts.show(answer)
+
+    def show_figure(self, name: str, place: FigureBox, answer: ContactAnswer) -> None:
+        """Show a figure, or keep it dimmed until the solved one follows."""
+        place.dim(dimmed=self._follows)
+        if not self._follows:
+            super().show_figure(name, place, answer)
 
 
-def add(work: Work) -> None:
-    """Add the page to the server."""
-
-    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
-    async def page(request: Request) -> None:
-        pairs = request.query_params.multi_items()
-        inputs, error = Inputs.of_link(pairs, contact_start("line"))
-        if inputs.flat() in ({}, {"contact.geometry": "line"}, {"contact.geometry": "point"}):
-            inputs = contact_start(geometry_of(inputs))
-        page = ContactPage(session_of(work, inputs))
-        with framed("Film, pressure and field of one contact", _PATH):
-            page.build(error)
-        if await connected():
-            await page.refresh()
+# Places of the card of the movie: above the answer while surfaces move, and below their roughness at rest.
+_MOVIE_FIRST = 0
 
 
-class ContactPage:
+class ContactPage(AnswerPage[ContactAnswer]):
     """Page of one tab."""
 
+    path = PATHS["contact"]
+    title = "Film, pressure and field of one contact"
+    start = contact_start("line")
+    kind = "contact"
+    short = (
+        *(
+            "film.minimum_thickness",
+            "discharge.breakdown_voltage",
+            "asperities.behaviour",
+            "asperities.breakdown_5",
+        ),
+        *(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS),
+        "breakdown_by_formula.breakdown_voltage",
+    )
+    quick, later, solved = CONTACT_CHECK, (CONTACT_AT_ONCE,), CONTACT_SOLVED
+
+    view: ContactView
+
     def __init__(self, session: Session) -> None:
-        self.session = session
-        self._asked = self._runs = 0
-        self._solve_at_once = OnlyLast(self._solve_now)
-        self._check: ContactCheck | None = None
-        # Inputs of the solved contact that is shown, and the folder of its files; small ones have none.
-        self._solved: Inputs | None = None
-        self._folder: Path | None = None
-        self._running: tuple[Inputs, Path] | None = None
+        super().__init__(session)
+        # Inputs of each geometry when it was left.
         self._other: dict[str, Inputs] = {}
 
-    @property
-    def folder(self) -> Path | None:
-        """Folder with files of a result of the present inputs; None where they are still to be made."""
-        if self._moving:
-            return self._movie.folder
-        return self._folder if self._is_solved else None
+    @classmethod
+    def starting(cls, inputs: Inputs) -> Inputs:
+        """Inputs of an address; the example of its geometry where it names only this."""
+        only = [{}, *({"contact.geometry": name} for name in _GEOMETRIES)]
+        return contact_start(geometry_of(inputs)) if inputs.flat() in only else inputs
 
-    def build(self, error: InputError | None = None) -> None:
-        """Build the form and the places of the answers; ``error`` is that of the address."""
-        self._strip = Strip()
-        Toolbar(self.session, _PATH, self.shown_again)
-        address_error(error)
-        with ui.element("div").classes("columns"):
-            with ui.element("div").classes("inputs"):
-                self._build_inputs()
-            with ui.element("section").props('aria-label="Answer"').classes("answer"):
-                self._build_answer()
-
-    def _build_inputs(self) -> None:
+    def build_form(self) -> None:
+        """Build the choice of the geometry, and the form of the present one."""
         self._kind = ui.radio(_GEOMETRIES, value=geometry_of(self.session.inputs), on_change=self._switch)
         self._kind.props('inline aria-label="Kind of contact" data-testid="geometry"')
         self._form_place = ui.element("div")
-        self._build_form()
+        self._build_fields()
 
-    def _build_form(self) -> None:
+    def _build_fields(self) -> None:
         self._form_place.clear()
         self._form_of = geometry_of(self.session.inputs)
         with self._form_place:
             self.form = Form(groups_of(self._form_of), self.session.inputs, self.change)
 
-    def _build_answer(self) -> None:
-        self._answer = ui.context.slot.parent
-        with card("Before solving, by formula"):
-            self._formula = ui.element("div").classes("told-answer")
-            self._formula.props('aria-live="polite" data-testid="by-formula"')
-        with card("Solved"):
-            with ui.element("div").classes("solving"):
-                self._solve = button("Solve", "solve", self.solve, primary=True)
-                self._state = ui.label().props('role="status" data-testid="solve-state"').classes("state")
-            self._job = JobBox(self.session, self._ended, lambda error: self._state.set_text(str(error)))
-            self.view = ContactViewBox(self.session)
-        with card("Rough surfaces"):
-            self._roughness = RoughnessBox(self.session, self._inputs_changed)
-        with card("Rough surfaces in motion") as self._movie_card:
-            self._movie = MovieBox(self.session, self._inputs_changed)
+    def build_view(self) -> None:
+        """Build the place of the answer, and the boxes of rough and of moving surfaces."""
+        with ui.element("div").classes("answer-body") as self._places:
+            self.view = ContactView(self.session, self.solving.folder)
+            rough = self.session.inputs.value("roughness") is not None
+            with GroupBox("Rough surfaces", title="Rough surfaces", opened=rough, first=True):
+                self._roughness = RoughnessBox(self.session, self._inputs_changed)
+            moves = "Rough surfaces in motion"
+            with GroupBox("Motion", title=moves, opened=self._moving, first=True) as self._movie_card:
+                self._movie = MovieBox(self.session, self._inputs_changed)
         self._movie_first = False
         self._place_movie()
-        Downloads(self.session, "contact", lambda: self.folder)
+
+    def folder(self) -> Path | None:
+        """Folder of the movie of moving surfaces, or of the solved film."""
+        return self._movie.folder if self._moving else super().folder()
+
+    @property
+    def _moving(self) -> bool:
+        return self.session.inputs.value("motion") is not None
+
+    def _place_movie(self) -> bool:
+        """Put the movie above the answer while surfaces move; True where it changed its place."""
+        moving = self._moving
+        if moving == self._movie_first:
+            return False
+        self._movie_first = moving
+        self._movie_card.move(self._places, _MOVIE_FIRST if moving else -1)
+        return True
 
     async def _switch(self, event: Any) -> None:
         """Change between line and point contact, with what both have."""
         now, wanted = self.session.inputs, str(event.value)
-        if wanted == geometry_of(now):
-            return
-        self._other[geometry_of(now)] = now
-        self.session.history.push(switched(now, self._other.get(wanted) or contact_start(wanted)))
-        await self.shown_again()
+        if wanted != geometry_of(now):
+            self._other[geometry_of(now)] = now
+            self.go_to(switched(now, self._other.get(wanted) or contact_start(wanted)))
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""
-        self.session.history.push(self.session.inputs.changed({key: value}))
         # The button that removed an input is no longer there.
         with self._form_place:
-            show_address(self.session.inputs, _PATH)
-            self._roughness.refresh()
-            self._movie.refresh()
-            await self.refresh()
+            await super().change(key, value)
 
     async def _inputs_changed(self) -> None:
         """Answer inputs into which a box has put other surfaces or another motion."""
@@ -336,158 +284,20 @@ class ContactPage:
         with self._form_place:
             if self._place_movie():
                 self._movie.show_switch()
-            await self.shown_again()
+            self.shown_again()
 
-    async def shown_again(self) -> None:
+    def shown_again(self) -> None:
         """Show the present inputs everywhere, as after an undo, and answer them."""
         self._place_movie()
-        show_address(self.session.inputs, _PATH)
         self._kind.set_value(geometry_of(self.session.inputs))
-        if self._form_of == geometry_of(self.session.inputs):
-            self.form.set(self.session.inputs)
-        else:
-            self._build_form()
+        if self._form_of != geometry_of(self.session.inputs):
+            self._build_fields()
+        super().shown_again()
+
+    def show_boxes(self) -> None:
+        """Show the present inputs in the boxes of rough and of moving surfaces."""
         self._roughness.refresh()
         self._movie.refresh()
-        await self.refresh()
 
-    async def refresh(self) -> None:
-        """Answer the present inputs; an answer that comes after newer inputs is dropped."""
-        self._asked += 1
-        asked = self._asked
-        self._formula.classes(add="old")
-        self._strip.dim(dimmed=True)
-        self._show_state()
-        try:
-            table, folder = dict(self.session.inputs.table), str(self.session.folder)
-            answer = await self.session.work.quick(CONTACT_CHECK, table, folder)
-        except (InputError, LostError) as error:
-            if self._awaits(asked):
-                self._check = None
-                self._tell(error)
-            return
-        if not self._awaits(asked):
-            return
-        self.form.tell(None)
-        self._check = answer
-        self._show_check(answer)
-        self._show_state()
-        if answer.quick and not self._is_solved:
-            await self._solve_at_once()
 
-    def _awaits(self, asked: int) -> bool:
-        """Whether the tab is still open, and no newer answer was asked for than that of this number."""
-        return asked == self._asked and not self._formula.is_deleted
-
-    def _show_check(self, answer: ContactCheck) -> None:
-        self._formula.classes(remove="old")
-        self._formula.clear()
-        with self._formula:
-            number_cards(answer.numbers, prefix="formula-")
-            light(answer.level, answer.text, testid="verdict-formula")
-            warnings(answer.warnings)
-            lines_behind("All numbers before solving", answer.rows, "Numbers before the film is solved")
-        if not self._is_solved:
-            self._show_short(answer, "by formula")
-
-    def _show_short(self, answer: ContactCheck | ContactView, what: str = "") -> None:
-        """Show the short answer of a narrow screen."""
-        shown = light_shown(answer.level, answer.text)
-        spots = answer.spots if isinstance(answer, ContactView) else ()
-        texts = [
-            f"{one.label.lower()} {one.with_unit}"
-            for one in spots or answer.numbers
-            if one.key.endswith(_SHORT_OF_SPOTS if spots else _SHORT)
-        ]
-        self._strip.show(answer.level, f"{shown.words} {what}".strip(), texts, bound=shown.bound)
-        self._strip.dim(dimmed=False)
-
-    @property
-    def _moving(self) -> bool:
-        return self.session.inputs.value("motion") is not None
-
-    @property
-    def _is_solved(self) -> bool:
-        return self._solved == self.session.inputs
-
-    def _place_movie(self) -> bool:
-        """Put the movie above what is solved at rest while surfaces move; True where it changed its place."""
-        moving = self._moving
-        if moving == self._movie_first:
-            return False
-        self._movie_first = moving
-        self._movie_card.move(self._answer, _MOVIE_FIRST if moving else _MOVIE_LAST)
-        return True
-
-    def _show_state(self, text: str = "") -> None:
-        """Say what the solved answer belongs to, and dim it where that is other inputs."""
-        moving = self._moving
-        old = self._solved is not None and not self._is_solved
-        self._solve.set_visibility(not moving)
-        self.view.dim(old=old)
-        if moving:
-            text = f"{_MOVING}{' The result below belongs to earlier inputs.' if old else ''}"
-        elif old and not text:
-            text = "The result below belongs to earlier inputs."
-        elif self._is_solved and not text:
-            text = "Solved." if self._converged else "Not converged."
-        self._state.text = text
-
-    async def solve(self) -> None:
-        """Solve the present inputs: small contacts at once, others as a job with progress."""
-        if self._check is None or self._moving:
-            return
-        if self._check.quick:
-            await self._solve_at_once()
-            return
-        self._runs += 1
-        folder = self.session.folder / f"contact-{self._runs}"
-        inputs = self.session.inputs
-        if self._job.start(CONTACT_SOLVED, dict(inputs.table), str(self.session.folder), str(folder)):
-            self._running = (inputs, folder)
-            self._solve.disable()
-
-    async def _solve_now(self) -> None:
-        """Solve the latest inputs without a job."""
-        if self._formula.is_deleted:
-            return
-        asked, inputs = self._asked, self.session.inputs
-        try:
-            view = await self.session.work.quick(
-                CONTACT_AT_ONCE, dict(inputs.table), str(self.session.folder)
-            )
-        except (InputError, ConvergenceError, LostError) as error:
-            if self._awaits(asked):
-                self._tell(error)
-            return
-        if not self._formula.is_deleted:
-            self._show(view, inputs, None)
-
-    def _ended(self, job: Job) -> None:
-        """Show the outcome of a job."""
-        self._solve.enable()
-        if job.state == "done" and self._running is not None:
-            self._show(job.result, *self._running)
-        elif job.state == "cancelled":
-            self._show_state("Cancelled.")
-        elif job.error is not None and self._running is not None:
-            if self._running[0] == self.session.inputs:
-                self._tell(job.error)
-            else:
-                self._show_state(f"Earlier inputs were not solved: {job.error}")
-
-    def _show(self, view: ContactView, inputs: Inputs, folder: Path | None) -> None:
-        before, self._folder, self._solved = self._folder, folder, inputs
-        if before is not None and before != folder:
-            shutil.rmtree(before, ignore_errors=True)
-        self._converged = view.converged
-        self.view.show(view, folder)
-        self._show_state()
-        if self._is_solved:
-            self._show_short(view)
-
-    def _tell(self, error: Exception) -> None:
-        """Show an error next to its field, and that the answers belong to earlier inputs."""
-        self.form.tell(error)
-        self._state.text = "No answer to the present inputs." if isinstance(error, InputError) else str(error)
-        self.view.dim(old=True)
+_GEOMETRIES = {"line": "Line contact", "point": "Point contact"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import nullcontext
 from functools import partial
@@ -100,12 +99,9 @@ class Form:
 
     def go_to_wrong(self) -> None:
         """Move the page and the focus to the field that is wrong."""
-        boxes = [control.props["box-id"] for field, control in self._controls if field is self.wrong]
-        for box in boxes:
-            ui.run_javascript(
-                f"const box = document.getElementById({json.dumps(box)});"
-                "if (box) { box.scrollIntoView({block: 'center'}); box.focus({preventScroll: true}); }"
-            )
+        for field, control in self._controls:
+            if field is self.wrong:
+                control.focus()
 
     def group(self, title: str) -> GroupBox:
         """Box of a group, to which a page may add what is no field."""
@@ -155,7 +151,7 @@ class Form:
             await self._slide(field, float(event.args))
 
         options = self._options(field)
-        kind = "text" if not options else "list" if len(options) <= _LONGEST_LIST else "search"
+        kind = "text" if not options else "list" if len(options) <= LONGEST_LIST else "search"
         number = field.kind in ("number", "count")
         control = Control(
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
@@ -322,7 +318,7 @@ def groups_for(case: Inputs) -> Sequence[Group]:
 
 
 # Most entries of a list without a search.
-_LONGEST_LIST = 6
+LONGEST_LIST = 6
 
 # Groups that are open on a narrow screen, too.
 _FIRST = 2

@@ -17,12 +17,12 @@ from ehlectric.app.pages.page_parts import (
     button,
     figure,
     heading,
-    lines_behind,
+    lines_html,
     mark,
     say,
     script,
-    warnings,
 )
+from ehlectric.app.pages.result_parts import behind, told_all
 from ehlectric.app.pages.roughness_box import Keys
 from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
@@ -203,9 +203,10 @@ def _movie(answer: MotionAnswer) -> None:
         "the minimum film. Dashed: the same roughness held stationary."
     ).classes("hint")
     history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
-    warnings(answer.warnings)
+    told_all(answer.warnings)
     rows = (Line(name, value) for name, value in answer.rows)
-    lines_behind("Numbers of the run", rows, "Numbers of the run", "motion-numbers")
+    about = "Numbers of the run"
+    ui.html(behind(about, lines_html(rows, about)), sanitize=False).props('data-testid="motion-numbers"')
     values = {
         "movie": movie.html_id,
         "history": history.html_id,

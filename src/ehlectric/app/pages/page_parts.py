@@ -1,29 +1,26 @@
-"""Parts of the pages: headings, cards, numbers with their warnings, the traffic light, and figures."""
+"""Parts of the pages: headings, cards, fields, the short answer of narrow screens, tables, figures, jobs."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from html import escape
 from importlib import resources
 from time import monotonic
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 from weakref import WeakMethod
 
 from nicegui import ui
 from nicegui.element import Element
 
-from ehlectric.app.answers import Line, Number, PageWarning
+from ehlectric.app.answers import Line
 from ehlectric.app.calls import Call
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Remaining
-from ehlectric.errors import SEVERITY_WORDS, InputError, LostError
-from ehlectric.quantities.quantity import BOUNDS, data_file
-from ehlectric.report.light import Light, light_of
-
-if TYPE_CHECKING:
-    from ehlectric.discharge.film_verdict import Level
+from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.quantity import data_file
 
 
 @cache
@@ -122,6 +119,13 @@ class Control(_Shown, component="../static/control.js"):
         super().__init__()
         self.props.update(testid=key.replace(".", "-"), **{"box-id": f"box{self.id}"}, **props)
 
+    def focus(self) -> None:
+        """Move the page and the focus to the field."""
+        ui.run_javascript(
+            f"const box = document.getElementById({json.dumps(self.props['box-id'])});"
+            "if (box) { box.scrollIntoView({block: 'center'}); box.focus({preventScroll: true}); }"
+        )
+
 
 class GroupBox(_Shown, component="../static/group.js"):
     """Group of fields that opens and closes; it emits ``switch``."""
@@ -211,59 +215,6 @@ class Strip:
         mark(self._box, "old", on=dimmed)
 
 
-def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
-    """Main numbers next to each other, each with its unit, its bound, its note and its warnings."""
-    with ui.element("div").classes("numbers"):
-        for one in numbers:
-            with ui.element("div").props(f'data-testid="number-{prefix}{one.key}"'):
-                _number(one)
-
-
-def _number(one: Number) -> None:
-    found = {warning.severity for warning in one.warnings}
-    worst = next((level for level in ("severe", "warning") if level in found), "")
-    with ui.element("div").classes(f"number {worst}"):
-        ui.label(one.label).classes("label")
-        with ui.element("div").classes("value"):
-            ui.label(" ".join(filter(None, [one.bound, one.text]))).classes("digits")
-            if one.unit:
-                ui.label(one.unit).classes("unit")
-        if one.bound:
-            ui.label(BOUNDS[one.bound]).classes("bound")
-        if one.note:
-            ui.label(one.note).classes("remark")
-        for warning in one.warnings:
-            ui.label(warning.text).classes(f"told {warning.severity}")
-
-
-def light_shown(level: str, text: str) -> Light:
-    """Traffic light of a verdict, with the words that pages and reports show."""
-    return light_of(cast("Level", level), text)
-
-
-def light(level: str, text: str, *, testid: str = "verdict") -> None:
-    """Traffic light of a verdict, with its heading, its bound and its sentences."""
-    shown = light_shown(level, text)
-    with ui.element("div").classes(f"light {level}") as box:
-        box.props(f'role="status" data-testid="{testid}" data-level="{level}"')
-        ui.label(_SIGNS[level]).classes("sign").props('aria-hidden="true"')
-        with ui.element("div").classes("words"):
-            with ui.element("div").classes("heading"):
-                ui.label(shown.words).classes("level")
-                if shown.bound:
-                    ui.label(shown.bound).classes("at-most")
-            ui.label(shown.rest).classes("sentences")
-
-
-def warnings(shown: Iterable[PageWarning]) -> None:
-    """List of warnings."""
-    with ui.element("ul").classes("warnings"):
-        for one in shown:
-            with ui.element("li").classes(one.severity):
-                ui.label(SEVERITY_WORDS[one.severity]).classes("severity")
-                ui.label(one.text)
-
-
 def scrolling_table(name: str, heads: Iterable[str], body: str, test: str = "", caption: str = "") -> str:
     """Table that scrolls within its own box; the rows of its body, and its caption, are HTML."""
     head = "".join(f'<th scope="col">{escape(one)}</th>' for one in heads)
@@ -285,14 +236,6 @@ def lines_html(lines: Iterable[Line], caption: str) -> str:
             rows.append(f"<tr><th scope=rowgroup colspan=2>{name}</th></tr>")
     head = f"<caption class=unseen>{escape(caption)}</caption>"
     return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
-
-
-def lines_behind(title: str, lines: Iterable[Line], caption: str, test: str = "") -> None:
-    """Table of the lines that the command prints, closed at first, with a caption for screen readers."""
-    with ui.expansion(title) as place:
-        ui.html(lines_html(lines, caption), sanitize=False)
-    if test:
-        place.props(f'data-testid="{test}"')
 
 
 def figure(data: Mapping[str, Any], label: str) -> ui.plotly:

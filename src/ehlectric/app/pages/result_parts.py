@@ -8,7 +8,7 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.answers import Deciding, Figure, Gauge, Judged, Note, Number, Table, counts
+from ehlectric.app.answers import Deciding, Figure, Gauge, Judged, Note, Number, PageWarning, Table, counts
 from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
 from ehlectric.errors import SEVERITY_WORDS
 
@@ -36,12 +36,24 @@ class Panel:
         if self._waits.visible:
             self._waits.text = text
 
+    def empty(self, text: str) -> None:
+        """Show no figure, and say in its place what would show one."""
+        for box in self.figures.values():
+            box.show(None)
+        say(self._waits, text)
+        mark(self._box, "alone", on=not text)
+
     def tell(self, deciding: Deciding, number: Number | None, notes: Iterable[Note]) -> None:
         """Show the number that decides, with its interval and its gauge."""
         self._deciding.set_visibility(number is not None)
         self._number.show(number, notes)
         self._gauge.content = "" if deciding.gauge is None else gauge_svg(deciding.gauge)
         self._facts.content = facts_html(deciding.facts)
+
+    def dim(self, *, dimmed: bool) -> None:
+        """Dim the figure while it is that of earlier inputs."""
+        for box in self.figures.values():
+            box.dim(dimmed=dimmed)
 
     def lead(self, name: str, shown: Figure | None) -> None:
         """Show the figure that decides, of a name; without one the verdict has the whole width."""
@@ -175,6 +187,11 @@ def told(note: Note) -> str:
     )
 
 
+def told_all(warnings: Iterable[PageWarning]) -> None:
+    """Warnings of a part of a page that has no numbers of an answer."""
+    ui.html("".join(told(Note(one)) for one in warnings), sanitize=False)
+
+
 class FigureBox:
     """Figure with its heading and the table of its numbers; a wide one has the whole row of a grid."""
 
@@ -182,7 +199,7 @@ class FigureBox:
         with ui.element("div").classes("figure-box").props(f'data-testid="figure-{name}"') as self._box:
             with ui.element("h3"):
                 self._title = ui.label()
-            self._plot = figure({"data": [], "layout": {}}, name)
+            self.plot = figure({"data": [], "layout": {}}, name)
             self._caption = ui.label().classes("soft")
             self._table = ui.html("", sanitize=False)
         mark(self._box, "wide", on=wide)
@@ -197,24 +214,25 @@ class FigureBox:
         self._box.set_visibility(shown is not None)
         if shown is not None:
             self._title.text, self._caption.text = shown.title, shown.caption
-            self._plot.props["aria-label"] = shown.label
-            self._plot.update_figure(dict(shown.plot))
-            self._table.content = behind("Numbers of this figure", table_html(shown.table))
+            self.plot.props["aria-label"] = shown.label
+            self.plot.update_figure(dict(shown.plot))
+            table = shown.table
+            self._table.content = "" if table is None else behind("Numbers of this figure", table_html(table))
 
 
 class NoteList:
     """List of all notes and warnings, the severe ones first."""
 
     def __init__(self) -> None:
-        with ui.element("section").props('aria-label="Notes" data-testid="warnings"') as self._box:
+        with ui.element("section").props('aria-label="Notes" data-testid="warnings"') as self.box:
             with ui.element("h2"):
                 self._head = ui.label()
             self._list = ui.html("", sanitize=False)
-        self._box.set_visibility(False)
+        self.box.set_visibility(False)
 
     def show(self, notes: Sequence[Note]) -> None:
         """Show notes under their count."""
-        self._box.set_visibility(True)
+        self.box.set_visibility(True)
         count = counts(one.warning for one in notes)
         self._head.text = f"{count[:1].upper()}{count[1:]}"
         self._list.content = "".join(map(told, notes))

@@ -13,7 +13,8 @@ from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
-from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say, warnings
+from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say
+from ehlectric.app.pages.result_parts import told_all
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,
@@ -104,7 +105,7 @@ def show_surface(answer: SurfaceAnswer) -> None:
     ui.label(_sentence(answer)).props('data-testid="surface-size"')
     if answer.rows:
         _show_table("Statistics", "surface-statistics", answer.heads, answer.rows)
-    warnings(answer.warnings)
+    told_all(answer.warnings)
     if answer.summits is not None:
         _show_summits(answer.summits)
     with ui.element("div").classes("steps"):

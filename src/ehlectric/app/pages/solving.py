@@ -37,7 +37,8 @@ class Words:
     # Sentence on a cancelled solution, and words before an error.
     cancelled: str
     failed: str
-    beyond: str  # what an error has where only a quick answer lacks what is asked for
+    # What an error has where only a quick answer lacks what is asked for; empty where none has.
+    beyond: str = ""
 
 
 # Solved answers that a tab keeps.
@@ -106,8 +107,10 @@ class Solving(Generic[A]):
         """Show how an answer was computed, if there is one, and the buttons that suit it."""
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how
-        self._solve.set_visibility(not solved and self._running is None)
-        self._solve.set_enabled(answer is not None or self._words.beyond in str(error))
+        offered = answer is None or answer.solvable
+        self._solve.set_visibility(offered and not solved and self._running is None)
+        beyond = bool(self._words.beyond) and self._words.beyond in str(error)
+        self._solve.set_enabled(answer is not None or beyond)
         self._other.set_visibility(solved)
         self._other.text = self._words.show_solved if self._quick else self._words.show_quick
         self._return.set_visibility(bool(self._solved) and not solved)

@@ -15,7 +15,7 @@ from typing import Any
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import SweepChoices, SweepPlan, SweepView, Variable
+from ehlectric.app.answers import Deciding, Judged, Note, SweepChoices, SweepPlan, SweepView, Variable
 from ehlectric.app.calls import (
     SWEEP_CHOICES,
     SWEEP_FILES,
@@ -42,7 +42,7 @@ from ehlectric.app.page_inputs import (
 )
 from ehlectric.app.pages import page_parts
 from ehlectric.app.pages.downloads import Downloads
-from ehlectric.app.pages.form import Form, groups_for
+from ehlectric.app.pages.form import LONGEST_LIST, Form, groups_for
 from ehlectric.app.pages.frame import (
     DRIVE,
     PAGE_PATIENCE,
@@ -55,7 +55,8 @@ from ehlectric.app.pages.frame import (
     show_address,
     start,
 )
-from ehlectric.app.pages.page_parts import card
+from ehlectric.app.pages.page_parts import Control, GroupBox, card, page_texts
+from ehlectric.app.pages.result_parts import NoteList, Panel
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
@@ -68,52 +69,24 @@ _NONE = "no second input"
 # Longest text that is read as a number of values [characters].
 _LONGEST = 7
 
-# Number of choices above which a list can be searched by typing.
-_SEARCHED = 9
-
-
-class Box:
-    """Text field with a place for its error."""
-
-    def __init__(self, label: str, value: str, test_id: str, typed: Callable[[str], Awaitable[None]]) -> None:
-        async def changed() -> None:
-            await typed(str(self._input.value or "").strip())
-
-        with ui.element("div").classes("sweep-box"):
-            self._input = ui.input(label, value=value).props("outlined dense").classes("full")
-            self._input.props(f"data-testid=field-{test_id}")
-            self._input.on("change", changed)
-            self._error = ui.label().classes("wrong")
-            self._error.props(f'role="alert" id="wrong-{test_id}" data-testid="error-{test_id}"')
-
-    def put(self, text: str) -> None:
-        """Show another text."""
-        self._input.value = text
-
-    def tell(self, text: str) -> None:
-        """Show an error; an empty text takes it away."""
-        page_parts.say(self._error, text)
-        name = self._error.props["id"]
-        if text:
-            self._input.props(f'error hide-bottom-space aria-invalid=true aria-describedby="{name}"')
-        else:
-            self._input.props(remove="error aria-invalid aria-describedby")
-
 
 class RangesForm:
     """Form of a sweep; ``choices`` has what may vary, and is None where the base case is not valid."""
 
     def __init__(self, inputs: Inputs, choices: SweepChoices | None, change: Change) -> None:
         self._inputs, self._choices, self._change = inputs, choices, change
-        self._boxes: dict[str, Box] = {}
-        self._selects: dict[str, ui.select] = {}
+        # Fields of the varied inputs and of the base case, by the keys of their texts.
+        self._axes: dict[str, Control] = {}
+        self._base: dict[str, Control] = {}
         self._groups: Sequence[Group] | None = None
         self._focus = ""
-        with ui.element("div").classes("form sweep-form").props('role="form" aria-label="Sweep"'):
-            with card("What varies"):
-                self._varied = ui.element("div")
-                self._message = ui.label().classes("wrong").props('role="alert" data-testid="error-form"')
-            with card("Base case"):
+        with ui.element("div").classes("form").props('role="form" aria-label="Sweep"'):
+            with GroupBox("What varies", title="What varies", first=True):
+                self._varied = ui.element("div").classes("group-body")
+                self._message = (
+                    ui.label().classes("field-error").props('role="alert" data-testid="error-form"')
+                )
+            with GroupBox("Base case", title="Base case"):
                 self._build_base()
         self._build_axes()
         self._set_base()
@@ -127,25 +100,23 @@ class RangesForm:
             self._build_axes()
             return
         for key, text in _texts(inputs).items():
-            if key in self._boxes:
-                self._boxes[key].put(text)
-            elif key in self._selects:
-                self._selects[key].value = text if text in self._selects[key].options else None
+            if key in self._axes:
+                self._axes[key].show(text=text)
 
     def tell(self, error: InputError | None) -> None:
         """Show an error next to its field, and remove the one before."""
-        for box in (*self._boxes.values(), self._link):
-            box.tell("")
+        for one in (*self._axes.values(), self._link):
+            one.show(error="")
         self._message.text = ""
         self.case.tell(None)
         if error is None:
             return
         key = str(error.key or "")
-        found = self._boxes.get(key) or self._boxes.get(f"{key}.from")
+        found = self._axes.get(key) or self._axes.get(f"{key}.from")
         if found is not None:
-            found.tell(self._in_unit(key, error.text))
+            found.show(error=self._in_unit(key, error.text))
         elif key and not f"{key}.".startswith("vary."):
-            self._values.open()
+            self._values.turn(opened=True)
             self.case.tell(InputError(key.removeprefix("case."), error.text))
         else:
             self._message.text = str(error)
@@ -158,8 +129,7 @@ class RangesForm:
 
     def _build_axes(self) -> None:
         """Fields of the varied inputs."""
-        self._boxes.clear()
-        self._selects = {name: box for name, box in self._selects.items() if not name.startswith("vary")}
+        self._axes.clear()
         self._varied.clear()
         with self._varied:
             ranges = ranges_of(self._inputs)
@@ -171,29 +141,25 @@ class RangesForm:
                 self._axis(0, ranges)
             if len(ranges) > 1 or (ranges and not lists):
                 self._axis(1, ranges)
-        if self._focus in self._selects:
-            self._selects[self._focus].run_method("focus")
+        if self._focus in self._axes:
+            self._axes[self._focus].focus()
         self._focus = ""
 
     def _build_base(self) -> None:
         """Source of the base case, and its inputs in the form of its page."""
         self._title = ui.label().classes("case-title")
-        chosen = ui.select(
-            page_parts.page_texts("examples"), label="Take an example", on_change=self._example
-        )
-        chosen.props("outlined dense data-testid=base-example").classes("full")
-        self._link = Box("or paste a link of a page", "", "base-link", self._take_over)
-        with ui.element("div") as self._kind:
-            kinds = {
-                "atlas": "from the atlas: half a second each",
-                "formula": "by formula: half a second each",
-                "solved": "solved: ten seconds or more each",
-            }
-            self._select(
-                "case.contacts", "Contacts of the bearing", kinds, partial(self._changed_case, "contacts")
-            )
+        examples = {"": "choose …", **page_texts("examples")}
+        self._example_box = control("base-example", "Take an example", self._example, examples)
+        self._link = control("base-link", "Or paste a link of a page", self._take_over)
+        kinds = {
+            "atlas": "from the atlas: half a second each",
+            "formula": "by formula: half a second each",
+            "solved": "solved: ten seconds or more each",
+        }
+        contacts = partial(self._changed_case, "contacts")
+        self._kind = control("case.contacts", "Contacts of the bearing", contacts, kinds)
         self._page = ui.link("Open the base case on its page", "/", new_tab=True)
-        self._values = ui.expansion("Inputs of the base case").props('data-testid="base-inputs"')
+        self._values = GroupBox("Inputs of the base case", title="Inputs of the base case", opened=False)
 
     def _set_base(self) -> None:
         """Show the base case."""
@@ -202,8 +168,7 @@ class RangesForm:
         path = "/drive" if case.value("drive_end") else "/" if case.value("bearing") else "/contact"
         self._page.props["href"] = address_of(path, case)
         self._page.update()
-        self._kind.set_visibility(bool(case.value("bearing")))
-        self._selects["case.contacts"].value = _texts(self._inputs)["case.contacts"]
+        self._kind.show(shown=bool(case.value("bearing")), text=str(case.value("contacts") or "solved"))
         if self._groups is groups_for(case):
             self.case.set(case)
             return
@@ -215,8 +180,11 @@ class RangesForm:
     async def _changed_case(self, key: str, value: Any) -> None:
         await self._change(self._inputs.changed({f"case.{key}": value}))
 
-    async def _example(self, event: Any) -> None:
-        table = dict((DRIVE if event.value == "drive" else start(str(event.value))).table)
+    async def _example(self, name: str) -> None:
+        if not name:
+            return
+        table = dict((DRIVE if name == "drive" else start(name)).table)
+        self._example_box.turn(text="")
         await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
 
     async def _take_over(self, link: str) -> None:
@@ -224,7 +192,7 @@ class RangesForm:
         if found is not None:
             await self._change(Inputs({"case": found}))
         elif link:
-            self._link.tell("this link has no bearing, drive or contact: copy one of their pages")
+            self._link.show(error="this link has no bearing, drive or contact: copy one of their pages")
 
     def _axis(self, place: int, ranges: Sequence[Range]) -> None:
         """Fields of one varied input."""
@@ -243,7 +211,7 @@ class RangesForm:
 
         title = "Second input (upwards)" if place else "First input (to the right)"
         with ui.element("fieldset").classes("axis"):
-            self._select(name, title, {"": _NONE, **names} if place else names, chosen)
+            self._field(name, title, chosen, {"": _NONE, **names} if place else names)
             if now is not None:
                 self._range(place, now)
 
@@ -261,32 +229,42 @@ class RangesForm:
             return int(text) if text.isdecimal() and len(text) < _LONGEST else text
 
         parts = (
-            ("from", "From", now.start, lambda text: put(start=text)),
-            ("to", "To", now.stop, lambda text: put(stop=text)),
-            ("count", "Number of values", str(now.count), lambda text: put(count=count(text))),
+            ("from", "From", lambda text: put(start=text)),
+            ("to", "To", lambda text: put(stop=text)),
+            ("count", "Number of values", lambda text: put(count=count(text))),
         )
         with ui.element("div").classes("range"):
-            for name, label, value, typed in parts:
-                self._boxes[f"vary.{now.key}.{name}"] = Box(label, value, f"vary-{place}-{name}", typed)
+            for name, label, typed in parts:
+                self._field(f"vary.{now.key}.{name}", label, typed, test=f"vary-{place}-{name}")
             kinds = {"linear": "equal steps", "log": "equal ratios"}
-            self._select(f"vary-{place}-spacing", "Spacing", kinds, lambda value: put(log=value == "log"))
+            self._field(f"vary-{place}-spacing", "Spacing", lambda value: put(log=value == "log"), kinds)
 
-    def _select(
-        self, name: str, label: str, options: Mapping[str, str], chosen: Callable[[str], Awaitable[None]]
+    def _field(
+        self,
+        key: str,
+        label: str,
+        typed: Callable[[str], Awaitable[None]],
+        options: Mapping[str, str] | None = None,
+        test: str = "",
     ) -> None:
-        """List to choose from; ``name`` is its key among the texts of the inputs."""
+        """Field of a varied input; ``key`` is that of its text."""
+        self._axes[key] = control(test or key, label, typed, options)
+        self._axes[key].show(text=_texts(self._inputs)[key])
 
-        async def changed(event: Any) -> None:
-            if event.value is not None and event.value != _texts(self._inputs)[name]:
-                await chosen(str(event.value))
 
-        text = _texts(self._inputs)[name]
-        value = text if text in options else None
-        box = ui.select(
-            dict(options), label=label, value=value, on_change=changed, with_input=len(options) > _SEARCHED
-        )
-        box.props(f"outlined dense data-testid=field-{name.replace('.', '-')}").classes("full")
-        self._selects[name] = box
+def control(
+    name: str, label: str, typed: Callable[[str], Awaitable[None]], options: Mapping[str, str] | None = None
+) -> Control:
+    """Field for a text, or list of options to choose from, which can be searched where it is long."""
+    kind = "text" if options is None else "list" if len(options) <= LONGEST_LIST else "search"
+    listed = [{"value": value, "label": text, "group": ""} for value, text in (options or {}).items()]
+    made = Control(name, kind=kind, label=label, options=listed)
+
+    async def committed(event: Any) -> None:
+        await typed(str(event.args).strip())
+
+    made.on("commit", committed)
+    return made
 
 
 def range_of(variable: Variable) -> Range:
@@ -303,8 +281,7 @@ def _shape(inputs: Inputs, choices: SweepChoices | None) -> tuple[Any, ...]:
 def _texts(inputs: Inputs) -> dict[str, str]:
     """Texts of all fields by their keys."""
     ranges = ranges_of(inputs)
-    texts = {"case.contacts": str(inputs.value("case.contacts") or "solved")}
-    texts |= {f"vary-{place}": "" for place in range(2)}
+    texts = {f"vary-{place}": "" for place in range(2)}
     for place, one in enumerate(ranges):
         texts |= {f"vary-{place}": one.key, f"vary-{place}-spacing": "log" if one.log else "linear"}
         ends = {"from": one.start, "to": one.stop, "count": str(one.count)}
@@ -320,8 +297,13 @@ _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowD
 _FEW = 200
 
 
+# Verdicts of a sweep before its points are solved.
+_NOTHING = Judged("grey", "Nothing is solved yet", "Run fills the map.", "", (), "")
+_RUNNING = Judged("grey", "Points are being solved", "The verdict follows with the last of them.", "", (), "")
+
+
 class MapPart:
-    """Map of a sweep with its table."""
+    """Verdict on a sweep, its map, its notes and its table."""
 
     def __init__(self, session: Session, shown: Callable[[str], Awaitable[None]]) -> None:
         self.session = session
@@ -351,35 +333,35 @@ class MapPart:
         return bool(counts) and not counts.get("open") and not counts.get("failed")
 
     def _build(self) -> None:
-        with page_parts.card("Map") as self._card:
-            self._select = ui.select({}, label="Result to show", on_change=self._other, with_input=True)
-            self._select.props("outlined dense data-testid=show").classes("full")
-            self._note = ui.label("Nothing is solved yet: Run fills the map.").props('data-testid="map-note"')
-            self._verdict = ui.element("div").props('aria-live="polite" data-testid="verdict"')
+        with ui.element("div").classes("answer-body") as self._body:
+            self._panel = Panel((), "")
+            self._note = ui.label().classes("soft").props('data-testid="map-note"')
+            self._select = control("show", "Result to show", self._other, {})
+            self._select.props["kind"] = "search"
             with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
                 self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
                 self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
             self._keys.on("keydown", self._pressed, js_handler=page_parts.script("map_keys"))
             self._keys.set_visibility(False)
             self._point = ui.element("div").classes("point").props('aria-live="polite" data-testid="point"')
-            self._warnings = ui.element("div")
+            self._notes = NoteList()
             with ui.expansion("Table of the points").props('data-testid="points"') as self._points:
                 self._table = ui.table(columns=[], rows=[], row_key="number", pagination=10).classes(
                     "points-table"
                 )
                 self._table.add_slot("body-cell-number", _BUTTON)
                 self._table.on("choose", self._from_table)
-            self._points.set_visibility(False)
+        self.clear()
 
     def offer(self, values: Mapping[str, str], shown: str) -> None:
         """Offer results to show; the first unless another is asked for."""
-        options = dict(values)
-        if self._view is not None:
-            options |= {key: name for key, name in self._view.values.items() if key not in options}
+        options = {} if self._view is None else dict(self._view.values)
+        options = {**values, **{key: name for key, name in options.items() if key not in values}}
         if shown and shown not in options:
             options[shown] = shown
         self.shown = shown or next(iter(values), self.shown)
-        self._select.set_options(options, value=self.shown or None)
+        listed = [{"value": key, "label": name, "group": ""} for key, name in options.items()]
+        self._select.show(options=listed, text=self.shown)
 
     def began(self, ran: Inputs) -> None:
         """Remember the inputs of the points that are being solved."""
@@ -391,15 +373,15 @@ class MapPart:
         """Take everything away."""
         self._view = self._ran = self._chosen = None
         self._point.clear()
-        self._verdict.clear()
-        self._warnings.clear()
-        self._keys.set_visibility(False)
-        self._points.set_visibility(False)
-        self._note.text = "Nothing is solved yet: Run fills the map."
+        self._panel.verdict.show(_NOTHING)
+        self._panel.tell(Deciding(""), None, ())
+        for part in (self._keys, self._points, self._notes.box):
+            part.set_visibility(False)
+        self._note.text = ""
 
     def outdated(self, *, old: bool) -> None:
         """Dim the map where the inputs have changed since."""
-        page_parts.mark(self._card, "old", on=old)
+        page_parts.mark(self._body, "stale", on=old)
         if old:
             self._note.text = "The inputs have changed: this is the map of the ones before."
         elif self._view is not None:
@@ -414,13 +396,10 @@ class MapPart:
             self._chosen = None
         self._draw()
         self._keys.set_visibility(True)
-        self._verdict.clear()
-        self._warnings.clear()
-        if view.text and not running:
-            with self._verdict:
-                page_parts.light(view.level, view.text)
-            with self._warnings:
-                page_parts.warnings(view.warnings)
+        self._panel.verdict.show(_RUNNING if running else view.judged, view.deciding.said)
+        self._panel.tell(view.deciding, None if running else view.number, ())
+        if not running:
+            self._notes.show([Note(one) for one in view.warnings])
         if not running or len(view.rows) <= _FEW:
             self._fill(view)
 
@@ -448,10 +427,10 @@ class MapPart:
         ]
         self._points.set_visibility(True)
 
-    async def _other(self, event: Any) -> None:
-        if event.value and event.value != self.shown:
-            self.shown = str(event.value)
-            await self._told(self.shown)
+    async def _other(self, key: str) -> None:
+        self.shown = key
+        self._select.show(text=key)
+        await self._told(key)
 
     async def _clicked(self, event: Any) -> None:
         if isinstance(event.args, int) and await self._choose(event.args):
@@ -502,7 +481,7 @@ class MapPart:
                     with ui.element("li"):
                         ui.label(text)
             if self._address:
-                name = page_parts.page_texts("open")[self._address.partition("?")[0]]
+                name = page_texts("open")[self._address.partition("?")[0]]
                 link = ui.link(f"{name} (new tab)", self._address, new_tab=True)
                 link.props('data-testid="open-point"')
             else:
@@ -519,7 +498,7 @@ _BUTTON = """
 
 def _told(view: SweepView) -> str:
     """How many points have which state, and how their contacts are computed."""
-    words = page_parts.page_texts("states")
+    words = page_texts("states")
     some = (f"{count} {words.get(state, state)}" for state, count in view.counts.items())
     return f"Points: {', '.join(some)}. {view.accuracy}".rstrip()
 
@@ -577,7 +556,7 @@ class SweepPage:
         page_parts.address_error(error)
         with ui.element("div").classes("columns") as self._place:
             self.form = RangesForm(self.session.inputs, None, self.change)
-            with ui.element("section").props('aria-label="Sweep"'):
+            with ui.element("section").classes("answer").props('aria-label="Sweep"'):
                 self._controls()
                 self.map = MapPart(self.session, self._show)
                 self._outputs()
@@ -694,7 +673,7 @@ class SweepPage:
             with ui.element("div").classes("buttons"):
                 button = ui.button("Sweep file (TOML)", on_click=self._download_toml)
                 button.props("no-caps outline data-testid=download-toml")
-                files = page_parts.page_texts("downloads")["sweep"]
+                files = page_texts("downloads")["sweep"]
                 self.downloads = [self._download_of(*about) for about in files]
             ui.label("ehlectric sweep sweep.toml runs this file; the files are those that it writes.")
         Downloads(self.session, "sweep", self._finished_folder, only_made=True)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, Laws, load, solve
-from ehlectric.app.compute.contact_answers import view_of
+from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.contact_heat import heat_warnings, hot_oil, oil_over_temperature, physics_of
@@ -117,7 +117,7 @@ def test_an_isothermal_film_that_did_not_converge_is_not_told(tmp_path):
     rows = {row.key: row for row in result_rows(result)}
     assert rows["film.isothermal.minimum_thickness"].text == "not converged"
     texts = [text.get_text() for text in figure(result, "temperature.png").texts]
-    texts += [number.note for number in view_of(result).numbers]
+    texts += [number.note for number in answer_of(result).shown]
     assert not any("isothermal and Newtonian" in text for text in texts)
     save(result, tmp_path)
     assert load(tmp_path / "result.nc").summary() == result.summary()
@@ -270,7 +270,7 @@ def test_a_film_that_did_not_converge_has_no_friction(tmp_path):
     rows = {row.key: row.text for row in result_rows(result)}
     assert rows["film.traction_coefficient"] == "not converged"
     assert "film.power_loss" not in rows
-    assert view_of(result).numbers == ()
+    assert answer_of(result).shown == ()
     drawn = figure(result, "shear_stress.png")
     texts = [*drawn.axes[0].get_legend().get_texts(), *drawn.texts]
     assert not any("raction coefficient" in text.get_text() for text in texts)
