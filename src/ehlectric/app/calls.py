@@ -66,8 +66,7 @@ DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")
 DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
 
 # A contact.
-CONTACT_CHECK: Call[ContactAnswer] = Call("contact_answers.check_contact")
-CONTACT_AT_ONCE: Call[ContactAnswer] = Call("contact_answers.solved_if_quick")
+CONTACT_QUICK: Call[ContactAnswer] = Call("contact_answers.quick_answer")
 CONTACT_SOLVED: Call[ContactAnswer] = Call("contact_answers.solve_contact")
 CONTACT_CUTS: Call[Mapping[str, Figure]] = Call("contact_answers.cuts_of")
 

@@ -11,7 +11,7 @@ from ehlectric.app.answers import Effect, Result, effects, in_both, input_rows, 
 from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.compute.bearing_answers import judged
 from ehlectric.app.compute.compare_answers import side, whole_side
-from ehlectric.app.compute.contact_answers import check_contact, contact_case
+from ehlectric.app.compute.contact_answers import by_formula, contact_case
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
 from ehlectric.errors import InputError
@@ -143,7 +143,7 @@ def test_a_coating_has_both_voltages_of_the_first_breakdown():
     assert films.value < shaft.value
 
 
-def test_contacts_are_compared_by_formula(tmp_path):
+def test_contacts_are_compared_by_formula():
     case = example("discharge")
     found = {
         effect.either.name: effect
@@ -153,7 +153,7 @@ def test_contacts_are_compared_by_formula(tmp_path):
     }
     # Pan and Hamrock's minimum film grows with the speed to the power of 0.694.
     assert found["minimum film (Pan-Hamrock)"].change == pytest.approx(100.0 * (2.0**0.694 - 1.0), rel=1e-3)
-    alone = check_contact(case.table, str(tmp_path))
+    alone = by_formula(contact_case(case.table))
     both = side(case.table)
     assert (both.judged, both.deciding) == (alone.judged, alone.deciding)
     assert both.number.text == alone.number(alone.deciding.key).text

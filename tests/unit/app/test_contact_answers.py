@@ -10,11 +10,11 @@ from ehlectric import Case
 from ehlectric.app.compute.answer_parts import concerned
 from ehlectric.app.compute.contact_answers import (
     answer_of,
-    check_contact,
+    by_formula,
     contact_case,
     cuts_of,
+    quick_answer,
     solve_contact,
-    solved_if_quick,
 )
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.form_fields.field import written_text
@@ -54,6 +54,11 @@ def number(answer, key):
     return found
 
 
+def check_contact(table, folder):
+    """Answer by formula about a contact with the files of its session in a folder."""
+    return by_formula(contact_case(table, folder))
+
+
 def solved_at_once(table, folder):
     """Solved answer of a contact on a small grid, with the files of its session in a folder."""
     return answer_of(solve(contact_case(table, folder)))
@@ -75,9 +80,10 @@ def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
     assert float(number(answer, "hertz.max_pressure").text) == pytest.approx(
         expected.summary["hertz"]["max_pressure"] / 1e9, rel=1e-3
     )
-    # A contact that is solved at once follows by itself; another one is solved on request.
-    assert (not answer.whole, answer.solvable) == (quick, not quick)
-    assert solved_if_quick(table_of(name), str(tmp_path)).solved == quick
+    assert (answer.solved, answer.solvable) == (False, True)
+    # Another contact than a smooth line is solved on request.
+    at_once = quick_answer(table_of(name), str(tmp_path))
+    assert (at_once.solved, at_once.solvable) == (quick, not quick)
     assert any("(Pan-Hamrock)" in one.label or "(Chittenden" in one.label for one in answer.shown)
 
 

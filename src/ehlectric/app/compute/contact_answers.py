@@ -31,7 +31,7 @@ from ehlectric.discharge.film_verdict import (
     level_of,
     ratio_text,
 )
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
 from ehlectric.report.light import light_of
@@ -67,38 +67,36 @@ def contact_case(table: Mapping[str, Any], session: Path | str | None = None) ->
     return case
 
 
-def check_contact(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
-    """Answer about a contact before its film is solved, as of ``ehlectric check``. Raises InputError if the
-    tables are no valid case of a contact.
-    """
-    return _by_formula(contact_case(table, session))
-
-
-def solved_if_quick(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
-    """Answer about a contact, solved and without files where that takes a fraction of a second. Raises
-    InputError if the tables are no valid case of a contact.
+def quick_answer(table: Mapping[str, Any], session: Path | str | None = None) -> ContactAnswer:
+    """Answer about a contact: solved, without files, where that takes a fraction of a second, and by formula
+    otherwise. Raises InputError if the tables are no valid case of a contact.
     """
     case = contact_case(table, session)
-    return answer_of(solve(case)) if _is_quick(case) else _by_formula(case)
+    if not _is_quick(case):
+        return by_formula(case)
+    try:
+        return answer_of(solve(case))
+    except ConvergenceError as error:
+        return replace(by_formula(case), how=f"By formula, as the film is not solved: {error}")
 
 
-def _by_formula(case: Case) -> ContactAnswer:
+def by_formula(case: Case) -> ContactAnswer:
+    """Answer about a contact before its film is solved, as of ``ehlectric check``."""
     meaning = check(case)
     verdict = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
     told = page_warnings_of(meaning.warnings)
-    moving, quick = case.motion is not None, _is_quick(case)
+    moving = case.motion is not None
     return ContactAnswer(
         title=meaning.title,
         judged=judged(verdict),
-        how=_TEXTS["moving" if moving else "at_once" if quick else "by_formula"],
+        how=_TEXTS["moving" if moving else "by_formula"],
         shown=with_warnings(cards(meaning.rows, keys), told),
         deciding=deciding(deciding_by_formula(case, verdict), verdict),
         lines=lines_of(meaning.rows),
         warnings=told,
-        whole=not quick,
-        solvable=not (moving or quick),
+        solvable=not moving,
         solved=False,
     )
 

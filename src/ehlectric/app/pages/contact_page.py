@@ -9,7 +9,7 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.answers import ContactAnswer, Reach
-from ehlectric.app.calls import CONTACT_AT_ONCE, CONTACT_CHECK, CONTACT_CUTS, CONTACT_SOLVED
+from ehlectric.app.calls import CONTACT_CUTS, CONTACT_QUICK, CONTACT_SOLVED
 from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
 from ehlectric.app.page_inputs import Inputs
@@ -165,25 +165,14 @@ class ContactView(AnswerView[ContactAnswer]):
         self._cuts = CutsBox(self._session, self._folder, [self.figures[name] for name in _MAPS])
 
     def show(self, answer: ContactAnswer) -> None:
-        """Show an answer; while a film is being solved at once, figures of the one before stay, dimmed."""
-        self._follows = not answer.whole and self.shown
+        """Show an answer."""
         super().show(answer)
         self.body.props(f'data-solved="{str(answer.solved).lower()}"')
-        if self._follows:
-            self.panel.dim(dimmed=True)
-            return
-        self.panel.dim(dimmed=False)
         if answer.solved:
             self.panel.lead(answer.deciding.figure, answer.figures.get(answer.deciding.figure))
         else:
             self.panel.empty(self.waits)
         self._cuts.show(answer)
-
-    def show_figure(self, name: str, place: FigureBox, answer: ContactAnswer) -> None:
-        """Show a figure, or keep it dimmed until the solved one follows."""
-        place.dim(dimmed=self._follows)
-        if not self._follows:
-            super().show_figure(name, place, answer)
 
 
 # Places of the card of the movie: above the answer while surfaces move, and below their roughness at rest.
@@ -207,7 +196,7 @@ class ContactPage(AnswerPage[ContactAnswer]):
         *(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS),
         "breakdown_by_formula.breakdown_voltage",
     )
-    quick, later, solved = CONTACT_CHECK, (CONTACT_AT_ONCE,), CONTACT_SOLVED
+    quick, solved = CONTACT_QUICK, CONTACT_SOLVED
 
     view: ContactView
 

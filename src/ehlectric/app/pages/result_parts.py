@@ -50,11 +50,6 @@ class Panel:
         self._gauge.content = "" if deciding.gauge is None else gauge_svg(deciding.gauge)
         self._facts.content = facts_html(deciding.facts)
 
-    def dim(self, *, dimmed: bool) -> None:
-        """Dim the figure while it is that of earlier inputs."""
-        for box in self.figures.values():
-            box.dim(dimmed=dimmed)
-
     def lead(self, name: str, shown: Figure | None) -> None:
         """Show the figure that decides, of a name; without one the verdict has the whole width."""
         say(self._waits, "")
