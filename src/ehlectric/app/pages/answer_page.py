@@ -208,6 +208,7 @@ class AnswerView(Generic[A]):
         self.shown = False  # whether there is an answer
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self.body:
             self.panel = Panel(self.leading, self.waits)
+            self.build_below_panel()
             with ui.element("div").classes("answer-body") as self._rest:
                 heading("Numbers", 2)
                 table = ui.element("table").classes("quiet").props('data-testid="numbers" aria-live="polite"')
@@ -218,6 +219,9 @@ class AnswerView(Generic[A]):
                 self._lines = ui.html("", sanitize=False).props('data-testid="details"')
         self._rest.set_visibility(False)
         self.dim(dimmed=True)
+
+    def build_below_panel(self) -> None:
+        """Build what stands between the panel and the numbers."""
 
     def build(self) -> None:
         """Build what stands between the notes and the table of all rows."""
