@@ -80,7 +80,7 @@ def ends_table(summary: Summary, sheet: Sheet) -> Table:
     rows: list[tuple[str, ...]] = []
     for heading, cells in end_cells(summary, sheet):
         rows += [(heading, "", "", ""), *((f"\u2003{name}", *rest) for name, *rest in cells)]
-    return Table("As the command prints them", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
+    return Table("Both bearings", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
 
 
 def remedies_table(summary: Mapping[str, Any]) -> Table | None:

@@ -179,13 +179,23 @@ def removable(text: str, name: str, remove: Callable[[], Any]) -> None:
 
 
 class Choices:
-    """Row of buttons of which at most one is pressed; ``choose`` is called with its name, "" for none."""
+    """Row of buttons of which one is pressed; ``choose`` is called with its name, or "" for none.
 
-    def __init__(self, names: Iterable[str], label: str, choose: Callable[[str], object]) -> None:
-        self.chosen, self._choose = "", choose
+    The pressed one is released by a second press, unless one is ``always`` pressed.
+    """
+
+    def __init__(
+        self, names: Iterable[str], label: str, choose: Callable[[str], object], *, always: bool = False
+    ) -> None:
+        self.chosen, self._choose, self._always = "", choose, always
         with ui.element("div").classes("buttons").props("role=group") as box:
             self._buttons = {
-                name: tool(name, f"choose-{name.lower().replace(' ', '-')}", partial(self.press, name))
+                name: button(
+                    name,
+                    f"choose-{name.lower().replace(' ', '-')}",
+                    partial(self.press, name),
+                    "no-caps dense",
+                )
                 for name in names
             }
         box.props["aria-label"] = label
@@ -193,7 +203,7 @@ class Choices:
 
     def press(self, name: str) -> None:
         """Press a button, or release the pressed one."""
-        self.show("" if name == self.chosen else name)
+        self.show("" if name == self.chosen and not self._always else name)
         self._choose(self.chosen)
 
     def show(self, chosen: str) -> None:
@@ -201,14 +211,14 @@ class Choices:
         self.chosen = chosen
         for name, one in self._buttons.items():
             one.props(f'aria-pressed="{str(name == chosen).lower()}"')
-            mark(one, "pressed", on=name == chosen)
+            mark(one, "primary", on=name == chosen)
 
     def offer(self, names: Container[str]) -> None:
         """Hide all buttons but these; a hidden one is released."""
         for name, one in self._buttons.items():
             one.set_visibility(name in names)
-        if self.chosen and self.chosen not in names:
-            self.press(self.chosen)
+        if self.chosen not in names:
+            self.show("")
 
 
 @contextmanager
