@@ -103,7 +103,7 @@ def times(value: object, factor: float) -> str | None:
     ('5 kHz', None, None)
     """
     found = split(str(value))
-    return f"{rounded(factor * found[0])} {found[1]}" if found is not None and found[1] else None
+    return f"{rounded(factor * found[0], 12)} {found[1]}" if found is not None and found[1] else None
 
 
 def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:

@@ -24,6 +24,7 @@ from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_tex
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.units import in_unit
 from ehlectric.runs.example_files import example_text
 
 
@@ -66,7 +67,7 @@ def drive_with(bearing: Inputs) -> Inputs:
     if common_mode is not None:
         # The largest common-mode voltage of an inverter is half of its DC link.
         motor["source.dc_link"] = times(common_mode, 2.0)
-        if motor["source.dc_link"] is None:
+        if in_unit(str(common_mode), "V") is None:
             raise InputError(_COMMON_MODE, got=str(common_mode), takes="one value with its unit for a drive")
     given = {key: value for key, value in motor.items() if value is not None}
     return changed(DRIVE, changes | given)
