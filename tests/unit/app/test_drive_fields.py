@@ -183,7 +183,7 @@ def test_a_bearing_in_its_drive():
     assert bare.drive_end.discharge.dielectric_strength == pytest.approx(15e6)
 
 
-@each("voltage, link", [("400 V", "800 V"), ("0.4 kV", "0.8 kV"), ("287.65 V", "575.3 V")])
+@each("voltage, link", [("400 V", "800 V"), ("0.4 kV", "0.8 kV"), ("287.65 V", "575.3 V"), (400, "800 V")])
 def test_the_common_mode_voltage_is_carried_over_exactly(voltage, link):
     bearing = BEARING.changed({"motor.common_mode_voltage": voltage})
     assert drive_with(bearing).value("source.dc_link") == link

@@ -64,6 +64,8 @@ def drive_with(bearing: Inputs) -> Inputs:
     }
     motor = {theirs: bearing.value(key) for key, theirs in form_data("motor_in_drive").items()}
     common_mode = bearing.value(_COMMON_MODE)
+    if isinstance(common_mode, int | float):
+        common_mode = f"{common_mode} V"
     if common_mode is not None:
         # The largest common-mode voltage of an inverter is half of its DC link.
         motor["source.dc_link"] = times(common_mode, 2.0)
