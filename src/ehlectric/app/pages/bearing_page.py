@@ -182,6 +182,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
         """Want no further answers."""
         super().close()
         self._cycle.drop()
+        self.view.helps.following.drop()
 
     async def _cycle_of(self, inputs: Inputs) -> DutyAnswer:
         async with self.session.work.behind:

@@ -11,7 +11,7 @@ from ehlectric.app.answers import RemedyAnswer
 from ehlectric.app.calls import REMEDY_QUICK, REMEDY_WHOLE, Call
 from ehlectric.app.catalogue import choices, oil_needs
 from ehlectric.app.following import Following
-from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_bearing
+from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_bearing, with_remedy
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import PATHS, address_of, drive_with
 from ehlectric.app.pages.page_parts import Choices, Control, heading, mark, say
@@ -36,7 +36,7 @@ class HelpBox:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
-        self._following: Following[Both, RemedyAnswer] = Following(
+        self.following: Following[Both, RemedyAnswer] = Following(
             lambda both: self._answer(REMEDY_QUICK, both),
             [lambda both: self._answer(REMEDY_WHOLE, both)],
             show=lambda _, answer: self._show(answer),
@@ -63,12 +63,12 @@ class HelpBox:
 
     def wait(self) -> None:
         """Dim what belongs to earlier inputs."""
-        self._following.drop()
+        self.following.drop()
         mark(self._effect, "stale", on=True)
 
     def refresh(self) -> None:
         """Offer what the present bearing has not yet, and ask for the effect of the pressed one."""
-        self._following.drop()
+        self.following.drop()
         inputs = self._session.inputs.changed({"duty": None})
         found = {name: remedy_at_bearing(inputs, name, self._oil) for name in BEARING_REMEDIES}
         self._box.set_visibility(True)
@@ -82,9 +82,8 @@ class HelpBox:
     def _ask(self, inputs: Inputs, remedy: Mapping[str, Any]) -> None:
         self._list.show(text=remedy["changes"].get("bearings.lubricant.base", ""))
         try:
-            drive = drive_with(inputs).changed(
-                {"remedies": [{key: remedy[key] for key in ("title", "changes")}]}
-            )
+            remedies = with_remedy(Inputs(), remedy["title"], remedy["changes"])
+            drive = drive_with(inputs).changed({"remedies": remedies})
         except InputError as error:
             self._tell(str(error))
             return
@@ -95,7 +94,7 @@ class HelpBox:
         second = inputs.value("motor.second_bearing_capacitance") is not None
         say(self._told, _SECOND if second else "")
         mark(self._effect, "stale", on=True)
-        self._following.ask((inputs, drive))
+        self.following.ask((inputs, drive))
 
     def _show(self, answer: RemedyAnswer) -> None:
         self._table.content = table_html(answer.table)
