@@ -5,7 +5,16 @@ import zipfile
 
 import pytest
 
-from tests.browser.driving import field, number, seen, type_into, wait_for_any_number, wait_for_number
+from tests.browser.driving import (
+    complete,
+    field,
+    number,
+    seen,
+    type_into,
+    wait_for_address,
+    wait_for_any_number,
+    wait_for_number,
+)
 from tests.browser.outputs import address_of, downloaded, fits, summary_by_command
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import alive, wait_until
@@ -64,10 +73,17 @@ def test_a_simulation_has_the_numbers_of_the_command_and_a_remedy_stands_beside_
     table = page.get_by_test_id("remedies-table")
     table.get_by_text("Grounding ring").wait_for()
     assert table.locator("tbody tr").count() == 2
+    # Further figures are drawn when their place is opened, one at a time.
+    further = page.get_by_test_id("figure-further")
+    assert not further.is_visible()
+    page.get_by_test_id("further").locator("summary").first.click()
     # The circles are the discharges of the shown time.
-    circles = page.locator("[data-testid=figure-voltages] .js-plotly-plot .scatterlayer .point")
+    circles = further.locator(".js-plotly-plot .scatterlayer .point")
     assert wait_until(lambda: circles.count() > 0)
-    seen(page, "figure-spectrum").wait_for()
+    page.get_by_test_id("choose-spectrum").click()
+    further.get_by_role("heading", name="Spectrum").wait_for()
+    assert page.get_by_test_id("choose-spectrum").get_attribute("aria-pressed") == "true"
+    assert page.get_by_test_id("choose-voltages").get_attribute("aria-pressed") == "false"
     with zipfile.ZipFile(downloaded(page, "download-csv", tmp_path)) as archive:
         assert {"events.csv", "spectrum.csv"} <= set(archive.namelist())
     # Another input has no simulation yet; one step leads back to it.
@@ -124,3 +140,68 @@ def test_a_measured_waveform_takes_the_place_of_the_source(open_page, app_server
     assert number(page, "end.peak_voltage") > 0.0
     page.get_by_test_id("undo").click()
     wait_for_number(page, "end.voltage_at_peak", AT_PEAK)
+
+
+# Height of the page of a simulated drive on a phone [px]; twice that with all figures below each other.
+TALLEST = 5000
+
+
+@pytest.mark.slow
+def test_a_simulated_drive_is_short_on_a_phone_and_shows_what_decides(open_page, app_server):
+    page = open_page(app_server, address_of("/drive", short()), width=400, height=800)
+    simulate(page)
+    for test_id in ("number-end.events_per_second", "number-end.energy_mean", "remedies-table"):
+        assert page.get_by_test_id(test_id).is_visible()
+    seen(page, "figure-remedies").wait_for()
+    assert page.evaluate("document.documentElement.scrollHeight") < TALLEST
+    assert fits(page)
+    page.get_by_test_id("further").locator("summary").first.click()
+    page.get_by_test_id("figure-further").wait_for()
+    assert page.evaluate("document.documentElement.scrollHeight") < 1.1 * TALLEST
+    assert fits(page)
+
+
+@pytest.mark.slow
+def test_a_remedy_of_a_bearing_leads_to_its_drive_with_the_same_voltage(open_page, app_server):
+    page = open_page(app_server)
+    complete(page)
+    type_into(page, "motor.common_mode_voltage", "400 V")
+    wait_for_address(page, "400 V")
+    complete(page)
+    button = page.get_by_test_id("choose-hybrid")
+    button.focus()
+    page.keyboard.press("Enter")
+    effect = page.get_by_test_id("helps-effect")
+    effect.get_by_text("No discharge expected").wait_for()
+    assert button.get_attribute("aria-pressed") == "true"
+    effect.and_(page.locator("[data-whole=true]")).wait_for()
+    # By the divider, with nine elements of 5 pF in each bearing.
+    voltage = f"{400.0 * 20.0 / 1110.0:.3g} V"
+    effect.get_by_text(voltage, exact=True).wait_for()
+    page.get_by_test_id("helps-drive").click()
+    page.wait_for_url("**/drive?*")
+    wait_for_number(page, "source.peak", 400.0)
+    assert field(page, "source.dc_link").input_value() == "800 V"
+    box = page.get_by_test_id("remedy-ceramic-balls")
+    assert box.get_attribute("aria-checked") == "true"
+    assert page.get_by_test_id("remedy-grounding-ring").get_attribute("aria-checked") == "false"
+
+
+@pytest.mark.slow
+def test_remedies_of_a_bearing_follow_its_inputs_on_a_phone(open_page, app_server):
+    page = open_page(app_server, width=400, height=800)
+    complete(page)
+    page.get_by_test_id("choose-other-oil").click()
+    table = page.get_by_test_id("helps-effect").get_by_role("row").filter(has_text="Margin (")
+    table.wait_for()
+    before = table.inner_text()
+    page.get_by_test_id("field-remedy-oil").select_option("iso-vg-32")
+    assert wait_until(lambda: table.inner_text() != before)
+    assert fits(page)
+    # A bearing that is hybrid already is offered the others, and no effect of what was pressed stays.
+    page.get_by_test_id("choose-hybrid").click()
+    page.get_by_test_id("helps-effect").get_by_text("No discharge expected").wait_for()
+    page.get_by_test_id("group-bearing").locator("select").first.select_option("silicon-nitride")
+    page.get_by_test_id("choose-hybrid").wait_for(state="hidden")
+    assert not page.get_by_test_id("helps-effect").is_visible()
+    assert page.get_by_test_id("verdict").get_attribute("data-level") == "green"

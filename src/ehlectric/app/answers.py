@@ -660,6 +660,14 @@ class BearingAnswer(PageAnswer):
 
 
 @dataclass(frozen=True)
+class RemedyAnswer:
+    """Answer about a bearing beside that with a remedy."""
+
+    table: Table  # what changes, now and with the remedy
+    whole: bool  # whether it has the range of the margin, the probability and the critical speed
+
+
+@dataclass(frozen=True)
 class Reach:
     """Range of the points through which a point contact can be cut, and the first one."""
 

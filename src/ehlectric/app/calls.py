@@ -14,6 +14,7 @@ from ehlectric.app.answers import (
     DutyAnswer,
     Figure,
     MotionAnswer,
+    RemedyAnswer,
     Side,
     SurfaceAnswer,
     SweepChoices,
@@ -56,6 +57,10 @@ BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
 BEARING_OVER_SPEED: Call[BearingAnswer] = Call("bearing_answers.answer_over_speed")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
+
+# A bearing beside that with a remedy.
+REMEDY_QUICK: Call[RemedyAnswer] = Call("remedy_answers.quick_remedy")
+REMEDY_WHOLE: Call[RemedyAnswer] = Call("remedy_answers.whole_remedy")
 
 # A duty cycle: what its file has, and its result.
 DUTY_LOOK: Call[str] = Call("duty_answers.look")

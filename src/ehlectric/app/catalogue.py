@@ -25,6 +25,11 @@ def oil(name: str) -> dict[str, Any]:
     return library.lubricant(name) if name in library.lubricant_names() else {}
 
 
+def oil_title(name: str) -> str:
+    """Title of an oil of the library."""
+    return str(library.tables("lubricant", name)["title"])
+
+
 @cache
 def coating(name: str) -> dict[str, Any]:
     """Table of a coated ring of the library; empty for another name."""
@@ -67,7 +72,7 @@ def _bearing(name: str) -> Choice:
 def _oil(name: str) -> Choice:
     file = library.tables("lubricant", name)
     kind = file["lubricant"].get("temperature", {}).get("base_oil", "")
-    title = str(file["title"])
+    title = oil_title(name)
     group = _HEADINGS.get(kind) or _named(title)
     return Choice(name, title if title.lower().startswith(name.split("-")[0]) else f"{name}: {title}", group)
 

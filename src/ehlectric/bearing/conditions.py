@@ -34,6 +34,8 @@ class Solid:
     poissons_ratio: float  # poisson's ratio, dimensionless
     density: float  # [kg/m^3]
     conducting: bool  # whether the material conducts electricity
+    dielectric_strength: float | None = None  # [V/m]; None where the library has none
+    strength_of: str = ""  # material and norm that this strength is of
 
     @classmethod
     def of(cls, name: str) -> Solid:
@@ -44,6 +46,8 @@ class Solid:
             table["poissons_ratio"],
             to_si(table["density"], "kg/m**3"),
             table["conducting"],
+            to_si(strength, "V/m") if (strength := table.get("dielectric_strength")) else None,
+            table.get("dielectric_strength_of", ""),
         )
 
     @property

@@ -22,6 +22,7 @@ from ehlectric.bearing.bearing_discharges import (
     with_films_scaled,
 )
 from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.ceramic_elements import element_breakdown, element_field, element_voltage
 from ehlectric.bearing.changed_bearings import (
     OWN,
     PARTS,
@@ -46,6 +47,7 @@ from ehlectric.bearing.solution import (
     CONDUCTING,
     PARTIAL,
     BearingSolution,
+    capacitance_is_bound,
     error_text,
     film_error,
     insulating,
@@ -59,6 +61,7 @@ from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
 from ehlectric.discharge.film_verdict import (
+    STRENGTH_UNKNOWN,
     UNLIKELY,
     Chance,
     Level,
@@ -502,8 +505,8 @@ _OPENING = "Contacts discharge at a low voltage as they open"
 def bearing_verdict(
     solution: BearingSolution, analysis: MarginAnalysis, chance: Chance | None = None
 ) -> Verdict:
-    """Verdict on a solved bearing; grey where the numbers must not be used, for ceramic elements, and without
-    a strength or a shaft voltage.
+    """Verdict on a solved bearing; grey where the numbers must not be used, and without a strength or a shaft
+    voltage. Of ceramic elements it is about the voltage that they insulate.
 
     The level follows the probability of breakdown, ``chance``, where it is known. Otherwise the margin may
     lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
@@ -517,11 +520,7 @@ def bearing_verdict(
         return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
     state = lubrication(solution)
     if solution.conditions.ceramic:
-        touching = f" Surfaces touch (lambda ratio {lambda_text(solution)})." if state == "touching" else ""
-        return Verdict(
-            "grey",
-            "No verdict: the ceramic elements insulate, and their own breakdown is not computed." + touching,
-        )
+        return _of_ceramics(solution)
     if state == "conducting":
         # A thinner film than one that breaks down is not safer.
         return Verdict(
@@ -543,6 +542,38 @@ def bearing_verdict(
             + _assumptions(solution),
         )
     return _judged(solution, analysis, breakdown, shaft, doubts_of(warnings), chance)
+
+
+def _of_ceramics(solution: BearingSolution) -> Verdict:
+    """Verdict on a bearing with ceramic elements, through which no film discharges: whether they insulate the
+    voltage on them, with a strength that is as uncertain as one without a stated range.
+    """
+    voltage, most, element = (
+        element_voltage(solution),
+        element_breakdown(solution),
+        solution.conditions.element,
+    )
+    touch = lubrication(solution) == "touching"
+    touching = f" Surfaces touch (lambda ratio {lambda_text(solution)})." if touch else ""
+    if most is None or element.dielectric_strength is None:
+        return Verdict("grey", f"No verdict: no strength of the insulating elements is known.{touching}")
+    insulates = f"insulates at least {amount(float(f'{most:.2g}'), 'V')}"
+    ends = " to ".join(f"{1e-6 * end:.3g}" for end in strength_interval(element.dielectric_strength))
+    why = f"{element.strength_of}, ± {100.0 * STRENGTH_UNKNOWN:.0f} %"
+    assumed = f" Best estimate: strength of the ceramic {ends} V/µm ({why})."
+    if voltage is None:
+        no_voltage = "but no shaft voltage is known without [motor]"
+        return Verdict(
+            "grey", f"No verdict: each ceramic element {insulates}, {no_voltage}.{touching}{assumed}"
+        )
+    sure, bound = strength_interval(most / voltage)[0] >= 1.0, capacitance_is_bound(solution)
+    return Verdict(
+        "green" if sure else "yellow",
+        f"{'No discharge expected' if sure else 'Discharge possible'}: each ceramic element must insulate "
+        f"{'at most ' if bound else ''}{voltage:.3g} V {_at(solution)}, and {insulates}. The field in it is "
+        f"at most {1e-6 * (element_field(solution) or 0.0):.2g} V/µm. Films beside such elements do not "
+        f"discharge.{touching}{assumed}",
+    )
 
 
 def _judged(

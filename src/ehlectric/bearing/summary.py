@@ -20,6 +20,7 @@ from ehlectric.bearing.bearing_discharges import (
     strength_per_volt,
 )
 from ehlectric.bearing.bearing_touching import BearingDuty, contact_duty, duty_of, duty_summary
+from ehlectric.bearing.ceramic_elements import ceramic_summary
 from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.film_factor import friction_summary, half_time
 from ehlectric.bearing.impedance import (
@@ -147,6 +148,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
         "shaft_voltage": shaft,
         "film_voltage": across,
+        **ceramic_summary(solution),
         "relaxation_time": oil_relaxation_time(solution),
         "shaft_time_constant": None if leaks is None else leaks.time_constant,
         "film_time_constant": None if leaks is None else leaks.film_time_constant,

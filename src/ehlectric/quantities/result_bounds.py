@@ -112,10 +112,13 @@ def breakdown_words(summary: Summary) -> str:
 
 
 # Numbers of a bearing that are bounds only where a condition holds: capacitances of ceramic elements whose
-# own capacitance is not given, voltages where the oil discharges the shaft, and ideal films.
+# own capacitance is not given, voltages where the oil discharges the shaft, and ideal films. The field in
+# ceramic elements is always one.
 _CERAMIC = tuple(
-    f"bearing.{name}" for name in ("capacitance", "capacitance_oil", "capacitance_air", "shaft_capacitance")
+    f"bearing.{name}"
+    for name in ("capacitance", "capacitance_oil", "capacitance_air", "shaft_capacitance", "element_voltage")
 )
+_OF_ELEMENTS = tuple(f"bearing.element_{name}" for name in ("field", "breakdown", "margin"))
 _DISCHARGED = ("bearing.shaft_voltage", "bearing.film_voltage")
 _FILMS = (
     *("bearing.lambda_ratio", "bearing.minimum_thickness", "duty.stretches.lambda_ratio"),
@@ -143,6 +146,7 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     ideal = isothermal or _smooth(summary["inputs"]["bearing"]) or _parting(summary)
     holds = {
         **dict.fromkeys(_CERAMIC, "capacitance-bound" in codes),
+        **dict.fromkeys(_OF_ELEMENTS, True),
         **dict.fromkeys(_DISCHARGED, leaks),
         **dict.fromkeys(_FILMS, isothermal and summary["bearing"]["film_factor"] == 1.0),
         **dict.fromkeys(_OF_SHAFT, ideal and not leaks),

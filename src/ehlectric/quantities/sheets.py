@@ -50,9 +50,11 @@ LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (
     tuple[str, ...](_READ["columns"][name]) for name in ("loads", "films", "page")
 )
 
-# Main results of two cases next to each other, and how far solved contacts of a bearing differ from quick
-# ones.
-COMPARED, DIFFERENCES = (tuple[str, ...](_READ["main"][name]) for name in ("compared", "differences"))
+# Main results of two cases next to each other, what a remedy changes of a bearing, and how far its solved
+# contacts differ from quick ones.
+COMPARED, REMEDIED, DIFFERENCES = (
+    tuple[str, ...](_READ["main"][name]) for name in ("compared", "remedies", "differences")
+)
 
 # Columns of rough surfaces, of oils and of sweeps, voltages that belong together, and values in words.
 SURFACES, OILS, SWEEP_COLUMNS, BREAKDOWNS, VALUES = (

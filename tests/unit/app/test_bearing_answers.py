@@ -174,14 +174,25 @@ def test_with_ranges_the_verdict_at_once_is_not_green():
     assert "within the stated ranges" in whole.number("bearing.margin").note
 
 
-def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
-    quick = quick_answer(inputs(element_material="silicon-nitride"))
-    assert quick.level == "grey"
-    capacitance, shaft = quick.number("bearing.capacitance"), quick.number("bearing.shaft_voltage")
+def test_the_voltage_that_ceramic_elements_must_insulate_decides():
+    """Nine of 5 pF each beside 20 pF and 1 nF, at 300 V; without their capacitance a bound."""
+    given = quick_answer(inputs(element_material="silicon-nitride", element_capacitance="5 pF"))
+    assert (given.level, given.judged.lead) == ("green", "No discharge expected")
+    assert given.deciding.key == "bearing.element_voltage"
+    assert given.number("bearing.element_voltage").with_unit == f"{300.0 * 20.0 / 1110.0:.3g} V"
+    bound = quick_answer(inputs(element_material="silicon-nitride"))
+    assert bound.number("bearing.element_voltage").with_unit == f"≤ {300.0 * 20.0 / 1020.0:.3g} V"
+    capacitance = bound.number("bearing.capacitance")
     assert (capacitance.bound, "≤" in capacitance.note) == ("≤", True)
     assert "capacitance-bound" in [told.code for told in capacitance.warnings]
-    assert (shaft.known, shaft.text) == (False, "none")
-    assert not quick.number("bearing.margin").known
+
+
+@pytest.mark.parametrize("motor", [True, False])
+def test_no_card_of_ceramic_elements_is_none(motor):
+    table = inputs(element_material="silicon-nitride")
+    answer = whole_quick_answer(table if motor else {**table, "motor": None})
+    assert all(one.known for one in answer.shown)
+    assert answer.number(answer.deciding.key) is not None
 
 
 def test_touching_surfaces_have_no_voltage_and_no_green():

@@ -315,3 +315,12 @@ def test_a_duty_cycle_is_simulated_with_the_drive(tmp_path):
     shown = [trace["name"] for trace in figure.plot["data"] if trace["showlegend"]]
     assert shown == ["standstill", *NAMES_OF_ENDS.values()]
     assert len(figure.table.rows) == len(summary["duty"]["stretches"])
+
+
+def test_ceramic_elements_have_their_voltage_in_the_drive_and_no_card_without_a_value():
+    """Nine elements of 5 pF in each bearing, beside 50 pF and 500 pF: a part of the 280 V of the source."""
+    ceramic = {"bearing.element_material": "silicon-nitride", "bearing.element_capacitance": "5 pF"}
+    changes = {f"drive_end.{key}": value for key, value in ceramic.items()} | {"remedies": None}
+    answer = quick_answer(DRIVE.changed(changes).table)
+    assert answer.number(answer.deciding.key).text == f"{280.0 * 50.0 / (550.0 + 2.0 * 45.0):.3g}"
+    assert all(one.known for one in answer.shown)

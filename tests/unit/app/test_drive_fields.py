@@ -3,6 +3,7 @@
 import pytest
 
 from ehlectric.app.catalogue import choices
+from ehlectric.app.compute.bearing_answers import bearing_case, solved_quickly
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
     HALF,
@@ -10,6 +11,7 @@ from ehlectric.app.form_fields.drive_fields import (
     PRESETS,
     changes_of,
     remedies_of,
+    remedy_at_bearing,
     with_remedy,
     without_remedy,
 )
@@ -17,10 +19,15 @@ from ehlectric.app.form_fields.field_defaults import bearing_at, default_of, end
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_own, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, DRIVE, drive_with
+from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field
 from ehlectric.cases.table import number_of
+from ehlectric.drive.quick_drive import quick_drive
+from ehlectric.drive.solver import prepare
+from ehlectric.drive.summary import checked_summary
+from ehlectric.errors import InputError
 from ehlectric.quantities import units
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.units import in_unit, si_unit
@@ -167,12 +174,58 @@ def test_a_bearing_in_its_drive():
     )
     case = DriveCase.from_written(drive_with(bearing).table)
     assert case.drive_end.bearing.radial_load == 1800.0
+    assert case.source.dc_link == 600.0
     assert case.circuit.winding_rotor_capacitance == pytest.approx(7e-12)
     assert case.source.rise_time == pytest.approx(1e-6)
     assert case.bearings[0].bearing.inner_speed == pytest.approx(157.0796, rel=1e-6)
     # A bearing without a strength gets the assumed one, which a drive needs.
     bare = DriveCase.from_written(drive_with(BEARING.changed({"discharge": None})).table)
     assert bare.drive_end.discharge.dielectric_strength == pytest.approx(15e6)
+
+
+@each("voltage, link", [("400 V", "800 V"), ("0.4 kV", "0.8 kV"), ("287.65 V", "575.3 V"), (400, "800 V")])
+def test_the_common_mode_voltage_is_carried_over_exactly(voltage, link):
+    bearing = BEARING.changed({"motor.common_mode_voltage": voltage})
+    assert drive_with(bearing).value("source.dc_link") == link
+
+
+def test_the_drive_of_a_bearing_has_its_shaft_voltage():
+    """400 V on the page of a bearing are 400 V at the peak of its drive, and the divider is the same.
+
+    That of the drive has the elements at their first position, that of the bearing has their mean.
+    """
+    bearing = BEARING.changed({"motor.common_mode_voltage": "400 V"})
+    case = DriveCase.from_written(drive_with(bearing).table)
+    quick, _ = quick_drive(case)
+    found = checked_summary(prepare(quick, workers=1))
+    own = solved_quickly(bearing_case(bearing.table)).solution
+    assert found["source"]["peak"] == pytest.approx(400.0, rel=1e-12)
+    voltage = found["drive_end"]["voltage_at_peak"]
+    assert voltage == pytest.approx(float(shaft_voltage(own)), rel=1e-2)
+
+
+@each("voltage", ["300 V +- 10 %", "300 V to 400 V", "much"])
+def test_a_common_mode_voltage_that_is_no_single_one_is_refused_in_its_drive(voltage):
+    with pytest.raises(InputError) as refused:
+        drive_with(BEARING.changed({"motor.common_mode_voltage": voltage}))
+    assert refused.value.key == "motor.common_mode_voltage"
+
+
+@each("name, table, offered", [
+    ("Hybrid", {}, True), ("Hybrid", {"bearing.element_material": "silicon-nitride"}, False),
+    ("Insulated", {}, True), ("Insulated", {"bearing.coating": {"base": "alumina"}}, False),
+    ("Grounding ring", {}, True), ("Grounding ring", {"motor": None}, False),
+    ("Other oil", {}, True), ("Other oil", {"motor": None}, True),
+])  # fmt: skip
+def test_a_bearing_is_offered_what_it_has_not(name, table, offered):
+    assert (remedy_at_bearing(BEARING.changed(table), name) is not None) == offered
+
+
+def test_another_oil_is_another_one():
+    assert remedy_at_bearing(BEARING, "Other oil")["title"] == "Oil fva-3"
+    thick = BEARING.changed({"lubricant": {"base": "fva-3"}})
+    assert remedy_at_bearing(thick, "Other oil")["title"] == "Oil mobil-shc-320"
+    assert remedy_at_bearing(thick, "Other oil", "iso-vg-32")["title"] == "Oil iso-vg-32"
 
 
 def test_an_address_holds_a_drive_with_its_remedies():

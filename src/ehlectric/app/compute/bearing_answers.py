@@ -116,7 +116,7 @@ def shown_numbers(
     Without a ``whole`` answer the summary lacks the table ``margin``, which follows.
     """
     rows = {row.key: row for row in total_rows(summary)}
-    missing = _missing(summary, warnings, rows, whole=whole)
+    missing = _missing(summary, rows, whole=whole)
     known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
     ranged = not whole and bool(summary["inputs"].get("ranges"))
     found = []
@@ -131,12 +131,13 @@ def shown_numbers(
     return tuple(found)
 
 
-def _missing(
-    summary: Mapping[str, Any], warnings: tuple[PageWarning, ...], rows: Mapping[str, Row], *, whole: bool
-) -> dict[str, Number]:
+def _missing(summary: Mapping[str, Any], rows: Mapping[str, Row], *, whole: bool) -> dict[str, Number]:
     """Numbers that have no value, with the reasons, by key."""
     totals, speed = summary["bearing"], "margin.critical_speed"
-    broken, shaft = _no_voltage(summary), _no_shaft(summary, warnings)
+    if totals["element_breakdown"] is not None and summary["converged"]:
+        # Ceramic elements have numbers of their own.
+        return {}
+    broken, shaft = _no_voltage(summary), _no_shaft(summary)
     reasons = {
         "bearing.first_break": broken,
         "bearing.shaft_voltage": shaft,
@@ -157,22 +158,14 @@ def _no_voltage(summary: Mapping[str, Any]) -> str:
     """Reason why there is no breakdown voltage."""
     if not summary["converged"]:
         return "not converged"
-    state, discharge = summary["bearing"]["lubrication"], summary["inputs"].get("discharge", {})
-    if state == "conducting":
+    if summary["bearing"]["lubrication"] == "conducting":
         return "λ is below 1: contacts open and close, and discharge as they do; this is not safe"
-    laws = ("dielectric_strength", "weibull", "strength_table")
-    if not any(discharge.get(law) for law in laws):
-        return "no dielectric strength is given"
-    return "the ceramic elements insulate, and their own breakdown is not computed"
+    return "no dielectric strength is given"
 
 
-def _no_shaft(summary: Mapping[str, Any], warnings: tuple[PageWarning, ...]) -> str:
+def _no_shaft(summary: Mapping[str, Any]) -> str:
     """Reason why there is no shaft voltage."""
-    if "motor" not in summary["inputs"]:
-        return "no motor is given"
-    if any(one.code == "capacitance-bound" for one in warnings):
-        return "the capacitance of the ceramic elements is an upper bound only"
-    return "the surfaces touch"
+    return "the surfaces touch" if "motor" in summary["inputs"] else "no motor is given"
 
 
 # Interval of the margin and probability of breakdown, and beginnings of sentences of the verdict that the
@@ -182,14 +175,16 @@ _SAID = ("Shaft voltage ", PROBABILITY_FOLLOWS.removesuffix(" follows."), "break
 
 
 def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
-    """Margin with its interval, which follows unless the answer is ``probable``; where there is no shaft
-    voltage, the first breakdown voltage, and no number where there is neither: the verdict says why.
+    """Margin with its interval, which follows unless the answer is ``probable``. Without one the voltage that
+    ceramic elements must insulate, or can; without a shaft voltage the first breakdown voltage. No number
+    where there is none of them: the verdict says why.
     """
     totals = summary["bearing"]
     margin = totals["margin"] if summary["converged"] else None
     if margin is None:
-        known = summary["converged"] and totals["first_break"] is not None
-        return Deciding("bearing.first_break" if known else "", figure="breakdown")
+        others = ("element_voltage", "element_breakdown", "first_break") if summary["converged"] else ()
+        named = next((f"bearing.{key}" for key in others if totals[key] is not None), "")
+        return Deciding(named, figure="breakdown")
     rows = {row.key: row for row in total_rows(summary)}
     facts = tuple(
         (BEARING_BOOK[key].label, rows[key].amount if probable else PENDING)
@@ -281,7 +276,7 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
-def _without_cycle(table: Mapping[str, Any], session: Path | None) -> BearingCase:
+def without_cycle(table: Mapping[str, Any], session: Path | None) -> BearingCase:
     """Case of a bearing at its own operating point, which needs no file of a duty cycle."""
     return bearing_case({key: value for key, value in table.items() if key != "duty"}, session=session)
 
@@ -294,19 +289,19 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Beari
 
     Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(solved_quickly(_without_cycle(table, session)), whole=False)
+    return answer_of(solved_quickly(without_cycle(table, session)), whole=False)
 
 
 def answer_over_speed(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``quick_answer`` has it, with critical speeds, effects of the inputs and
     curves over the speed, but without the probability of breakdown.
     """
-    return answer_of(solved_quickly(_without_cycle(table, session)), whole=True, probable=False)
+    return answer_of(solved_quickly(without_cycle(table, session)), whole=True, probable=False)
 
 
 def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
     """Answer about a bearing as ``answer_over_speed`` has it, with the probability of breakdown."""
-    return answer_of(solved_quickly(_without_cycle(table, session)), whole=True)
+    return answer_of(solved_quickly(without_cycle(table, session)), whole=True)
 
 
 def duty_answer(table: Mapping[str, Any], session: Path | None = None) -> DutyAnswer:

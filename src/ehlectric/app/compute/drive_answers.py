@@ -60,6 +60,8 @@ def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, .
     whole = {row.key: row for row in whole_rows(summary, sheet)}
     ends = _pairs(summary, sheet)
     keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
+    if _BREAKDOWN not in ends:  # Ceramic elements insulate.
+        keys.remove(_BREAKDOWN)
     found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
     if not summary.get("converged", True):
         found = [replace(one, note=UNUSABLE, known=False) for one in found]
@@ -80,7 +82,7 @@ def ends_table(summary: Summary, sheet: Sheet) -> Table:
     rows: list[tuple[str, ...]] = []
     for heading, cells in end_cells(summary, sheet):
         rows += [(heading, "", "", ""), *((f"\u2003{name}", *rest) for name, *rest in cells)]
-    return Table("As the command prints them", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
+    return Table("Both bearings", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
 
 
 def remedies_table(summary: Mapping[str, Any]) -> Table | None:
@@ -104,6 +106,7 @@ def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
 
 # Number that decides, and its interval.
 _RATE, _RATE_RANGE = "end.events_per_second", "end.events_per_second_range"
+_BREAKDOWN = "end.breakdown_voltage"
 
 
 def _worse(pairs: Mapping[str, Pair]) -> int:
@@ -136,8 +139,7 @@ def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
         "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
     )
     if first is None and second is None:
-        reason = "ceramic elements insulate" if key == "end.breakdown_voltage" else ""
-        return unknown(key, DRIVE_BOOK[key], "none", reason)
+        return unknown(key, DRIVE_BOOK[key], "none")
     number = card(first) if first is not None else unknown(key, DRIVE_BOOK[key], "none")
     if first is not None and second is not None and (first.text, one) == (second.text, other):
         return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))

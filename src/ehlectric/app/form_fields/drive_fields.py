@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from ehlectric.app.catalogue import oil_title
 from ehlectric.app.form_fields.bearing_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field import (
     Field,
@@ -60,16 +61,49 @@ def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
     return {f"source.{key}": OF_CARRIER[key] for key in lacking}
 
 
-def half_of(value: object) -> str | None:
-    """Half of a frequency as a person writes it; None where it is no number with a unit.
+# Buttons of the page of a bearing, with the titles of their remedies and what these assume.
+BEARING_REMEDIES: Mapping[str, Mapping[str, str]] = form_data("bearing_remedies")
+
+# Oils that the page of a bearing compares, thickest last: the first that is another than that of the bearing.
+_OILS = ("fva-3", "mobil-shc-320")
+
+
+def remedy_at_bearing(inputs: Inputs, name: str, oil: str = "") -> Mapping[str, Any] | None:
+    """Title and changes of a remedy of the drive of a bearing, and what they assume; None where the bearing
+    has it already, or lacks the motor that it needs. ``oil``, another oil of the library; empty for a usual
+    one of higher viscosity.
 
     Examples
     --------
-    >>> half_of("10 kHz"), half_of("fast"), half_of(None)
+    >>> remedy_at_bearing(Inputs({"lubricant": {"base": "fva-3"}}), "Other oil")["title"]
+    'Oil mobil-shc-320'
+    """
+    title, assumed = (BEARING_REMEDIES[name][key] for key in ("title", "assumed"))
+    has = {
+        "Ceramic balls": inputs.value("bearing.element_material") == "silicon-nitride",
+        "Coated rings": inputs.value("bearing.coating") is not None,
+        "Grounding ring": inputs.value("motor") is None,
+    }
+    if has.get(title):
+        return None
+    if title in PRESETS:
+        return {"title": title, "changes": PRESETS[title], "assumed": assumed}
+    own = None if inputs.value("lubricant.temperature") else inputs.value("lubricant.base")
+    oil = oil or next(one for one in _OILS if one != own)
+    changes = {"bearings.lubricant.base": oil}
+    return {"title": f"{title} {oil}", "changes": changes, "assumed": f"{assumed} {oil_title(oil)}."}
+
+
+def times(value: object, factor: float) -> str | None:
+    """Multiple of a quantity as a person writes it; None where it is no number with a unit.
+
+    Examples
+    --------
+    >>> times("10 kHz", 0.5), times("fast", 0.5), times(None, 2.0)
     ('5 kHz', None, None)
     """
     found = split(str(value))
-    return f"{rounded(0.5 * found[0])} {found[1]}" if found is not None and found[1] else None
+    return f"{rounded(factor * found[0], 12)} {found[1]}" if found is not None and found[1] else None
 
 
 def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:
@@ -96,7 +130,7 @@ def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
     """
     if title != HALF:
         return PRESETS[title]
-    half = half_of(inputs.value(SWITCHING))
+    half = times(inputs.value(SWITCHING), 0.5)
     return None if half is None else {SWITCHING: half}
 
 
@@ -118,7 +152,7 @@ def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
     remedies = _remedies(after)
     if old == new or not remedies:
         return after
-    return after.changed({"remedies": [_fitted(one, half_of(old), half_of(new)) for one in remedies]})
+    return after.changed({"remedies": [_fitted(one, times(old, 0.5), times(new, 0.5)) for one in remedies]})
 
 
 def _fitted(remedy: Any, old: str | None, new: str | None) -> Any:

@@ -41,6 +41,7 @@ class AnswerPage(Generic[A]):
     # Time for which the page waits for its first answer before it is sent without one [s].
     wait: ClassVar[float] = 0.0
     elsewhere: ClassVar[Sequence[str]] = ()  # keys that other parts of the page than its form show
+    first: ClassVar[int] = 2  # groups of the form that are opened on a narrow screen
     # Functions that compute the quick answer, fuller quick answers in their order, and the solution.
     quick: ClassVar[Call[Any]]
     later: ClassVar[Sequence[Call[Any]]] = ()
@@ -108,7 +109,8 @@ class AnswerPage(Generic[A]):
 
     def build_form(self) -> None:
         """Build the form."""
-        self.form = Form(self.groups, self.session.inputs, self.change, elsewhere=self.elsewhere)
+        inputs, first = self.session.inputs, self.first
+        self.form = Form(self.groups, inputs, self.change, elsewhere=self.elsewhere, first=first)
 
     def folder(self) -> Path | None:
         """Folder with the files of the answer that is shown; None where they are still to be made."""
@@ -208,6 +210,7 @@ class AnswerView(Generic[A]):
         self.shown = False  # whether there is an answer
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self.body:
             self.panel = Panel(self.leading, self.waits)
+            self.build_below_panel()
             with ui.element("div").classes("answer-body") as self._rest:
                 heading("Numbers", 2)
                 table = ui.element("table").classes("quiet").props('data-testid="numbers" aria-live="polite"')
@@ -218,6 +221,9 @@ class AnswerView(Generic[A]):
                 self._lines = ui.html("", sanitize=False).props('data-testid="details"')
         self._rest.set_visibility(False)
         self.dim(dimmed=True)
+
+    def build_below_panel(self) -> None:
+        """Build what stands between the panel and the numbers."""
 
     def build(self) -> None:
         """Build what stands between the notes and the table of all rows."""
@@ -246,7 +252,9 @@ class AnswerView(Generic[A]):
         self.tell(answer)
         for name, place in self.figures.items():
             self.show_figure(name, place, answer)
-        self._drawn.set_visibility(bool(answer.figures.keys() - {answer.deciding.figure}))
+        self._drawn.set_visibility(
+            not self.figures.keys().isdisjoint(answer.figures.keys() - {answer.deciding.figure})
+        )
         rows = lines_html(answer.lines, self.rows_name)
         self._lines.content = behind(self.rows_title, rows)
         for part in (self.body, self._rest):

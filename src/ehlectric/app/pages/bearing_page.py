@@ -29,6 +29,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
 from ehlectric.app.pages.frame import BEARING
+from ehlectric.app.pages.help_box import HelpBox
 from ehlectric.app.pages.page_parts import mark, say
 from ehlectric.app.pages.result_parts import FigureBox, table_html
 from ehlectric.app.session import Session
@@ -55,6 +56,14 @@ class BearingView(AnswerView[BearingAnswer]):
     keys = tuple(BEARING_CARDS)
     leading = ("breakdown",)
     waits = "Computing the breakdown over the speed …"
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        super().__init__()
+
+    def build_below_panel(self) -> None:
+        """Build the place of the remedies."""
+        self.helps = HelpBox(self._session)
 
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
@@ -159,7 +168,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def build_view(self) -> None:
         """Build the place of the answer."""
-        self.view = BearingView()
+        self.view = BearingView(self.session)
 
     def build_boxes(self) -> None:
         """Build the field of a duty cycle."""
@@ -173,6 +182,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
         """Want no further answers."""
         super().close()
         self._cycle.drop()
+        self.view.helps.following.drop()
 
     async def _cycle_of(self, inputs: Inputs) -> DutyAnswer:
         async with self.session.work.behind:
@@ -182,10 +192,13 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def _ask(self) -> asyncio.Future[None]:
         self._cycle.drop()
+        self.view.helps.wait()
         return super()._ask()
 
     def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
         super()._show(inputs, answer)
+        if answer.whole:
+            self.view.helps.refresh()
         if self.duty.file is None:
             self.view.duty.show(None)
         elif self.duty.lost:

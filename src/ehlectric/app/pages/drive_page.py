@@ -22,17 +22,22 @@ from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.frame import DRIVE, PATHS
-from ehlectric.app.pages.page_parts import GroupBox, removable
-from ehlectric.app.pages.result_parts import table_html
+from ehlectric.app.pages.page_parts import Choices, GroupBox, removable
+from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
 from ehlectric.app.session import LARGEST, Session
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
-# Figures of either answer, in their order, and those that have a whole row.
-_FIGURES = (
-    *("voltages", "remedies", "duty", "histogram", "spectrum"),
-    *("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"),
-)
-_WIDE = ("voltages", "duty")
+# Figures of which the page shows one at a time, by their buttons.
+_FURTHER = {
+    "Voltages": "voltages",
+    "How long": "histogram",
+    "Spectrum": "spectrum",
+    "Discharge voltage": "discharge-voltage",
+    "Energy": "discharge-energy",
+    "Charge": "discharge-charge",
+    "Current": "discharge-current",
+}
+_SUMMARY = "Further figures: voltages over time, spectrum, and what discharges are like"
 
 # Keys of the inputs that other parts of the page than its form show.
 REMEDIES, _FILE = "remedies", "source.file"
@@ -48,7 +53,14 @@ class DriveView(AnswerView[DriveAnswer]):
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
         self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
-        self.build_figures(_FIGURES, _WIDE)
+        self.build_figures(("duty",), ("duty",))
+        self._answer: DriveAnswer | None = None
+        self._opened = False
+        with ui.element("details").props('data-testid="further"') as self._further:
+            ui.html(_SUMMARY, sanitize=False, tag="summary")
+            self._choices = Choices(_FURTHER, "Further figures", lambda _: self._draw(), always=True)
+            self._drawing = FigureBox("further")
+        self._further.on("toggle", self._toggled, js_handler="(event) => emit(event.target.open)")
         self._ends = ui.html("", sanitize=False).props('data-testid="ends"')
 
     def show(self, answer: DriveAnswer) -> None:
@@ -60,7 +72,30 @@ class DriveView(AnswerView[DriveAnswer]):
         remedies = answer.remedies
         self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
         self._remedies.set_visibility(remedies is not None)
-        self._ends.content = f"<h2>Both bearings</h2>{table_html(answer.ends)}"
+        self._ends.content = behind("Both bearings, as the command prints them", table_html(answer.ends))
+        self._answer = answer
+        self._further.set_visibility(bool(self._offered()))
+        self._choices.offer(self._offered())
+        self._draw()
+
+    def _offered(self) -> list[str]:
+        """Buttons of the figures of the answer that do not stand beside its verdict."""
+        figures = {} if self._answer is None else self._answer.figures.keys() - {self._answer.deciding.figure}
+        return [name for name, figure in _FURTHER.items() if figure in figures]
+
+    def _toggled(self, event: Any) -> None:
+        self._opened = bool(event.args)
+        self._draw()
+
+    def _draw(self) -> None:
+        """Draw the chosen figure where its place is open, the first one where none is chosen."""
+        offered = self._offered()
+        if not self._opened or not offered or self._answer is None:
+            self._drawing.show(None)
+            return
+        if self._choices.chosen not in offered:
+            self._choices.show(offered[0])
+        self._drawing.show(self._answer.figures[_FURTHER[self._choices.chosen]])
 
 
 class RemedyBox:
@@ -174,6 +209,7 @@ class DrivePage(AnswerPage[DriveAnswer]):
     kind = "drive"
     groups = DRIVE_GROUPS
     elsewhere = (REMEDIES, _FILE, DUTY_FILE)
+    first = 1
     short = ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage")
     quick, solved = DRIVE_QUICK, DRIVE_SIMULATED
 

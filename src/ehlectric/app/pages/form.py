@@ -34,6 +34,7 @@ class Form:
 
     ``change`` is called with a key and its new value, which is a whole table where a new input replaces
     others, and None where the key is removed. Other parts of the page show the keys ``elsewhere``.
+    On a narrow screen the ``first`` groups alone are opened.
 
     While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
     value is sent.
@@ -47,8 +48,10 @@ class Form:
         *,
         label: str = "Inputs",
         elsewhere: Sequence[str] = (),
+        first: int = 2,
     ) -> None:
         self._change = change
+        self._first = groups[:first]
         self._inputs = inputs
         self._groups, self._elsewhere = groups, elsewhere
         self._memory = Memory(groups)
@@ -118,8 +121,8 @@ class Form:
         async def switched(event: Any) -> None:
             await self.take({group.table: self._memory.table(group, self._inputs) if event.args else None})
 
-        first = group in self._groups[:_FIRST]
-        box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
+        first, opened = group in self._first, group.opened
+        box = GroupBox(group.title, title=group.title, note=group.note, opened=opened, first=first)
         if group.table:
             box.show(switches=True)
             box.on("switch", switched)
@@ -319,9 +322,6 @@ def groups_for(case: Inputs) -> Sequence[Group]:
 
 # Most entries of a list without a search.
 LONGEST_LIST = 6
-
-# Groups that are open on a narrow screen, too.
-_FIRST = 2
 
 # Longest note that is shown in an empty box [characters].
 _LONGEST_PLACEHOLDER = 14

@@ -16,6 +16,7 @@ from nicegui import Client, events, ui
 
 from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.calls import FILES_UPLOADED
+from ehlectric.app.form_fields.drive_fields import times
 from ehlectric.app.form_fields.field import form_data
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
@@ -23,6 +24,7 @@ from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_tex
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.units import in_unit
 from ehlectric.runs.example_files import example_text
 
 
@@ -43,11 +45,15 @@ _FIRST = form_data("first_values")
 
 # Tables of a bearing that a drive does not take over: of its title and its margin, and of the motor, whose
 # capacitances go into the circuit.
+_COMMON_MODE = "motor.common_mode_voltage"
 _NOT_OF_DRIVES = ("title", "contacts", "ranges", "motor")
 
 
 def drive_with(bearing: Inputs) -> Inputs:
-    """Drive of the example with a bearing at both ends, at its speed and temperature."""
+    """Drive of the example with a bearing at both ends, at its speed, temperature and common-mode voltage.
+
+    Raises InputError for a common-mode voltage that is no single value.
+    """
     own = bearing.changed({**dict.fromkeys(_NOT_OF_DRIVES), "discharge.peak_current": None})
     strength = {} if own.value("discharge") else _FIRST["strength"]
     changes = {
@@ -57,6 +63,14 @@ def drive_with(bearing: Inputs) -> Inputs:
         "title": bearing.value("title"),
     }
     motor = {theirs: bearing.value(key) for key, theirs in form_data("motor_in_drive").items()}
+    common_mode = bearing.value(_COMMON_MODE)
+    if isinstance(common_mode, int | float):
+        common_mode = f"{common_mode} V"
+    if common_mode is not None:
+        # The largest common-mode voltage of an inverter is half of its DC link.
+        motor["source.dc_link"] = times(common_mode, 2.0)
+        if in_unit(str(common_mode), "V") is None:
+            raise InputError(_COMMON_MODE, got=str(common_mode), takes="one value with its unit for a drive")
     given = {key: value for key, value in motor.items() if value is not None}
     return changed(DRIVE, changes | given)
 
@@ -229,7 +243,12 @@ class Toolbar:
 
     def in_drive(self) -> None:
         """Open the page of drives with this bearing at both ends."""
-        self._go(PATHS["drive"], drive_with(self._case))
+        try:
+            drive = drive_with(self._case)
+        except InputError as error:
+            self._tell(error=str(error))
+        else:
+            self._go(PATHS["drive"], drive)
 
     @property
     def _case(self) -> Inputs:

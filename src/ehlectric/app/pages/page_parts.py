@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from html import escape
 from importlib import resources
 from time import monotonic
@@ -176,6 +176,49 @@ def removable(text: str, name: str, remove: Callable[[], Any]) -> None:
         ui.label(text)
         removes = ui.button("Remove", on_click=remove).props("flat dense no-caps")
         removes.props["aria-label"] = f"Remove {name}"
+
+
+class Choices:
+    """Row of buttons of which one is pressed; ``choose`` is called with its name, or "" for none.
+
+    The pressed one is released by a second press, unless one is ``always`` pressed.
+    """
+
+    def __init__(
+        self, names: Iterable[str], label: str, choose: Callable[[str], object], *, always: bool = False
+    ) -> None:
+        self.chosen, self._choose, self._always = "", choose, always
+        with ui.element("div").classes("buttons").props("role=group") as box:
+            self._buttons = {
+                name: button(
+                    name,
+                    f"choose-{name.lower().replace(' ', '-')}",
+                    partial(self.press, name),
+                    "no-caps dense",
+                )
+                for name in names
+            }
+        box.props["aria-label"] = label
+        self.show("")
+
+    def press(self, name: str) -> None:
+        """Press a button, or release the pressed one."""
+        self.show("" if name == self.chosen and not self._always else name)
+        self._choose(self.chosen)
+
+    def show(self, chosen: str) -> None:
+        """Show a button as the pressed one."""
+        self.chosen = chosen
+        for name, one in self._buttons.items():
+            one.props(f'aria-pressed="{str(name == chosen).lower()}"')
+            mark(one, "primary", on=name == chosen)
+
+    def offer(self, names: Container[str]) -> None:
+        """Hide all buttons but these; a hidden one is released."""
+        for name, one in self._buttons.items():
+            one.set_visibility(name in names)
+        if self.chosen not in names:
+            self.show("")
 
 
 @contextmanager

@@ -197,11 +197,17 @@ def test_a_thinner_film_has_no_milder_verdict():
     assert sum(ratio < 1.0 for ratio in ratios) == 3
 
 
-def test_ceramic_elements_have_no_verdict():
-    verdict = solved(bearing__element_material="silicon-nitride").verdict
-    assert verdict.level == "grey"
+def test_ceramic_elements_insulate_also_where_surfaces_touch():
     slow = solved(bearing__element_material="silicon-nitride", bearing__inner_speed="30 rpm").verdict
+    assert slow.level == "green"
     assert "lambda ratio 0." in slow.text
+
+
+def test_ceramic_elements_without_a_motor_have_no_voltage_to_insulate():
+    verdict = solved(bearing__element_material="silicon-nitride", motor=None).verdict
+    assert verdict.level == "grey"
+    assert "[motor]" in verdict.text
+    assert "insulates at least" in verdict.text
 
 
 def test_without_a_strength_one_line_says_so():

@@ -1,0 +1,90 @@
+"""Answers about a bearing beside that with a remedy of its drive."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers import PENDING, RemedyAnswer, Table
+from ehlectric.app.compute.answer_parts import drive_of
+from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly, without_cycle
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.defaults import HOW
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.drive.bearing_remedies import at_shaft_voltage, grounded_verdict, grounded_voltage, with_remedy
+from ehlectric.quantities.results import BEARING_BOOK
+from ehlectric.quantities.rows import Summary
+from ehlectric.quantities.sheets import REMEDIED
+from ehlectric.report.light import light_of
+from ehlectric.tables.bearing_tables import total_rows
+
+# Text in place of a number that one of both has not.
+_NONE = "–"
+
+# Voltages on the shaft, and those on the films, to which they are equal without a coating.
+_WITHOUT_COATING = {
+    "bearing.shaft_first_break": "bearing.first_break",
+    "bearing.film_voltage": "bearing.shaft_voltage",
+}
+
+
+def quick_remedy(
+    table: Mapping[str, Any], drive: Mapping[str, Any], session: Path | None = None
+) -> RemedyAnswer:
+    """Answer about a bearing and the first remedy of its drive, without what depends on further bearings.
+
+    Raises InputError if the tables are no valid bearing and drive, or its films have to be solved.
+    """
+    return _answer(table, drive, session, whole=False)
+
+
+def whole_remedy(
+    table: Mapping[str, Any], drive: Mapping[str, Any], session: Path | None = None
+) -> RemedyAnswer:
+    """Answer as ``quick_remedy`` has it, with critical speeds, ranges and probabilities."""
+    return _answer(table, drive, session, whole=True)
+
+
+def _answer(
+    table: Mapping[str, Any], drive: Mapping[str, Any], session: Path | None, *, whole: bool
+) -> RemedyAnswer:
+    case, driven = without_cycle(table, session), drive_of(drive)
+    (remedy, *_), (variant, *_) = driven.remedies, driven.variants()
+    ring = variant.circuit.grounding_ring_resistance
+    result = solved_quickly(case)
+    summary, verdict = _numbers(result, whole=whole)
+    if ring is None:
+        other, other_verdict = _numbers(solved_quickly(with_remedy(case, remedy.changes)), whole=whole)
+    else:
+        voltage = grounded_voltage(result.solution, ring, variant.source.rise_time or 0.0)
+        other = at_shaft_voltage(summary, voltage or 0.0)
+        other_verdict = grounded_verdict(other["bearing"]["margin"])
+    now, then = (_texts(one, whole=whole) for one in (summary, other))
+    for key, same in _WITHOUT_COATING.items():
+        if key in then and same in now:
+            now.setdefault(key, now[same])
+    words = (light_of(one.level, one.text).words for one in (verdict, other_verdict))
+    rows = [("Verdict", *words)]
+    for key in REMEDIED:
+        texts = now.get(key, _NONE), then.get(key, _NONE)
+        if texts[0] != texts[1] or PENDING in texts or (key == "bearing.margin" and key in now):
+            label = BEARING_BOOK[key].label
+            rows.append((f"{label[:1].upper()}{label[1:]}", *texts))
+    caption = f"With {remedy.title.lower()}; contacts {HOW[result.case.contacts]}"
+    return RemedyAnswer(Table(caption, ("", "now", "with it"), tuple(rows)), whole)
+
+
+def _numbers(result: BearingResult, *, whole: bool) -> tuple[Summary, Verdict]:
+    if whole:
+        return result.summary(), result.verdict
+    return summary_of(result.solution), quick_verdict(result.solution)
+
+
+def _texts(summary: Summary, *, whole: bool) -> dict[str, str]:
+    """Texts of the numbers of a bearing by key; those that follow with the whole answer are pending."""
+    found = {row.key: row.amount for row in total_rows(summary)}
+    if whole or summary["bearing"]["margin"] is None:
+        return found
+    return {key: PENDING for key in REMEDIED if not key.startswith("bearing.")} | found

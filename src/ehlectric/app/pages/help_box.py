@@ -1,0 +1,119 @@
+"""Remedies on the page of a bearing: buttons, and what the pressed one makes of its voltages and margin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from nicegui import ui
+
+from ehlectric.app.answers import RemedyAnswer
+from ehlectric.app.calls import REMEDY_QUICK, REMEDY_WHOLE, Call
+from ehlectric.app.catalogue import choices, oil_needs
+from ehlectric.app.following import Following
+from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_bearing, with_remedy
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.frame import PATHS, address_of, drive_with
+from ehlectric.app.pages.page_parts import Choices, Control, heading, mark, say
+from ehlectric.app.pages.result_parts import table_html
+from ehlectric.app.session import Session
+from ehlectric.errors import InputError
+
+_OIL = "Other oil"
+
+_SECOND = (
+    "The drive has this bearing at both ends, in place of the given capacitance of the second bearing: its "
+    "shaft voltage differs."
+)
+
+# Bearing, and its drive with the remedy.
+Both = tuple[Inputs, Inputs]
+
+
+class HelpBox:
+    """Place of the buttons, of the table of the pressed one, and of the link into its drive."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
+        self.following: Following[Both, RemedyAnswer] = Following(
+            lambda both: self._answer(REMEDY_QUICK, both),
+            [lambda both: self._answer(REMEDY_WHOLE, both)],
+            show=lambda _, answer: self._show(answer),
+            passing=lambda *_: None,
+            refuse=lambda error: self._tell(str(error)),
+            behind=session.work.behind,
+        )
+        with ui.element("section").classes("helps").props('aria-label="What would help"') as self._box:
+            self._box.props('data-testid="helps"')
+            heading("What would help", 2)
+            self._choices = Choices(BEARING_REMEDIES, "Remedies", lambda _: self.refresh())
+            self._list = Control("remedy.oil", kind="list", label="Oil", options=_oils())
+            self._list.on("commit", self._other_oil)
+            with ui.element("div").props('aria-live="polite" data-testid="helps-effect"') as self._effect:
+                self._table = ui.html("", sanitize=False)
+                self._assumed = ui.label().classes("soft").props('data-testid="helps-assumed"')
+                self._link = ui.link("See it in its drive", PATHS["drive"]).props('data-testid="helps-drive"')
+                self._told = ui.label().classes("soft").props('role="status" data-testid="helps-told"')
+        self._box.set_visibility(False)
+
+    async def _answer(self, call: Call[RemedyAnswer], both: Both) -> RemedyAnswer:
+        bearing, drive = (dict(one.table) for one in both)
+        return await self._session.work.quick(call, bearing, drive, self._session.made_folder)
+
+    def wait(self) -> None:
+        """Dim what belongs to earlier inputs."""
+        self.following.drop()
+        mark(self._effect, "stale", on=True)
+
+    def refresh(self) -> None:
+        """Offer what the present bearing has not yet, and ask for the effect of the pressed one."""
+        self.following.drop()
+        inputs = self._session.inputs.changed({"duty": None})
+        found = {name: remedy_at_bearing(inputs, name, self._oil) for name in BEARING_REMEDIES}
+        self._box.set_visibility(True)
+        self._choices.offer([name for name, remedy in found.items() if remedy is not None])
+        remedy = found.get(self._choices.chosen)
+        self._effect.set_visibility(remedy is not None)
+        self._list.set_visibility(remedy is not None and self._choices.chosen == _OIL)
+        if remedy is not None:
+            self._ask(inputs, remedy)
+
+    def _ask(self, inputs: Inputs, remedy: Mapping[str, Any]) -> None:
+        self._list.show(text=remedy["changes"].get("bearings.lubricant.base", ""))
+        try:
+            remedies = with_remedy(Inputs(), remedy["title"], remedy["changes"])
+            drive = drive_with(inputs).changed({"remedies": remedies})
+        except InputError as error:
+            self._tell(str(error))
+            return
+        say(self._assumed, remedy["assumed"].format(rise=drive.value("source.rise_time")))
+        self._link.set_visibility(drive.linkable)
+        self._link.props["href"] = address_of(PATHS["drive"], drive)
+        self._link.update()
+        second = inputs.value("motor.second_bearing_capacitance") is not None
+        say(self._told, _SECOND if second else "")
+        mark(self._effect, "stale", on=True)
+        self.following.ask((inputs, drive))
+
+    def _show(self, answer: RemedyAnswer) -> None:
+        self._table.content = table_html(answer.table)
+        self._effect.props(f'data-whole="{str(answer.whole).lower()}"')
+        mark(self._effect, "stale", on=False)
+
+    def _tell(self, text: str) -> None:
+        """Say why there is no effect."""
+        self._table.content = ""
+        self._link.set_visibility(False)
+        mark(self._effect, "stale", on=False)
+        say(self._told, text)
+
+    def _other_oil(self, event: Any) -> None:
+        self._oil = str(event.args)
+        self.refresh()
+
+
+def _oils() -> list[dict[str, str]]:
+    """Entries of the oils of the library that have all that films and voltages need."""
+    found = (one for one in choices()["lubricant.base"] if not oil_needs(one.name))
+    return [{"value": one.name, "label": one.label, "group": one.group} for one in found]
