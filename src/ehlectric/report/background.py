@@ -26,8 +26,8 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
-from ehlectric.report.report_content import Block, Cell, Link, Named, Section, Table, Text
-from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
+from ehlectric.report.report_content import DOI, Block, Cell, Link, Named, Section, Table, Text
+from ehlectric.report.report_texts import SENTENCES, TEXTS, conditions_of, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
@@ -69,7 +69,7 @@ def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
     tables = _tables(case, apart=apart)
     of_library = {
         f"{before}{key}": value
-        for before, own in _parts(case, apart=apart).items()
+        for before, own in parts_of(case, apart=apart).items()
         for key, value in _library_values(own).items()
     }
     for key, value in flattened(_numbered(tables)).items():
@@ -87,13 +87,13 @@ def _tables(case: SweptCase, *, apart: bool) -> dict[str, Any]:
     tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     tables.pop("remedies", None)
     if isinstance(case, DriveCase):
-        bearings = {before[:-1]: tables[ENDS[0]] for before in _parts(case, apart=apart) if before == _BOTH}
+        bearings = {before[:-1]: tables[ENDS[0]] for before in parts_of(case, apart=apart) if before == _BOTH}
         if bearings:
             tables = {key: value for key, value in tables.items() if key not in ENDS} | bearings
     return tables
 
 
-def _parts(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
+def parts_of(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
     """Cases of contacts or bearings in a case, by what stands before their keys."""
     if not isinstance(case, DriveCase):
         return {"": case}
@@ -193,7 +193,7 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
 
 def material_sources(case: SweptCase) -> Iterator[tuple[str, Source]]:
     """Names and sources of the solids of the library that bearings or a contact are made of."""
-    for name in dict.fromkeys(name for part in _parts(case).values() for name in _materials(part)):
+    for name in dict.fromkeys(name for part in parts_of(case).values() for name in _materials(part)):
         for source in _sources_of_inputs(library.tables("solid", name)):
             yield name, source
 
@@ -211,7 +211,6 @@ def _materials(case: Case | BearingCase) -> Iterator[str]:
 
 # Heads of the tables of inputs, and shares of their columns.
 _HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.19, 0.21, 0.35)
-_DOI = "https://doi.org/"
 # Keys of the dielectric strength, which no measurement of films gives.
 _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weibull", "strength_table"))
 
@@ -325,7 +324,7 @@ def limit_section(case: SweptCase) -> Section:
 
 
 def source_section(case: SweptCase) -> Section:
-    """Section of the sources of library values, of materials, and of equations."""
+    """Section of the sources of library values, of materials, of equations, and of standards."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
     values = tuple(
@@ -340,19 +339,24 @@ def source_section(case: SweptCase) -> Section:
     if solids:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
-        (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
+        (one.topic, Link(f"{one.citation}, ", DOI + one.doi) if one.doi else one.citation)
         for one in references_of(case)
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))
     )
+    if conditions_of(case).get("motor"):
+        known, shares = TEXTS["standards"], (0.16, 0.27, 0.35, 0.22)
+        caption = f"Standards on machines with inverters, as known on {known['date']}"
+        rows = tuple(map(tuple, known["rows"]))
+        blocks += [Table(caption, tuple(known["heads"]), rows, shares=shares), Text(SENTENCES["standards"])]
     return Section("Sources", tuple(blocks))
 
 
 def _cited(source: Source) -> Cell:
     """Citation of a source, with a link to its DOI if it has one."""
     citation = printable(source.citation) or "none"
-    return Link(f"{citation}, ", _DOI + source.doi) if source.doi else citation
+    return Link(f"{citation}, ", DOI + source.doi) if source.doi else citation
 
 
 def version_section(details: Mapping[str, str]) -> Section:

@@ -20,7 +20,7 @@ from ehlectric.discharge.film_verdict import chance_text, ratio_text
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
@@ -165,10 +165,9 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
             ranked=True,
         )
         return
-    known = {change.key: change.ends for change in changes_of(case)}
     broken = summary["bearing"]["first_break"] is not None
     yield assumption_table(
-        (named(key).text, input_text(case, key, given[key]), usual_range(key, known, given), why)
+        (named(key).text, input_text(case, key, given[key]), usual_range(case, key), why)
         for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
     )
@@ -203,14 +202,16 @@ def _value(case: BearingCase, key: str, value: Any) -> str:
     return "a table" if value is None or not isinstance(value, float) else f"{value:.3g} times"
 
 
-def usual_range(key: str, known: Mapping[str, tuple[float, float]], given: Mapping[str, Any]) -> str:
-    """Usual range of an input; ``known`` are those of a bearing, SI units. A capacitance of the circuit of a
-    drive has the one that it has in the motor of a bearing.
+def usual_range(case: BearingCase | DriveCase, key: str) -> str:
+    """Usual range of an input of a bearing; a capacitance of the circuit of a drive has that of the motor of
+    a bearing.
     """
-    own = end_and_key(key)[1]
-    ends = known.get(own)
-    if ends is None and own.startswith("circuit.") and own.endswith("_capacitance") and own in given:
-        ends = (1.0 - MOTOR) * given[own], (1.0 + MOTOR) * given[own]
+    end, own = end_and_key(key)
+    bearing = case.bearings[ENDS.index(end) if end in ENDS else 0] if isinstance(case, DriveCase) else case
+    ends = {change.key: change.ends for change in changes_of(bearing)}.get(own)
+    given = flattened(case.to_dict()).get(own)
+    if ends is None and given and own.startswith("circuit.") and own.endswith("_capacitance"):
+        ends = (1.0 - MOTOR) * given, (1.0 + MOTOR) * given
     if ends is None:
         return "none known"
     return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))

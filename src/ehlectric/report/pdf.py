@@ -68,9 +68,6 @@ _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 # Room beside the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
 
-# Size of a dotted key below the name of its input [pt].
-_KEY = 6.0
-
 # Room that a title of a section needs for itself and for what begins below it [pt].
 _ROOM = 130.0
 
@@ -237,10 +234,7 @@ def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
     if isinstance(cell, Link):
         shown = escape(_address(cell))
         return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
-    if isinstance(cell, Named):
-        key = _parted(cell.key, room, _KEY)
-        return f'{_markup(cell.text, colour, room, size)}<br/><font size="{_KEY}" color="{GREY}">{key}</font>'
-    text = " ".join(_parted(word, room, size) for word in cell.split(" "))
+    text = " ".join(_parted(word, room, size) for word in _plain(cell).split(" "))
     return f'<font color="{colour}">{text}</font>' if colour else text
 
 

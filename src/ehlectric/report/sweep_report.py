@@ -24,8 +24,8 @@ from ehlectric.report.drive_report import (
     swept_values,
     swept_verdict,
 )
-from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text, lead_of
-from ehlectric.report.report_facts import cell_table, row_tables, swept_names
+from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
+from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
