@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from ehlectric.cases import library
@@ -23,7 +24,7 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, input_at
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.report.report_content import DOI, Block, Cell, Link, Named, Section, Table, Text
@@ -260,17 +261,69 @@ def named(key: str) -> Named:
     return Named(", ".join(filter(None, [label, _PLACES.get(end, "").removeprefix("bearing at the ")])), key)
 
 
-def given_inputs(case: SweptCase) -> str:
-    """Inputs that are neither defaults nor values of the library, with their values, in a line."""
-    given = [one for one in inputs_of(case) if one.origin == "given"]
+def worded(text: str) -> str:
+    """Text with the names of inputs in place of their keys.
+
+    Examples
+    --------
+    >>> worded("in place of bearing.inner_speed, within V/h_min of events.csv")
+    'in place of speed of the inner ring, within V/h_min of events.csv'
+    >>> worded("summits of 2 times composite_rq")
+    'summits of 2 times composite roughness Rq'
+    """
+    return _KEY.sub(_name_of_key, text)
+
+
+# Words that are keys of files; symbols such as h_min are none. Tables of keys without one.
+_KEY = re.compile(r"\b[a-z]{2,}(?:[._][a-z0-9]+)+\b")
+_TABLES = (
+    "bearing",
+    "circuit",
+    "breakdown",
+    "source",
+    "drive",
+    "discharge",
+    "lubricant",
+    "contact",
+    "grid",
+    "film",
+)
+
+
+def _name_of_key(found: re.Match[str]) -> str:
+    word = found[0]
+    known = (input_at(key) for key in (word, *(f"{table}.{word}" for table in _TABLES)))
+    return next((about.label for about in known if about is not None and about.label), word.replace("_", " "))
+
+
+def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
+    """Inputs with their values in a line, without defaults, values of the library, varied inputs, and inputs
+    of bearings that a drive replaces.
+    """
+    left_out = varied_keys(varied)[0]
+    given = [
+        one
+        for one in inputs_of(case)
+        if one.origin == "given" and one.key not in left_out and _is_used(case, one.key)
+    ]
     groups = groupby(given, key=lambda one: end_and_key(one.key)[0])
     return "; ".join(
-        (f"{_PLACES[end]}: " if end else "")
-        + "; ".join(
-            f"{named(end_and_key(one.key)[1]).text} {input_text(case, one.key, one.value)}" for one in group
-        )
+        (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, one) for one in group)
         for end, group in groups
     )
+
+
+def _is_used(case: SweptCase, key: str) -> bool:
+    """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own."""
+    end, own = end_and_key(key)
+    return not (replaced_by(case, key) or (end and own.startswith(("motor.", "duty."))))
+
+
+def _given(case: SweptCase, one: Input) -> str:
+    key = end_and_key(one.key)[1]
+    # The folder of a file is that of one machine.
+    value = Path(one.value).name if key.endswith(".file") else input_text(case, one.key, one.value)
+    return f"{named(key).text} =\xa0{value}"
 
 
 def _sources(inputs: Iterable[Input]) -> list[Source]:
@@ -295,14 +348,14 @@ def _meaning(key: str) -> str:
         text = describe(key)
     except InputError:
         return "how the contacts are computed" if end_and_key(key)[1] == "contacts" else ""
-    return re.split(r" \[|; |: ", text)[0]
+    return worded(re.split(r" \[|; |: ", text)[0])
 
 
 def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
-        text = f"{named(one.key).text} {input_text(case, one.key, one.value)}"
+        text = f"{named(one.key).text} = {input_text(case, one.key, one.value)}"
         if one.assumed and one.source is not None:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)

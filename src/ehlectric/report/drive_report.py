@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import assumption_table, machine_of, number_of, usual_range
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import Block, Cell, Numbers, Part, Section, Table, Text
+from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
@@ -165,12 +166,7 @@ AS_IT_IS = "as it is"
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
     yield Text(SENTENCES["remedies"])
-    changes = tuple(
-        row
-        for title, changes, found in result.remedies
-        for row in _changes(result.case, found.case, title, changes)
-    )
-    heads = ("remedy", "input", AS_IT_IS, "with the remedy")
+    heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
     yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
     drives = [(AS_IT_IS, result, summary)]
     for title, _, found in result.remedies:
@@ -206,18 +202,18 @@ def _further(result: DriveResult, known: set[str]) -> str:
     return " ".join(CODES[code].meaning for code in codes) or "none"
 
 
-def _changes(
-    case: DriveCase, other: DriveCase, title: str, changes: Mapping[str, Any]
-) -> Iterator[tuple[Cell, ...]]:
-    """Rows of the changes of a remedy: its title, the input, and its value in both drives."""
-    before, after = (flattened(one.to_dict()) for one in (case, other))
-    for key in flattened(dict(changes)):
-        first, *_ = of_both_ends(key)
-        told = [
-            input_text(one, first, tables[first]) if first in tables else "not given"
-            for one, tables in ((case, before), (other, after))
-        ]
-        yield printable(title), named(key), *told
+def _changes(result: DriveResult) -> Iterator[tuple[str, Named, str, str]]:
+    """Rows of the changes of all remedies: title, input, and its value in the drive and with the remedy."""
+    before = flattened(result.case.to_dict())
+    for title, changes, found in result.remedies:
+        after = flattened(found.case.to_dict())
+        for key in flattened(dict(changes)):
+            first, *_ = of_both_ends(key)
+            was, now = (
+                input_text(one, first, tables[first]) if first in tables else "not given"
+                for one, tables in ((result.case, before), (found.case, after))
+            )
+            yield printable(title), named(key), was, now
 
 
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
@@ -315,6 +311,11 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     if result.remedies:
         heads, *cells = worse_cells(summary)
         yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))
+        told = "; ".join(
+            f"{title}: " + ", ".join(f"{name.text} =\xa0{value}" for _, name, _, value in changed)
+            for title, changed in groupby(_changes(result), key=lambda row: row[0])
+        )
+        yield Text(f"{told}.", "small")
     case = result.case
     found: dict[str, tuple[str, str, str]] = {}
     for key, value, _, why in _deciding(case, summary):

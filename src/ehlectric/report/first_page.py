@@ -75,7 +75,7 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
     )
     if told:
         yield Text(f"Warnings: {' '.join(told)}", "small")
-    given = f"Inputs of the file: {given_inputs(result.case)}. {SENTENCES['all_others']}"
+    given = f"Inputs of the file: {given_inputs(result.case, part.varied)}. {SENTENCES['all_others']}"
     yield Text(with_units_kept(given), "small")
     made = (
         f"Result {printable(f'{path.parent.name}/{path.name}')}, {part.details.get('result computed by', '')}"
@@ -250,6 +250,8 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
                 f"{place}: {one}" for place, one in zip(NAMES_OF_ENDS.values(), (first, second), strict=True)
             )
         sentence = f"{source}, {_motor(*motor)}; {both}"
+    if "duty" in summary:
+        sentence += f"; beside this operation a duty cycle of {summary['duty']['duration']:.6g} s"
     return with_units_kept(f"{sentence[:1].upper()}{sentence[1:]}.")
 
 

@@ -17,6 +17,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import default_figure, figure, figure_names
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row, value_at
+from ehlectric.report.background import worded
 from ehlectric.report.report_content import (
     DOI,
     Link,
@@ -41,7 +42,7 @@ _SEVERITIES = ("severe", "warning", "note")
 
 
 # Figures that decide, where a result has them; of other results it is the one that tells most.
-_DECIDING = ("breakdown_over_speed", "drive_remedies")
+_DECIDING = ("bearing_duty", "drive_duty", "breakdown_over_speed", "drive_remedies")
 
 
 def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: Any) -> Part:
@@ -151,9 +152,9 @@ def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
         )
         for limit, about in told
     )
-    places = (f"{place}: {1e-6 * density:.3g} A/mm²" for place, density in known.items())
+    places = (f"{place}, {1e-6 * density:.3g} A/mm²" for place, density in known.items())
     heads = ("published limit", *places, "what is published", "source")
-    shares = (0.12, *(0.24 / len(known) for _ in known), 0.32, 0.32)
+    shares = (0.11, *(0.3 / len(known) for _ in known), 0.3, 0.29)
     yield Table("Current density beside its published limits", heads, rows, shares=shares)
 
 
@@ -164,7 +165,7 @@ def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
     ordered = sorted(warnings, key=lambda warning: _SEVERITIES.index(warning.severity))
     kinds: dict[tuple[Severity, str], list[str]] = {}
     for one in ordered:
-        kinds.setdefault((one.severity, one.code), []).append(printable(one.text))
+        kinds.setdefault((one.severity, one.code), []).append(worded(printable(one.text)))
     return Warnings(
         tuple(
             WarningLine(severity, code, CODES[code].meaning, tuple(texts))

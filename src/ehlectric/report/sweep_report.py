@@ -59,6 +59,7 @@ def sweep_part(results: SweepResults) -> Part:
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
         warnings=tuple(sweep_warnings(results)),
+        first=(Table("Varied inputs", ("input", "values"), tuple(_varied(results))),),
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         figures=_figures(results),
         figure_note=SENTENCES["further_maps"],
@@ -98,7 +99,7 @@ def _figures(results: SweepResults) -> tuple[str, ...]:
 def _details(results: SweepResults) -> dict[str, str]:
     versions = dict.fromkeys(point.version for point in results.points if point.version)
     return {
-        "points computed by": ", ".join(f"ehlectric {version}" for version in versions),
+        "result computed by": ", ".join(f"ehlectric {version}" for version in versions),
         "design": f"{results.design}, {len(results.points)} points",
         "computing time of all points": f"{results.summary()['seconds']:.3g} s",
     }
@@ -153,7 +154,6 @@ def _points(results: SweepResults) -> Iterator[Block]:
     alarms = tuple(n for n, point in enumerate(listed) if not point.solved or point.doubtful)
     if len(results.points) > _LISTED:
         yield Text(f"The first {_LISTED} of {len(results.points)} points; sweep.csv has all of them.")
-    yield Table("Varied inputs", ("input", "values"), tuple(_varied(results)))
     yield Table("Points of the sweep", heads, rows, numeric, alarms)
 
 

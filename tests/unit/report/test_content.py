@@ -90,9 +90,9 @@ def test_every_input_has_its_origin(report):
     assert found["grid.field_degree"][2] == "default"
     (assumed,) = tables(report, "What it rests on")
     assert "assumption" in assumed.caption
-    assert "Roelands' exponent 0.67" in assumed.rows[0][0]
+    assert "Roelands' exponent = 0.67" in assumed.rows[0][0]
     assert "relative permittivity" not in assumed.rows[0][0]
-    assert assumed.rows[1][0].startswith("dielectric strength 15")
+    assert assumed.rows[1][0].startswith("dielectric strength = 15")
     (source,) = tables(report, "Sources")[0].rows
     assert source[2].address == "https://doi.org/10.3390/lubricants10050087"
 

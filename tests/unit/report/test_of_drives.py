@@ -140,7 +140,7 @@ def test_current_densities_stand_beside_each_limit_with_its_source():
     assert [row[:3] for row in table.rows] == [
         ("0.1 A/mm²", "above", "below"), ("0.3 A/mm²", "above", "below"), ("0.8 A/mm²", "below", "below"),
     ]  # fmt: skip
-    assert table.heads[1] == "drive end: 0.364 A/mm²"
+    assert table.heads[1] == "drive end, 0.364 A/mm²"
     page = (ROOT / "docs/theory/discharge.md").read_text(encoding="utf-8")
     assert all(row[-1].address in page or "Busse" in row[-1].text for row in table.rows)
     assert list(density_tables({"drive end": None, "non-drive end": 0.0})) == []
@@ -165,7 +165,9 @@ def test_no_dotted_key_is_in_the_text(report):
     """The input file at the end has them; a name of an input shows its key under the pointer alone."""
     text = Page(html_of(replace(report, sections=report.sections[:-1]))).text
     assert "winding-rotor capacitance" in text
-    assert not re.findall(r"\b(?:circuit|breakdown|source|bearings|lubricant|discharge)\.[a-z]\w+", text)
+    tables_of_files = "drive|circuit|breakdown|source|bearings?|lubricant|discharge|motor"
+    assert not re.findall(rf"\b(?:{tables_of_files})\.(?!nc\b)[a-z]\w+", text)
+    assert not re.findall(r"\b[a-z]{2,}_[a-z]{2,}\b", re.sub(r"https?://\S+", "", text))
 
 
 def test_values_that_decide_are_told_with_their_origin(report):
