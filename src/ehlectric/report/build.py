@@ -24,14 +24,7 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.first_page import bearing_blocks, first_section, is_solved, machine_of, numbers_of
-from ehlectric.report.report_content import (
-    Block,
-    Part,
-    Picture,
-    Report,
-    Section,
-    Text,
-)
+from ehlectric.report.report_content import Block, Numbers, Part, Picture, Report, Section, Text
 from ehlectric.report.report_facts import (
     alarms_of,
     cell_table,
@@ -104,7 +97,7 @@ def _contact(result: Any) -> Part:
         date=result.to_xarray().attrs.get("date", ""),
         kind=f"{result.case.contact.geometry} contact",
         command="run",
-        first=(numbers_of(rows, CONTACT_CARDS),),
+        first=(Numbers(numbers_of(rows, CONTACT_CARDS)),),
         numbers=tuple(row_tables(rows, "Overview")),
     )
 

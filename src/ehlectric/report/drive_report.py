@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any
 
 import numpy as np
@@ -29,7 +29,7 @@ from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
-from ehlectric.report.first_page import assumption_table, machine_of, number_of, usual_range
+from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
@@ -299,15 +299,9 @@ def drive_part(result: DriveResult) -> Part:
 
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Numbers of both bearings, remedies, and the three values that decide most."""
-    rows = {end: {row.key: row for row in end_rows(summary, end)} for end in ENDS}
-    yield Numbers(
-        tuple(
-            number_of(key, further, rows[end], place)
-            for end, place in NAMES_OF_ENDS.items()
-            for key, further in FIRST_PAGE_OF_DRIVE.items()
-            if key in rows[end]
-        )
-    )
+    places = NAMES_OF_ENDS.items()
+    numbers = (numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, place) for end, place in places)
+    yield Numbers(tuple(chain.from_iterable(numbers)))
     if result.remedies:
         heads, *cells = worse_cells(summary)
         yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))

@@ -95,15 +95,17 @@ def _short(light: Light) -> Light:
     return replace(light, text=with_units_kept(text))
 
 
-def numbers_of(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> Numbers:
-    """Large numbers of those keys that have a row, each with the rows of further keys in its note."""
+def numbers_of(
+    rows: Iterable[Row], keys: Mapping[str, Iterable[str]], place: str = ""
+) -> tuple[tuple[str, str, str], ...]:
+    """Large numbers of those keys that have a row, each with the rows of further keys in its note. ``place``,
+    name of the end of a drive that they belong to.
+    """
     known = {row.key: row for row in rows if row.key}
-    return Numbers(tuple(number_of(key, keys[key], known) for key in keys if key in known)[:_MOST])
+    return tuple(_number(key, keys[key], known, place) for key in keys if key in known)[:_MOST]
 
 
-def number_of(
-    key: str, further: Iterable[str], rows: Mapping[str, Row], place: str = ""
-) -> tuple[str, str, str]:
+def _number(key: str, further: Iterable[str], rows: Mapping[str, Row], place: str) -> tuple[str, str, str]:
     """Label, value and note of a large number."""
     row = rows[key]
     row = replace(row, digits=".3g") if row.digits == ".4g" else row
@@ -127,7 +129,7 @@ def _unit(row: Row) -> str:
 
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
-    yield numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING)
+    yield Numbers(numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING))
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     better = [

@@ -18,16 +18,7 @@ from ehlectric.figures.result_figures import default_figure, figure, figure_name
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.report.background import worded
-from ehlectric.report.report_content import (
-    DOI,
-    Link,
-    Part,
-    Picture,
-    Table,
-    Text,
-    WarningLine,
-    Warnings,
-)
+from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.runtime.values import is_number
 
