@@ -27,6 +27,10 @@ VALUES = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current"
 KEPT = 200_000
 
 
+# Voltage that a file of version 1.0.0 does not have, NaN in its result.
+_LATER = stored("", "V", "finite or NaN", needed=False)
+
+
 @dataclass(frozen=True, eq=False)
 class Record:
     """Record of a simulated time."""
@@ -63,6 +67,19 @@ class Record:
     # Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
     # stretch; straight between the rows, shape (m, 4).
     trace: Array
+    # Number of events of each film whose voltage is that of a positive shaft, shape (2,).
+    positive: Array = field(
+        default_factory=lambda: np.full(2, math.nan),
+        metadata=stored("bearing", None, "not negative or NaN", name="positive_events", needed=False),
+    )
+    # Voltage of the shaft against the frame over the measured time: mean, root mean square, lowest and
+    # highest one; and lowest and highest voltage of the source without its ringing [V].
+    shaft_mean: float = field(default=math.nan, metadata=_LATER)
+    shaft_rms: float = field(default=math.nan, metadata=_LATER)
+    shaft_lowest: float = field(default=math.nan, metadata=_LATER)
+    shaft_highest: float = field(default=math.nan, metadata=_LATER)
+    source_lowest: float = field(default=math.nan, metadata=_LATER)
+    source_highest: float = field(default=math.nan, metadata=_LATER)
 
 
 # Probability that a rate lies within its bounds.

@@ -46,7 +46,16 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
         "seed": case.drive.seed,
         **{key: sum(one[key] for one in ends.values()) for key in ("events", "events_per_second", "power")},
     }
-    return _tables(case, solution.highest_source, drive, ends)
+    tables = _tables(case, solution.highest_source, drive, ends)
+    tables["source"] |= plain({"peak_to_peak": record.source_highest - record.source_lowest})
+    shaft = {
+        "rms_voltage": record.shaft_rms,
+        "mean_voltage": record.shaft_mean,
+        "highest_voltage": record.shaft_highest,
+        "lowest_voltage": record.shaft_lowest,
+        "peak_to_peak": record.shaft_highest - record.shaft_lowest,
+    }
+    return {**tables, "shaft": plain(shaft)}
 
 
 def _tables(
@@ -136,6 +145,8 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
         "events_per_second": rate.mean,
         "events_per_second_low": rate.low,
         "events_per_second_high": rate.high,
+        "events_per_second_positive": float(record.positive[b]) / record.duration,
+        "events_per_second_negative": (count - float(record.positive[b])) / record.duration,
         "events_per_edge": None if edges is None else rate.mean / edges,
         "power": float(record.sums[b, ENERGY]) / record.duration,
     }

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from ehlectric.cases import library
@@ -23,11 +24,11 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, input_at
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.rows import value_at
-from ehlectric.report.report_content import Block, Cell, Link, Named, Section, Table, Text
-from ehlectric.report.report_texts import SENTENCES, limits_of, references_of
+from ehlectric.report.report_content import DOI, Block, Cell, Link, Named, Section, Table, Text
+from ehlectric.report.report_texts import SENTENCES, TEXTS, conditions_of, limits_of, references_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html_tables import input_row
 from ehlectric.version import __version__
@@ -69,7 +70,7 @@ def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
     tables = _tables(case, apart=apart)
     of_library = {
         f"{before}{key}": value
-        for before, own in _parts(case, apart=apart).items()
+        for before, own in parts_of(case, apart=apart).items()
         for key, value in _library_values(own).items()
     }
     for key, value in flattened(_numbered(tables)).items():
@@ -87,13 +88,13 @@ def _tables(case: SweptCase, *, apart: bool) -> dict[str, Any]:
     tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     tables.pop("remedies", None)
     if isinstance(case, DriveCase):
-        bearings = {before[:-1]: tables[ENDS[0]] for before in _parts(case, apart=apart) if before == _BOTH}
+        bearings = {before[:-1]: tables[ENDS[0]] for before in parts_of(case, apart=apart) if before == _BOTH}
         if bearings:
             tables = {key: value for key, value in tables.items() if key not in ENDS} | bearings
     return tables
 
 
-def _parts(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
+def parts_of(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
     """Cases of contacts or bearings in a case, by what stands before their keys."""
     if not isinstance(case, DriveCase):
         return {"": case}
@@ -193,7 +194,7 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
 
 def material_sources(case: SweptCase) -> Iterator[tuple[str, Source]]:
     """Names and sources of the solids of the library that bearings or a contact are made of."""
-    for name in dict.fromkeys(name for part in _parts(case).values() for name in _materials(part)):
+    for name in dict.fromkeys(name for part in parts_of(case).values() for name in _materials(part)):
         for source in _sources_of_inputs(library.tables("solid", name)):
             yield name, source
 
@@ -211,7 +212,6 @@ def _materials(case: Case | BearingCase) -> Iterator[str]:
 
 # Heads of the tables of inputs, and shares of their columns.
 _HEADS, _SHARES = ("input", "value", "origin", "meaning"), (0.25, 0.19, 0.21, 0.35)
-_DOI = "https://doi.org/"
 # Keys of the dielectric strength, which no measurement of films gives.
 _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weibull", "strength_table"))
 
@@ -261,17 +261,69 @@ def named(key: str) -> Named:
     return Named(", ".join(filter(None, [label, _PLACES.get(end, "").removeprefix("bearing at the ")])), key)
 
 
-def given_inputs(case: SweptCase) -> str:
-    """Inputs that are neither defaults nor values of the library, with their values, in a line."""
-    given = [one for one in inputs_of(case) if one.origin == "given"]
+def worded(text: str) -> str:
+    """Text with the names of inputs in place of their keys.
+
+    Examples
+    --------
+    >>> worded("in place of bearing.inner_speed, within V/h_min of events.csv")
+    'in place of speed of the inner ring, within V/h_min of events.csv'
+    >>> worded("summits of 2 times composite_rq")
+    'summits of 2 times composite roughness Rq'
+    """
+    return _KEY.sub(_name_of_key, text)
+
+
+# Words that are keys of files; symbols such as h_min are none. Tables of keys without one.
+_KEY = re.compile(r"\b[a-z]{2,}(?:[._][a-z0-9]+)+\b")
+_TABLES = (
+    "bearing",
+    "circuit",
+    "breakdown",
+    "source",
+    "drive",
+    "discharge",
+    "lubricant",
+    "contact",
+    "grid",
+    "film",
+)
+
+
+def _name_of_key(found: re.Match[str]) -> str:
+    word = found[0]
+    known = (input_at(key) for key in (word, *(f"{table}.{word}" for table in _TABLES)))
+    return next((about.label for about in known if about is not None and about.label), word.replace("_", " "))
+
+
+def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
+    """Inputs with their values in a line, without defaults, values of the library, varied inputs, and inputs
+    of bearings that a drive replaces.
+    """
+    left_out = varied_keys(varied)[0]
+    given = [
+        one
+        for one in inputs_of(case)
+        if one.origin == "given" and one.key not in left_out and _is_used(case, one.key)
+    ]
     groups = groupby(given, key=lambda one: end_and_key(one.key)[0])
     return "; ".join(
-        (f"{_PLACES[end]}: " if end else "")
-        + "; ".join(
-            f"{named(end_and_key(one.key)[1]).text} {input_text(case, one.key, one.value)}" for one in group
-        )
+        (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, one) for one in group)
         for end, group in groups
     )
+
+
+def _is_used(case: SweptCase, key: str) -> bool:
+    """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own."""
+    end, own = end_and_key(key)
+    return not (replaced_by(case, key) or (end and own.startswith(("motor.", "duty."))))
+
+
+def _given(case: SweptCase, one: Input) -> str:
+    key = end_and_key(one.key)[1]
+    # The folder of a file is that of one machine.
+    value = Path(one.value).name if key.endswith(".file") else input_text(case, one.key, one.value)
+    return f"{named(key).text} =\xa0{value}"
 
 
 def _sources(inputs: Iterable[Input]) -> list[Source]:
@@ -296,14 +348,14 @@ def _meaning(key: str) -> str:
         text = describe(key)
     except InputError:
         return "how the contacts are computed" if end_and_key(key)[1] == "contacts" else ""
-    return re.split(r" \[|; |: ", text)[0]
+    return worded(re.split(r" \[|; |: ", text)[0])
 
 
 def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
-        text = f"{named(one.key).text} {input_text(case, one.key, one.value)}"
+        text = f"{named(one.key).text} = {input_text(case, one.key, one.value)}"
         if one.assumed and one.source is not None:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)
@@ -325,7 +377,7 @@ def limit_section(case: SweptCase) -> Section:
 
 
 def source_section(case: SweptCase) -> Section:
-    """Section of the sources of library values, of materials, and of equations."""
+    """Section of the sources of library values, of materials, of equations, and of standards."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
     values = tuple(
@@ -340,19 +392,24 @@ def source_section(case: SweptCase) -> Section:
     if solids:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
-        (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
+        (one.topic, Link(f"{one.citation}, ", DOI + one.doi) if one.doi else one.citation)
         for one in references_of(case)
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))
     )
+    if conditions_of(case).get("motor"):
+        known, shares = TEXTS["standards"], (0.16, 0.27, 0.35, 0.22)
+        caption = f"Standards on machines with inverters, as known on {known['date']}"
+        rows = tuple(map(tuple, known["rows"]))
+        blocks += [Table(caption, tuple(known["heads"]), rows, shares=shares), Text(SENTENCES["standards"])]
     return Section("Sources", tuple(blocks))
 
 
 def _cited(source: Source) -> Cell:
     """Citation of a source, with a link to its DOI if it has one."""
     citation = printable(source.citation) or "none"
-    return Link(f"{citation}, ", _DOI + source.doi) if source.doi else citation
+    return Link(f"{citation}, ", DOI + source.doi) if source.doi else citation
 
 
 def version_section(details: Mapping[str, str]) -> Section:

@@ -12,7 +12,6 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import printable
-from ehlectric.figures.result_figures import default_figure, figure_names
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.sheets import CONTACT_CARDS
 from ehlectric.report.background import (
@@ -25,17 +24,16 @@ from ehlectric.report.background import (
 )
 from ehlectric.report.drive_report import drive_part
 from ehlectric.report.first_page import bearing_blocks, first_section, is_solved, machine_of, numbers_of
-from ehlectric.report.report_content import (
-    Block,
-    Part,
-    Picture,
-    Report,
-    Section,
-    Text,
-    details_of,
-    lead_of,
+from ehlectric.report.report_content import Block, Numbers, Part, Picture, Report, Section, Text
+from ehlectric.report.report_facts import (
+    alarms_of,
+    cell_table,
+    density_tables,
+    part_of,
+    pictures_of,
+    row_tables,
+    warning_block,
 )
-from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.report.sweep_report import sweep_part
 from ehlectric.runs.result_folders import stored_result
@@ -91,73 +89,48 @@ def _answer(part: Part) -> Iterator[Block]:
     yield Text(SENTENCES["no_verdict"] if part.verdict is None else printable(part.verdict.text))
 
 
-def _deciding_first(result: Any) -> tuple[str, ...]:
-    """Names of the figures of a result: that over the speed of a bearing or the default one at first."""
-    names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
-    first = "breakdown_over_speed" if "breakdown_over_speed" in names else default
-    return tuple(sorted(names, key=lambda name: name != first))
-
-
 def _contact(result: Any) -> Part:
-    summary, rows = result.summary(), result_rows(result)
-    return Part(
+    rows = result_rows(result)
+    return part_of(
+        result,
+        result.summary(),
+        date=result.to_xarray().attrs.get("date", ""),
         kind=f"{result.case.contact.geometry} contact",
         command="run",
-        lead=lead_of(result),
-        failure="" if result.converged else SENTENCES["unsolved"],
-        verdict=result.verdict,
-        warnings=result.warnings,
-        first=(numbers_of(rows, CONTACT_CARDS),),
+        first=(Numbers(numbers_of(rows, CONTACT_CARDS)),),
         numbers=tuple(row_tables(rows, "Overview")),
-        figures=_deciding_first(result),
-        details=details_of(summary, result.to_xarray().attrs.get("date", "")),
-        toml=result.case.to_toml(),
     )
 
 
 def _motion(result: MotionResult) -> Part:
     summary = result.summary()
-    return Part(
+    return part_of(
+        result,
+        summary,
+        date=str(result.dataset.attrs.get("date", "")),
         kind=f"{result.case.contact.geometry} contact with moving roughness",
         command="run",
-        lead=lead_of(result),
         failure="" if result.converged else SENTENCES["ended_early"],
-        verdict=None,
-        warnings=result.warnings,
         numbers=tuple(row_tables(run_rows(summary), "Overview")),
-        figures=_deciding_first(result),
-        details=details_of(summary, str(result.dataset.attrs.get("date", ""))),
-        toml=result.case.to_toml(),
     )
 
 
 def _bearing(result: BearingResult) -> Part:
-    summary = result.summary()
-    rows, base = total_rows(summary), result.case.bearing.base
-    of_library = f" {base}" if base else ""
-    contacts = Section(
-        "Contacts",
-        (
-            cell_table(
-                loads_table(summary), "Loads and dry contacts of the elements with both rings", "element"
-            ),
-            cell_table(films_table(summary), "Films, capacitances and voltages of the contacts", "element"),
-        ),
-    )
-    return Part(
-        kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
+    summary, case = result.summary(), result.case
+    rows, base = total_rows(summary), case.bearing.base
+    loads = "Loads and dry contacts of the elements with both rings"
+    films = "Films, capacitances and voltages of the contacts"
+    contacts = cell_table(loads_table(summary), loads), cell_table(films_table(summary), films)
+    densities = density_tables({"bearing": summary["bearing"].get("current_density")})
+    return part_of(
+        result,
+        summary,
+        kind=f"{case.bearing.kind} bearing{f' {base}' if base else ''}, contacts {HOW[case.contacts]}",
         command="bearing",
-        asked=machine_of(result.case, summary),
-        lead=lead_of(result),
-        failure="" if result.converged else SENTENCES["unsolved"],
-        verdict=result.verdict,
-        warnings=result.warnings,
-        first=tuple(bearing_blocks(result.case, summary, rows)),
-        numbers=tuple(row_tables(rows, "Overview")),
-        figures=_deciding_first(result),
-        further=(contacts,),
-        details=details_of(summary, ""),
-        toml=result.case.to_toml(),
+        asked=machine_of(case, summary),
+        first=tuple(bearing_blocks(case, summary, rows)),
+        numbers=(*row_tables(rows, "Overview"), *densities),
+        further=(Section("Contacts", contacts),),
     )
 
 

@@ -7,34 +7,32 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain, groupby
 from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.input_changes import changes_of
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.discharge.film_verdict import Level, Verdict
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.figures.result_figures import figure_names
 from ehlectric.quantities.formats import amount, number_text
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, REMEDIES, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
-from ehlectric.report.background import input_text, inputs_of, named, varied_keys
-from ehlectric.report.first_page import assumption_table, machine_of, number_of, usual_range
+from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
+from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range
 from ehlectric.report.light import light_of
-from ehlectric.report.report_content import Block, Cell, Numbers, Part, Section, Table, Text, details_of
-from ehlectric.report.report_facts import row_tables
+from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
+from ehlectric.report.report_facts import density_tables, part_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import (
@@ -71,23 +69,28 @@ def _deciding(
     _, apart = varied_keys(varied)
     origins = {one.key: one.origin for one in inputs_of(case, apart=apart) if one.origin != "given"}
     for key, value, origin, why in (
-        *_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)
+        *_of_inputs(case, apart=apart), *_renewal(case, summary)
     ):  # fmt: skip
         yield key, value, origin or origins.get(key, _GIVEN), why
 
 
-def _of_tables(case: DriveCase) -> Iterator[tuple[str, str, str, str]]:
-    """Rows of the tables ``circuit`` and ``breakdown``, without an origin where it is that of an input."""
-    given = flattened(case.to_dict())
-    for key, decides in TEXTS["decided_by_drive"].items():
-        name = key.partition(".")[2]
-        if key in given:
+def _of_inputs(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str, str]]:
+    """Rows of circuit, arc and bearings, those of equal bearings once where no end has values of its own;
+    without an origin where it is that of an input.
+    """
+    decided, strength = TEXTS["decided"], "discharge.strength_table"
+    for before, part in {"": case, **parts_of(case, apart=apart)}.items():
+        given = flattened(part.to_dict())
+        for key, why in decided.items():
+            name = key.partition(".")[2]
             # Resistances of 0 ohm are those of a path that has none.
-            if given[key] or "resistance" not in key:
-                yield key, input_text(case, key, given[key]), "", decides
-        elif name in case.circuit.estimated:
-            origin = "geometry of the machine, without end windings"
-            yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
+            if key in given and (given[key] or "resistance" not in key):
+                yield f"{before}{key}", input_text(case, f"{before}{key}", given[key]), "", why
+            elif part is case and name in case.circuit.estimated:
+                origin = "geometry of the machine, without end windings"
+                yield key, amount(case.circuit.capacitances[name], "F"), origin, why
+        if any(key.startswith(f"{strength}.") for key in given):
+            yield f"{before}{strength}", "a table", _GIVEN, decided["discharge.dielectric_strength"]
 
 
 def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, str, str, str]]:
@@ -99,24 +102,7 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tup
         key = "breakdown.renewal_time"
         value = " and ".join(dict.fromkeys(amount(float(f"{time:.3g}"), "s") for time in times))
         origin = "time in which oil passes the most loaded contact"
-        yield key, with_units_kept(value), origin, TEXTS["decided_by_drive"][key]
-
-
-def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str, str]]:
-    """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
-    first, second = case.bearings
-    places = list(zip(ENDS, ENDS, case.bearings, strict=True))
-    if first == second and not apart:
-        places = [(BOTH, ENDS[0], first)]
-    decides_strength = TEXTS["decided_by_bearing"]["discharge.dielectric_strength"]
-    for name, end, bearing in places:
-        given = flattened(bearing.to_dict())
-        scatter = {key: decides_strength for key in given if key.startswith("discharge.weibull.")}
-        for key, why in (TEXTS["decided_by_bearing"] | scatter).items():
-            if key in given:
-                yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", why
-        if any(key.startswith("discharge.strength_table.") for key in given):
-            yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides_strength
+        yield key, with_units_kept(value), origin, TEXTS["decided"][key]
 
 
 # Largest number of discharges that a report lists.
@@ -160,20 +146,18 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
     yield Table("Discharges with the largest energy", heads, cells, numeric, shares=shares)
 
 
-# Published limits of the current density [A/mm²].
-_LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
-
-
 def number_tables(summary: Summary) -> Iterator[Table | Text]:
-    """Tables of what was simulated, and of both bearings side by side."""
+    """Tables of what was simulated, of both bearings side by side, and of limits of the current density."""
     yield from row_tables(whole_rows(summary), "simulation")
     heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
     for caption, rows in end_cells(summary):
         cells = tuple(tuple(map(unbroken, row)) for row in rows)
         yield Table(caption, heads, cells, (1, 2), shares=(0.44, 0.22, 0.22, 0.12))
     bound = drive_bounds(DRIVE_BOOK, summary).get("end.breakdown_voltage")
-    sentences = [SENTENCES["drive_numbers"].format(limits=_LIMITS)]
-    yield Text(" ".join([TEXTS["bounds"][bound], *sentences] if bound else sentences))
+    yield Text(" ".join([*([TEXTS["bounds"][bound]] if bound else []), SENTENCES["drive_numbers"]]))
+    yield from density_tables(
+        {place: summary[end]["current_density"] for end, place in NAMES_OF_ENDS.items()}
+    )
 
 
 AS_IT_IS = "as it is"
@@ -182,12 +166,7 @@ AS_IT_IS = "as it is"
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
     yield Text(SENTENCES["remedies"])
-    changes = tuple(
-        row
-        for title, changes, found in result.remedies
-        for row in _changes(result.case, found.case, title, changes)
-    )
-    heads = ("remedy", "input", AS_IT_IS, "with the remedy")
+    heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
     yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
     drives = [(AS_IT_IS, result, summary)]
     for title, _, found in result.remedies:
@@ -223,18 +202,18 @@ def _further(result: DriveResult, known: set[str]) -> str:
     return " ".join(CODES[code].meaning for code in codes) or "none"
 
 
-def _changes(
-    case: DriveCase, other: DriveCase, title: str, changes: Mapping[str, Any]
-) -> Iterator[tuple[Cell, ...]]:
-    """Rows of the changes of a remedy: its title, the input, and its value in both drives."""
-    before, after = (flattened(one.to_dict()) for one in (case, other))
-    for key in flattened(dict(changes)):
-        first, *_ = of_both_ends(key)
-        told = [
-            input_text(one, first, tables[first]) if first in tables else "not given"
-            for one, tables in ((case, before), (other, after))
-        ]
-        yield printable(title), named(key), *told
+def _changes(result: DriveResult) -> Iterator[tuple[str, Named, str, str]]:
+    """Rows of the changes of all remedies: title, input, and its value in the drive and with the remedy."""
+    before = flattened(result.case.to_dict())
+    for title, changes, found in result.remedies:
+        after = flattened(found.case.to_dict())
+        for key in flattened(dict(changes)):
+            first, *_ = of_both_ends(key)
+            was, now = (
+                input_text(one, first, tables[first]) if first in tables else "not given"
+                for one, tables in ((result.case, before), (found.case, after))
+            )
+            yield printable(title), named(key), was, now
 
 
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
@@ -303,44 +282,34 @@ def drive_part(result: DriveResult) -> Part:
     """Part of a report about a drive."""
     summary, case = result.summary(), result.case
     verdict = result.verdict
-    return Part(
+    return part_of(
+        result,
+        summary,
         kind=_kind(case),
         command="drive",
         asked=machine_of(case, summary),
         lead=_lead(summary),
-        failure="" if result.converged else SENTENCES["unsolved"],
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
-        warnings=result.warnings,
         first=tuple(_first_blocks(result, summary)),
         numbers=tuple(number_tables(summary)),
-        figures=_figures(result),
         further=tuple(_sections(result, summary)),
         rests=deciding_blocks(case, summary),
-        details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
-        toml=result.case.to_toml(),
     )
-
-
-def _figures(result: DriveResult) -> tuple[str, ...]:
-    """Names of the figures; that of the remedies decides, and the voltages where there are none."""
-    names = figure_names(result)
-    return tuple(sorted(names, key=lambda name: not name.startswith("drive_remedies")))
 
 
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Numbers of both bearings, remedies, and the three values that decide most."""
-    rows = {end: {row.key: row for row in end_rows(summary, end)} for end in ENDS}
-    yield Numbers(
-        tuple(
-            number_of(key, further, rows[end], place)
-            for end, place in NAMES_OF_ENDS.items()
-            for key, further in FIRST_PAGE_OF_DRIVE.items()
-            if key in rows[end]
-        )
-    )
+    places = NAMES_OF_ENDS.items()
+    numbers = (numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, place) for end, place in places)
+    yield Numbers(tuple(chain.from_iterable(numbers)))
     if result.remedies:
         heads, *cells = worse_cells(summary)
         yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))
+        told = "; ".join(
+            f"{title}: " + ", ".join(f"{name.text} =\xa0{value}" for _, name, _, value in changed)
+            for title, changed in groupby(_changes(result), key=lambda row: row[0])
+        )
+        yield Text(f"{told}.", "small")
     case = result.case
     found: dict[str, tuple[str, str, str]] = {}
     for key, value, _, why in _deciding(case, summary):
@@ -348,18 +317,10 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
         # Ceramic elements do not break down.
         if summary.get(end, {"breakdown_voltage": 0.0})["breakdown_voltage"] is not None:
             found.setdefault(own, (key, value, why))
-    given = flattened(case.to_dict())
     yield assumption_table(
-        (named(key).text, value, usual_range(key, _ranges(case, key), given), why)
+        (named(key).text, value, usual_range(case, key), why)
         for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
     )
-
-
-def _ranges(case: DriveCase, key: str) -> dict[str, tuple[float, float]]:
-    """Usual ranges of the inputs of the bearing that a key belongs to, SI units."""
-    end, _ = end_and_key(key)
-    own = case.bearings[ENDS.index(end) if end in ENDS else 0]
-    return {change.key: change.ends for change in changes_of(own)}
 
 
 def _kind(case: DriveCase) -> str:

@@ -20,7 +20,7 @@ from ehlectric.discharge.film_verdict import chance_text, ratio_text
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
-from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
@@ -75,7 +75,7 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
     )
     if told:
         yield Text(f"Warnings: {' '.join(told)}", "small")
-    given = f"Inputs of the file: {given_inputs(result.case)}. {SENTENCES['all_others']}"
+    given = f"Inputs of the file: {given_inputs(result.case, part.varied)}. {SENTENCES['all_others']}"
     yield Text(with_units_kept(given), "small")
     made = (
         f"Result {printable(f'{path.parent.name}/{path.name}')}, {part.details.get('result computed by', '')}"
@@ -95,15 +95,17 @@ def _short(light: Light) -> Light:
     return replace(light, text=with_units_kept(text))
 
 
-def numbers_of(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> Numbers:
-    """Large numbers of those keys that have a row, each with the rows of further keys in its note."""
+def numbers_of(
+    rows: Iterable[Row], keys: Mapping[str, Iterable[str]], place: str = ""
+) -> tuple[tuple[str, str, str], ...]:
+    """Large numbers of those keys that have a row, each with the rows of further keys in its note. ``place``,
+    name of the end of a drive that they belong to.
+    """
     known = {row.key: row for row in rows if row.key}
-    return Numbers(tuple(number_of(key, keys[key], known) for key in keys if key in known)[:_MOST])
+    return tuple(_number(key, keys[key], known, place) for key in keys if key in known)[:_MOST]
 
 
-def number_of(
-    key: str, further: Iterable[str], rows: Mapping[str, Row], place: str = ""
-) -> tuple[str, str, str]:
+def _number(key: str, further: Iterable[str], rows: Mapping[str, Row], place: str) -> tuple[str, str, str]:
     """Label, value and note of a large number."""
     row = rows[key]
     row = replace(row, digits=".3g") if row.digits == ".4g" else row
@@ -127,7 +129,7 @@ def _unit(row: Row) -> str:
 
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
-    yield numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING)
+    yield Numbers(numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING))
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     better = [
@@ -165,10 +167,9 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
             ranked=True,
         )
         return
-    known = {change.key: change.ends for change in changes_of(case)}
     broken = summary["bearing"]["first_break"] is not None
     yield assumption_table(
-        (named(key).text, input_text(case, key, given[key]), usual_range(key, known, given), why)
+        (named(key).text, input_text(case, key, given[key]), usual_range(case, key), why)
         for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
     )
@@ -203,14 +204,16 @@ def _value(case: BearingCase, key: str, value: Any) -> str:
     return "a table" if value is None or not isinstance(value, float) else f"{value:.3g} times"
 
 
-def usual_range(key: str, known: Mapping[str, tuple[float, float]], given: Mapping[str, Any]) -> str:
-    """Usual range of an input; ``known`` are those of a bearing, SI units. A capacitance of the circuit of a
-    drive has the one that it has in the motor of a bearing.
+def usual_range(case: BearingCase | DriveCase, key: str) -> str:
+    """Usual range of an input of a bearing; a capacitance of the circuit of a drive has that of the motor of
+    a bearing.
     """
-    own = end_and_key(key)[1]
-    ends = known.get(own)
-    if ends is None and own.startswith("circuit.") and own.endswith("_capacitance") and own in given:
-        ends = (1.0 - MOTOR) * given[own], (1.0 + MOTOR) * given[own]
+    end, own = end_and_key(key)
+    bearing = case.bearings[ENDS.index(end) if end in ENDS else 0] if isinstance(case, DriveCase) else case
+    ends = {change.key: change.ends for change in changes_of(bearing)}.get(own)
+    given = flattened(case.to_dict()).get(own)
+    if ends is None and given and own.startswith("circuit.") and own.endswith("_capacitance"):
+        ends = (1.0 - MOTOR) * given, (1.0 + MOTOR) * given
     if ends is None:
         return "none known"
     return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))
@@ -249,6 +252,8 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
                 f"{place}: {one}" for place, one in zip(NAMES_OF_ENDS.values(), (first, second), strict=True)
             )
         sentence = f"{source}, {_motor(*motor)}; {both}"
+    if "duty" in summary:
+        sentence += f"; beside this operation a duty cycle of {summary['duty']['duration']:.6g} s"
     return with_units_kept(f"{sentence[:1].upper()}{sentence[1:]}.")
 
 

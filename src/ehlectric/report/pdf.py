@@ -68,11 +68,11 @@ _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 # Room beside the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
 
-# Size of a dotted key below the name of its input [pt].
-_KEY = 6.0
-
 # Room that a title of a section needs for itself and for what begins below it [pt].
 _ROOM = 130.0
+
+# Height of a figure beside the numbers of the first page [pt]: with its caption it is as high as they are.
+_BESIDE = 215.0
 
 # Share of the height of a page above which a figure has a page of its own.
 _TALL = 0.6
@@ -120,7 +120,9 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
                 yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
                 yield Spacer(1.0, 4.0)
         case Picture():
-            yield _picture(block, width, height)
+            # Two figures of usual height share a page; only tall ones take it alone.
+            tall = 72.0 * float(block.figure.get_size_inches()[1]) > _TALL * height
+            yield _picture(block, width, height - 60.0 if tall else 0.5 * height - 55.0)
 
 
 # Shape of a lamp by its level, so that the colour is not the only sign.
@@ -137,7 +139,7 @@ def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int 
     rows = [cells[k : k + beside] for k in range(0, len(cells), beside)]
     rows[-1] += [[]] * (beside - len(rows[-1]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (-1, -1), 0.0)]
-    look += [("TOPPADDING", (0, 0), (-1, -1), 0.0), ("BOTTOMPADDING", (0, 0), (-1, -1), 6.0)]
+    look += [("TOPPADDING", (0, 0), (-1, -1), 0.0), ("BOTTOMPADDING", (0, 0), (-1, -1), 4.0)]
     return LongTable(rows, colWidths=[width / beside] * beside, hAlign="LEFT", style=look)
 
 
@@ -163,11 +165,9 @@ def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
     return LongTable(rows, colWidths=[width], hAlign="LEFT", style=look)
 
 
-def _picture(picture: Picture, width: float, height: float) -> Flowable:
-    """Figure with its caption, on one page."""
+def _picture(picture: Picture, width: float, room: float) -> Flowable:
+    """Figure of at most a width and a height [pt] with its caption, on one page."""
     wide, high = (72.0 * float(inches) for inches in picture.figure.get_size_inches())
-    # Two figures of usual height share a page; only tall ones take it alone.
-    room = height - 60.0 if high > _TALL * height else 0.5 * height - 55.0
     scale = min(1.0, width / wide, room / high)
     image = Image(BytesIO(image_of(picture, "png")), scale * wide, scale * high, hAlign="LEFT")
     caption = Paragraph(f"<b>{escape(picture.title)}.</b> {escape(picture.caption)}", style("body", 8.0))
@@ -237,10 +237,7 @@ def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
     if isinstance(cell, Link):
         shown = escape(_address(cell))
         return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
-    if isinstance(cell, Named):
-        key = _parted(cell.key, room, _KEY)
-        return f'{_markup(cell.text, colour, room, size)}<br/><font size="{_KEY}" color="{GREY}">{key}</font>'
-    text = " ".join(_parted(word, room, size) for word in cell.split(" "))
+    text = " ".join(_parted(word, room, size) for word in _plain(cell).split(" "))
     return f'<font color="{colour}">{text}</font>' if colour else text
 
 
@@ -336,8 +333,8 @@ def first_page(report: Report) -> Flowable:
 
 def _beside(numbers: Numbers, picture: Picture) -> Flowable:
     """Numbers below each other, and a figure beside them."""
-    left, right = (share * _WIDTH for share in (0.33, 0.67))
-    shown = list(_loose([_picture(picture, right - 6.0, _HEIGHT)]))
+    left, right = (share * _WIDTH for share in (0.36, 0.64))
+    shown = list(_loose([_picture(picture, right - 6.0, _BESIDE)]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
     look += [("RIGHTPADDING", (0, 0), (-1, -1), 0.0)]
     return LongTable([[_numbers(numbers.numbers, left, 1), shown]], colWidths=[left, right], style=look)

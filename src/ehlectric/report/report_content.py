@@ -4,20 +4,16 @@ result.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from io import BytesIO
-from textwrap import shorten
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from matplotlib.figure import Figure
 
-from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import ResultWarning, Severity
 from ehlectric.figures.style import style as figure_style
-from ehlectric.quantities.quantity import unbroken
 from ehlectric.report.light import Light
 
 # Resolution of pixels [1/inch].
@@ -42,17 +38,21 @@ class Text:
     tone: Tone = "plain"
 
 
+# Beginning of the addresses of links.
+DOI = "https://doi.org/"
+
+
 @dataclass(frozen=True)
 class Link:
     """Text of a cell that leads to a page."""
 
     text: str  # plain text before the address
-    address: str  # address of the page, which begins with "https://doi.org/"
+    address: str  # address of the page, which begins with ``DOI``
 
 
 @dataclass(frozen=True)
 class Named:
-    """Name of an input, with the dotted key of a file that stands small below it."""
+    """Name of an input, with its dotted key of a file, which a page shows under the pointer."""
 
     text: str
     key: str
@@ -154,37 +154,6 @@ class Part:
     details: dict[str, str]  # what is known of the computation, by name
     toml: str
     varied: tuple[str, ...] = ()  # dotted keys that a sweep varies
-
-
-def details_of(summary: Mapping[str, Any], date: str) -> dict[str, str]:
-    """Version, date and state of a computation, by name. ``date``, date of the result; empty where it is not
-    known.
-    """
-    return {
-        "result computed by": f"ehlectric {summary['version']}",
-        "date of the result": date,
-        "converged": "yes" if summary["converged"] else "no",
-        "computing time": _seconds(summary.get("seconds")),
-    }
-
-
-def _seconds(seconds: float | Mapping[str, float] | None) -> str:
-    """Time as text; that of a contact is the sum of its parts."""
-    if seconds is None:
-        return ""
-    total = sum(seconds.values()) if isinstance(seconds, Mapping) else seconds
-    return f"{total:.3g} s"
-
-
-def lead_of(result: Any) -> str:
-    """Main numbers of a result: its representation without the name of its class, title and verdict."""
-    line = repr(result)[1:-1].partition(" ")[2]
-    title = shorten(getattr(result, "title", "") or result.case.title, 60)
-    line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
-    if isinstance(result, BearingResult) and result.case.bearing.base:
-        # The name of a bearing keeps its letters.
-        line = f"Bearing {line}"
-    return unbroken(f"{line[:1].upper()}{line[1:]}.")
 
 
 def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:

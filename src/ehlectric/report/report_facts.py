@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from textwrap import shorten
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 
+from ehlectric.bearing.result import BearingResult
+from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
 from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.figures.result_figures import figure, figure_names
+from ehlectric.figures.result_figures import default_figure, figure, figure_names
 from ehlectric.quantities.quantity import unbroken
-from ehlectric.quantities.rows import Row
-from ehlectric.report.report_content import (
-    Picture,
-    Table,
-    Text,
-    WarningLine,
-    Warnings,
-)
+from ehlectric.quantities.rows import Row, value_at
+from ehlectric.report.background import worded
+from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
+from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     from rich.table import Table as RichTable
@@ -31,6 +30,54 @@ _HEADS, _SHARES = ("quantity", "value", "unit", "note"), (0.42, 0.17, 0.1, 0.31)
 
 # Order of warnings in a report, the most important first.
 _SEVERITIES = ("severe", "warning", "note")
+
+
+# Figures that decide, where a result has them; of other results it is the one that tells most.
+_DECIDING = ("bearing_duty", "drive_duty", "breakdown_over_speed", "drive_remedies")
+
+
+def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: Any) -> Part:
+    """Part of a report of a result that is no sweep. ``date`` is that of the result, empty where it is not
+    known; ``own`` are fields that depend on the kind of the result.
+    """
+    names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
+    first = next((name for name in (*_DECIDING, default) if name in names), "")
+    shared = {
+        "lead": lead_of(result),
+        "failure": "" if result.converged else SENTENCES["unsolved"],
+        "verdict": getattr(result, "verdict", None),
+        "warnings": result.warnings,
+        "figures": tuple(sorted(names, key=lambda name: name != first)),
+        "details": _details(summary, date),
+        "toml": result.case.to_toml(),
+    }
+    return Part(**shared | own)
+
+
+def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:
+    """Version, date and state of a computation, by name."""
+    seconds = summary.get("seconds", "")
+    # The time of a contact is the sum of its parts.
+    total = sum(seconds.values()) if isinstance(seconds, Mapping) else seconds
+    seed = value_at(summary, "drive.seed")
+    return {
+        "result computed by": f"ehlectric {summary['version']}",
+        "date of the result": date,
+        "converged": "yes" if summary["converged"] else "no",
+        "computing time": f"{total:.3g} s" if is_number(total) else "",
+        "seed of the random numbers": "" if seed is None else str(seed),
+    }
+
+
+def lead_of(result: Any) -> str:
+    """Main numbers of a result: its representation without the name of its class, title and verdict."""
+    line = repr(result)[1:-1].partition(" ")[2]
+    title = shorten(getattr(result, "title", "") or result.case.title, 60)
+    line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
+    if isinstance(result, BearingResult) and result.case.bearing.base:
+        # The name of a bearing keeps its letters.
+        line = f"Bearing {line}"
+    return unbroken(f"{line[:1].upper()}{line[1:]}.")
 
 
 def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
@@ -63,7 +110,7 @@ def _cells(row: Row) -> Iterator[str]:
     yield printable(row.note.lstrip(",; ").strip())
 
 
-def cell_table(table: RichTable, caption: str, first: str) -> Table:
+def cell_table(table: RichTable, caption: str, first: str = "element") -> Table:
     """Table of a report from one of the terminal; columns that are aligned to the right stay so."""
     from rich.text import Text as RichText
 
@@ -79,6 +126,29 @@ def _plain(cell: object, text: type) -> str:
     return cell.plain if isinstance(cell, text) else str(text.from_markup(str(cell)).plain)  # type: ignore[attr-defined]
 
 
+def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
+    """Table of the published limits beside current densities over Hertz areas [A/m²], by the name of the
+    bearing; none without a current.
+    """
+    known = {place: density for place, density in densities.items() if density}
+    if not known:
+        return
+    told = zip(CURRENT_DENSITY_LIMITS, TEXTS["density_limits"], strict=True)
+    rows = tuple(
+        (
+            f"{1e-6 * limit:g} A/mm²",
+            *("above" if density > limit else "below" for density in known.values()),
+            about["text"],
+            Link(f"{about['citation']}, ", DOI + about["doi"]),
+        )
+        for limit, about in told
+    )
+    places = (f"{place}, {1e-6 * density:.3g} A/mm²" for place, density in known.items())
+    heads = ("published limit", *places, "what is published", "source")
+    shares = (0.11, *(0.3 / len(known) for _ in known), 0.3, 0.29)
+    yield Table("Current density beside its published limits", heads, rows, shares=shares)
+
+
 def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
     """Warnings by kind with their meaning, the severe ones first; a sentence where there are none."""
     if not warnings:
@@ -86,7 +156,7 @@ def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
     ordered = sorted(warnings, key=lambda warning: _SEVERITIES.index(warning.severity))
     kinds: dict[tuple[Severity, str], list[str]] = {}
     for one in ordered:
-        kinds.setdefault((one.severity, one.code), []).append(printable(one.text))
+        kinds.setdefault((one.severity, one.code), []).append(worded(printable(one.text)))
     return Warnings(
         tuple(
             WarningLine(severity, code, CODES[code].meaning, tuple(texts))

@@ -18,7 +18,7 @@ TEXTS = data_file("ehlectric.report", "report_texts.toml")
 SENTENCES = TEXTS["sentences"]
 
 # Limits of bearings that the limits of drives say otherwise.
-_REPLACED = ("contacts of asperities", "circuit", "oil as insulator")
+_REPLACED = ("contacts of asperities", "circuit", "motor", "oil as insulator")
 
 
 @dataclass(frozen=True)
@@ -128,6 +128,7 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
     thinning = solved_heat and case.lubricant.eyring_stress is not None
     return {
         "bearing": True,
+        "motor": case.motor is not None,
         "point": bearing.roller_length is None,
         "flooded": flooded,
         "film factor": not flooded,
@@ -147,6 +148,7 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
 def _of_drive(case: DriveCase) -> dict[str, bool]:
     scattered = any(one.discharge is not None and one.discharge.weibull for one in case.bearings)
     return {
+        "motor": True,
         # The voltages at which the films break down scatter.
         "scatter": case.breakdown.weibull_shape is not None or scattered,
         "estimated": bool(case.circuit.estimated),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
@@ -10,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.input_keys import unit_of
 from ehlectric.errors import InputError, printable
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.inputs import ENDS
@@ -18,14 +16,9 @@ from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
 from ehlectric.report.background import named
-from ehlectric.report.drive_report import (
-    deciding_blocks,
-    listed_values,
-    swept_values,
-    swept_verdict,
-)
-from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text, lead_of
-from ehlectric.report.report_facts import cell_table, row_tables, swept_names
+from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values, swept_verdict
+from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
+from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
@@ -59,13 +52,14 @@ def sweep_part(results: SweepResults) -> Part:
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
         warnings=tuple(sweep_warnings(results)),
+        first=(Table("Varied inputs", ("input", "values"), tuple(_varied(results))),),
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         figures=_figures(results),
         figure_note=SENTENCES["further_maps"],
         further=tuple(_sections(results)),
         rests=deciding_blocks(case, varied=results.varied) if isinstance(case, DriveCase) else (),
         details=_details(results),
-        toml=sweep_toml(results),
+        toml=results.to_toml(),
         varied=tuple(results.varied),
     )
 
@@ -98,7 +92,7 @@ def _figures(results: SweepResults) -> tuple[str, ...]:
 def _details(results: SweepResults) -> dict[str, str]:
     versions = dict.fromkeys(point.version for point in results.points if point.version)
     return {
-        "points computed by": ", ".join(f"ehlectric {version}" for version in versions),
+        "result computed by": ", ".join(f"ehlectric {version}" for version in versions),
         "design": f"{results.design}, {len(results.points)} points",
         "computing time of all points": f"{results.summary()['seconds']:.3g} s",
     }
@@ -153,7 +147,6 @@ def _points(results: SweepResults) -> Iterator[Block]:
     alarms = tuple(n for n, point in enumerate(listed) if not point.solved or point.doubtful)
     if len(results.points) > _LISTED:
         yield Text(f"The first {_LISTED} of {len(results.points)} points; sweep.csv has all of them.")
-    yield Table("Varied inputs", ("input", "values"), tuple(_varied(results)))
     yield Table("Points of the sweep", heads, rows, numeric, alarms)
 
 
@@ -189,28 +182,3 @@ def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str
 def _number(value: float) -> str:
     """Number with four digits, without a power of ten up to a million."""
     return f"{float(f'{value:.4g}'):g}"
-
-
-def sweep_toml(results: SweepResults) -> str:
-    """Sweep file of a sweep, as TOML text in SI units."""
-    import tomli_w
-
-    table: dict[str, Any] = {"title": results.title, "design": results.design}
-    if results.design == "sobol":
-        table |= {"samples": results.samples, "seed": results.seed}
-    if results.uncertainty_samples:
-        table["uncertainty_samples"] = results.uncertainty_samples
-    ranges = {
-        key: {"from": _written(key, one.start), "to": _written(key, one.stop), "spacing": one.spacing}
-        for key, one in results.ranges.items()
-    }
-    axes = {key: [_written(key, value) for value in values] for key, values in results.axes.items()}
-    table["case"] = tomllib.loads(results.case.to_toml())
-    table["vary"] = {**axes, **ranges}
-    text: str = tomli_w.dumps(table)
-    return text
-
-
-def _written(key: str, value: Any) -> Any:
-    """Value as a file has it: a rotational speed without a unit is refused there."""
-    return f"{value!r} rad/s" if unit_of(key) == "rad/s" and is_number(value) else value

@@ -5,39 +5,15 @@ from __future__ import annotations
 import base64
 import re
 import sys
-from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from types import MappingProxyType, ModuleType
+from types import ModuleType
 
 from jinja2 import Environment, StrictUndefined
 
 from ehlectric.errors import SEVERITY_WORDS, InputError, shown
-from ehlectric.report.light import Light
-from ehlectric.report.report_content import (
-    Link,
-    Named,
-    Numbers,
-    Picture,
-    Report,
-    Table,
-    Text,
-    Warnings,
-    best_image,
-)
+from ehlectric.report.report_content import Link, Named, Picture, Report, best_image
 from ehlectric.runtime.files import refuse_special, write
-
-# Name of each class of blocks in the template.
-_NAMES: Mapping[type, str] = MappingProxyType(
-    {
-        Text: "text",
-        Table: "table",
-        Picture: "picture",
-        Warnings: "warnings",
-        Light: "light",
-        Numbers: "numbers",
-    }
-)
 
 
 def html_of(report: Report) -> str:
@@ -49,7 +25,7 @@ def html_of(report: Report) -> str:
     environment.tests["link"] = lambda cell: isinstance(cell, Link)
     environment.tests["named"] = lambda cell: isinstance(cell, Named)
     environment.globals["severity_words"] = SEVERITY_WORDS
-    environment.globals["name_of"] = lambda block: _NAMES[type(block)]
+    environment.globals["name_of"] = lambda block: type(block).__name__.lower()
     template = (resources.files("ehlectric.report") / "page.html.jinja").read_text(encoding="utf-8")
     style = (resources.files("ehlectric.report") / "page.css").read_text(encoding="utf-8")
     # The style is a file of the package, without characters that HTML would take for markup.

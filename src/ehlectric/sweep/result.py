@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -14,13 +15,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.input_keys import kind_of, of_both_ends
+from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.cases.table import nearest
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
+from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
@@ -76,6 +78,11 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
         for key, values in results.numbers.items()
         if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
     }
+
+
+def _written(key: str, value: Any) -> Any:
+    """Value as a file has it: a rotational speed without a unit is refused there."""
+    return f"{value!r} {ROTATION}" if unit_of(key) == ROTATION and is_number(value) else value
 
 
 def dataset_of(results: SweepPoints) -> xr.Dataset:
@@ -252,6 +259,22 @@ class SweepResults(Shown, SweepPoints):
             **{status: counts[status] for status in states},
             "seconds": sum(point.seconds for point in self.points),
         }
+
+    def to_toml(self) -> str:
+        """Return the sweep as TOML text in SI units, from which ``Sweep.from_toml`` has the same points."""
+        import tomli_w
+
+        table: dict[str, Any] = {"title": self.title, "design": self.design}
+        if self.design == "sobol":
+            table |= {"samples": self.samples, "seed": self.seed}
+        if self.uncertainty_samples:
+            table["uncertainty_samples"] = self.uncertainty_samples
+        ranges = {
+            key: {"from": _written(key, one.start), "to": _written(key, one.stop), "spacing": one.spacing}
+            for key, one in self.ranges.items()
+        }
+        axes = {key: [_written(key, value) for value in values] for key, values in self.axes.items()}
+        return tomli_w.dumps(table | {"case": tomllib.loads(self.case.to_toml()), "vary": axes | ranges})
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of inputs and results, over the varied keys in a "grid" design, the same as sweep.nc."""

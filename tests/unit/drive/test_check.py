@@ -24,6 +24,8 @@ def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
         for key in ("capacitance", "conductance", "breakdown_voltage", "renewal_time", "voltage_ratio"):
             assert told[key] == solved[end][key]
         assert told["voltage_at_peak"] == pytest.approx(280.0 * solved[end]["voltage_ratio"])
+    # The span of the source is that of the simulated time: of the two zero states, the whole DC link.
+    assert solved["source"].pop("peak_to_peak") == pytest.approx(560.0)
     assert meaning.summary["source"] == solved["source"]
     names = [row.name for row in meaning.rows]
     assert names.count("breakdown voltage, weakest position") == 2

@@ -15,6 +15,9 @@ from ehlectric.runtime.file_rules import UnfitError
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 
+# Keys of the rates of discharges by the sign of the shaft.
+SIGNS = ("events_per_second_positive", "events_per_second_negative")
+
 
 @pytest.fixture(scope="module")
 def drive():
@@ -83,6 +86,26 @@ def test_numbers_that_differ_make_another_result(drive):
     events[-1, 3] = np.nextafter(events[-1, 3], 0.0)
     other = replace(drive, solution=replace(drive.solution, record=replace(record, events=events)))
     assert other != drive
+
+
+def test_a_file_of_version_1_0_has_no_numbers_of_the_shaft_and_of_signs(drive, tmp_path):
+    """Their keys are null; all other numbers are the same, and what is saved again is the same result."""
+    whole = drive.to_xarray()
+    ends = [f"{name}_{end}" for name in ("shaft", "source") for end in ("lowest", "highest")]
+    later = ["positive_events", "shaft_mean", "shaft_rms", *ends]
+    earlier = of_drives.result_of(whole.drop_vars(later), tmp_path / "drive.nc")
+    found, known = earlier.summary(), drive.summary()
+    assert set(found["shaft"].values()) == {None}
+    assert found["shaft"].keys() == known["shaft"].keys()
+    known["shaft"] = found["shaft"]
+    for table, keys in (("source", ["peak_to_peak"]), *((end, SIGNS) for end in ENDS)):
+        known[table] |= dict.fromkeys(keys)
+    for one in known["remedies"]:
+        for end in ENDS:
+            one[end] |= dict.fromkeys(SIGNS)
+    assert found == known
+    save(earlier, tmp_path)
+    assert load(tmp_path) == earlier
 
 
 @each(

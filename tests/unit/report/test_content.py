@@ -10,7 +10,7 @@ from ehlectric.errors import InputError
 from ehlectric.figures import figure_names
 from ehlectric.figures.figure_names import in_formats
 from ehlectric.quantities.rows import Row
-from ehlectric.report.background import inputs_of, material_sources
+from ehlectric.report.background import inputs_of, material_sources, source_section
 from ehlectric.report.build import report_of
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.report_content import Numbers, Picture, Table, Text, Warnings
@@ -90,9 +90,9 @@ def test_every_input_has_its_origin(report):
     assert found["grid.field_degree"][2] == "default"
     (assumed,) = tables(report, "What it rests on")
     assert "assumption" in assumed.caption
-    assert "Roelands' exponent 0.67" in assumed.rows[0][0]
+    assert "Roelands' exponent = 0.67" in assumed.rows[0][0]
     assert "relative permittivity" not in assumed.rows[0][0]
-    assert assumed.rows[1][0].startswith("dielectric strength 15")
+    assert assumed.rows[1][0].startswith("dielectric strength = 15")
     (source,) = tables(report, "Sources")[0].rows
     assert source[2].address == "https://doi.org/10.3390/lubricants10050087"
 
@@ -254,6 +254,15 @@ def test_limits_and_publications_are_those_of_the_case():
     assert all(limit.text.endswith(".") for limit in LIMITS)
     assert "10.1115/1.3261900" in {one.doi for one in references_of(line)}
     assert "10.1115/1.3261900" not in {one.doi for one in references_of(bearing)}
+
+
+@each("motor", [True, False])
+def test_standards_are_those_of_machines_with_inverters(motor):
+    table = BALLS if motor else changed(BALLS, motor=None)
+    for case, told in ((BearingCase.from_dict(table), motor), (Case.from_dict(TABLE), False)):
+        captions = [block.caption for block in source_section(case).blocks if isinstance(block, Table)]
+        assert any(caption.startswith("Standards") for caption in captions) == told
+        assert any("peak alone" in limit.text for limit in limits_of(case)) == told
 
 
 def test_conditions_of_limits_and_publications_are_known():

@@ -2,18 +2,25 @@
 
 import json
 import re
+import tomllib
 from io import BytesIO
 
 import pytest
 from reportlab.pdfgen.canvas import Canvas
 
 from ehlectric import BearingCase, DriveCase, save, solve, solve_drive, write_report
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.units import to_si
+from ehlectric.report.background import named
 from ehlectric.report.build import report_of
 from ehlectric.report.light import Light
 from ehlectric.report.pdf import first_page, pdf_of
 from ehlectric.report.report_content import Numbers, Picture, Table, Text
 from ehlectric.report.written_report import html_of
+from ehlectric.runtime.values import is_number
 from ehlectric.tables.bearing_tables import input_range
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.places import EXAMPLES
@@ -202,6 +209,32 @@ def test_a_drive_without_remedies_shows_its_voltages(tmp_path):
     report = report_of(tmp_path, summary=True)
     assert blocks(report, Picture)[0].name == "drive_voltages"
     assert list(tables_of(report)) == [MEASURE]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["bearing_6208", "drive"])
+def test_the_answer_can_be_repeated_from_the_page(pages, name):
+    """Each number of the input file stands on the page by its name, to four digits."""
+    _, _, report = pages(name)
+    text = " ".join(block.text for block in blocks(report, Text)).replace("\xa0", " ")
+    told = dict(re.findall(r"(?:; |: )([^;:=]+) = ([^;,]+?)(?=[;,]|\.(?: |$))", text))
+    with (EXAMPLES / f"{name}.toml").open("rb") as file:
+        written = flattened({key: value for key, value in tomllib.load(file).items() if key != "remedies"})
+    # The page is of a shorter simulation, and the drive gives its bearings speed and temperature.
+    passed = {"drive.duration", "drive_end.bearing.inner_speed", "drive_end.bearing.temperature"}
+    compared = 0
+    for key in written.keys() - passed:
+        own, value = end_and_key(key)[1], written[key]
+        if unit_of(own) or is_number(value):
+            shown = told[named(own).text].replace("Ω", "ohm").replace("°C", "degC")
+            both = [
+                to_si(text, unit_of(own)) if unit_of(own) else float(text) for text in (shown, str(value))
+            ]
+            assert both[0] == pytest.approx(both[1], rel=1e-3), key
+            compared += 1
+    assert compared >= 14
+    if name == "drive":
+        assert all(change in text for change in ("= 1 Ω", "= silicon-nitride", "= 5 pF", "= 5 kHz"))
 
 
 @pytest.mark.slow

@@ -102,8 +102,10 @@ def test_publications_of_a_contact_are_those_of_its_laws():
 
 
 def points_of(results):
-    (section,) = (one for one in sweep_part(results).further if one.title == "Points")
-    return [block for block in section.blocks if isinstance(block, Table)]
+    """Tables of the varied inputs, which are on the first page, and of the points."""
+    part = sweep_part(results)
+    (section,) = (one for one in part.further if one.title == "Points")
+    return [block for block in (*part.first, *section.blocks) if isinstance(block, Table)]
 
 
 def test_points_of_a_sweep_have_their_numbers_and_volts():

@@ -1,6 +1,7 @@
 """Reports of drives and of sweeps of drives: verdict, assumptions, both bearings, remedies and discharges."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from ehlectric.report.drive_report import (
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.pdf import pdf_of
 from ehlectric.report.report_content import Picture, Table, Text
+from ehlectric.report.report_facts import density_tables
 from ehlectric.report.report_texts import (
     DRIVE_LIMITS,
     DRIVE_REFERENCES,
@@ -109,6 +111,63 @@ def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
     ]
     assert times[0] == "share of time above 1 V"
     assert len(times) < 6  # beyond the first voltage that is never reached there is nothing to say
+
+
+def test_voltages_of_the_shaft_and_signs_of_discharges_are_those_of_the_simulation(report, drive):
+    """Without a coating the shaft has the voltage of the films, whose times at each voltage are stored."""
+    found, record = tables(report, "Key numbers"), drive.solution.record
+    shaft = {name: float(row[0]) for name, row in rows(found["shaft against frame"]).items()}
+    middle = record.edges[:-1] + 0.5 * np.diff(record.edges)
+    square = np.sum(middle**2 * record.histogram[0]) / record.duration
+    assert shaft["shaft voltage, rms"] == pytest.approx(np.sqrt(square), rel=2e-2)
+    peaks = shaft["shaft voltage, positive peak"], shaft["shaft voltage, negative peak"]
+    assert max(np.abs(peaks)) == pytest.approx(record.peak[0], rel=5e-3)
+    assert peaks[0] > 0.0 > peaks[1]
+    assert shaft["shaft voltage, peak to peak"] == pytest.approx(peaks[0] - peaks[1], rel=1e-2)
+    # Of the two zero states of the inverter, the whole voltage of the DC link.
+    assert rows(found["simulation"])["common-mode voltage, peak to peak"][:2] == ("560", "V")
+    discharges = rows(found["discharges"])
+    for b, end in enumerate(("drive_end", "non_drive_end")):
+        volts = np.array([row["voltage"] for row in drive.events() if row["bearing"] == end])
+        for name, count in (("positive", np.sum(volts > 0.0)), ("negative", np.sum(volts < 0.0))):
+            rate = float(discharges[f"discharges per second, shaft {name}"][b])
+            assert rate == pytest.approx(count / record.duration, rel=5e-3)
+
+
+def test_current_densities_stand_beside_each_limit_with_its_source():
+    """0.364 A/mm² lies between the second and the third limit, which no sentence may call above all."""
+    (table,) = density_tables({"drive end": 0.364e6, "non-drive end": 0.05e6})
+    assert [row[:3] for row in table.rows] == [
+        ("0.1 A/mm²", "above", "below"), ("0.3 A/mm²", "above", "below"), ("0.8 A/mm²", "below", "below"),
+    ]  # fmt: skip
+    assert table.heads[1] == "drive end, 0.364 A/mm²"
+    page = (ROOT / "docs/theory/discharge.md").read_text(encoding="utf-8")
+    assert all(row[-1].address in page or "Busse" in row[-1].text for row in table.rows)
+    assert list(density_tables({"drive end": None, "non-drive end": 0.0})) == []
+    (alone,) = density_tables({"drive end": 1e6, "non-drive end": None})
+    assert [row[1] for row in alone.rows] == ["above"] * 3
+
+
+def test_standards_are_dated_and_have_their_source(report):
+    found = tables(report, "Sources")
+    (caption,) = [caption for caption in found if caption.startswith("Standards")]
+    assert re.search(r"as known on \d+ \w+ 20\d\d$", caption)
+    documents = [row[0] for row in found[caption].rows]
+    assert [document.split(":")[0].split(",")[0] for document in documents] == [
+        "IEC 60034-1", "IEC TS 60034-25", "NEMA MG 1",
+    ]  # fmt: skip
+    assert all(row[-1] for row in found[caption].rows)
+    # No limit is stated that no source was found for.
+    assert not [row for row in found[caption].rows if re.search(r"\d ?m?[VA]\b", " ".join(row))]
+
+
+def test_no_dotted_key_is_in_the_text(report):
+    """The input file at the end has them; a name of an input shows its key under the pointer alone."""
+    text = Page(html_of(replace(report, sections=report.sections[:-1]))).text
+    assert "winding-rotor capacitance" in text
+    tables_of_files = "drive|circuit|breakdown|source|bearings?|lubricant|discharge|motor"
+    assert not re.findall(rf"\b(?:{tables_of_files})\.(?!nc\b)[a-z]\w+", text)
+    assert not re.findall(r"\b[a-z]{2,}_[a-z]{2,}\b", re.sub(r"https?://\S+", "", text))
 
 
 def test_values_that_decide_are_told_with_their_origin(report):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric import InputError
+from ehlectric import BearingCase, InputError, Sweep, run_sweep
+from tests.helpers.bearings import BALLS
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, SPEED, grid
 
@@ -72,3 +73,16 @@ def test_frame_is_the_sweep(results):
 def test_results_are_compared_by_their_points(results):
     assert results == grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6)}, status=failing)
     assert results != grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6)})
+
+
+def test_a_sweep_is_read_back_from_its_file(results, tmp_path):
+    """Also a rotational speed, which a file takes with its unit alone."""
+    speeds = {"bearing.inner_speed": ["1000 rpm", "2000 rpm"]}
+    bearing = BearingCase.from_dict({**BALLS, "contacts": "formula"})
+    turning = run_sweep(Sweep.from_dict({"case": bearing, "vary": speeds}), tmp_path / "sweep", workers=1)
+    for sweep in (results, turning):
+        file = tmp_path / "again.toml"
+        file.write_text(sweep.to_toml(), encoding="utf-8")
+        again = Sweep.from_toml(file)
+        assert again.case == sweep.case
+        assert list(again.points()) == [pytest.approx(point.inputs) for point in sweep.points]

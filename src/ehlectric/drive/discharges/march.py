@@ -230,6 +230,10 @@ class Meters(NamedTuple):
     spaced: Array  # time of the first mean and spacing of the means [s], shape (2,)
     touching: Array  # largest absolute voltage while asperities touch [V], shape (2,)
     square: Array  # integral of the squared voltage over time [V^2 s], shape (2,)
+    # Integrals of the shaft voltage [V s] and of its square [V^2 s] over time, shape (2,).
+    of_shaft: Array
+    # Lowest and highest voltage of the shaft, and of the source without its ringing [V], shape (2, 2).
+    ranges: Array
     # Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full,
     # shape (m, 4).
     trace: Array
@@ -447,11 +451,31 @@ def _measure(meters: Meters, rough: float, piece: Complex, course: Course, sourc
             if turns <= _STRAIGHT * rough:
                 break
             h = 0.5 * (after - t)
-        measure(meters, now + t, after - t, source.level + source.slope * t, first, then, bend)
+        at_start, at_stop = source.level + source.slope * t, source.level + source.slope * after
+        measure(meters, now + t, after - t, at_start, first, then, bend)
+        _measure_shaft(meters, after - t, shaft, middle[2], at_end[2])
+        _stretch(meters.ranges[1], at_start, at_stop)
         begin, lasts = (now + t - meters.spaced[0]) / meters.spaced[1], (after - t) / meters.spaced[1]
         if begin > _MEASURED:
             add_parabola(meters.shaft, begin, lasts, shaft, middle[2], at_end[2])
         t, first, shaft = after, then, at_end[2]
+
+
+@inner
+def _measure_shaft(meters: Meters, duration: float, first: float, middle: float, last: float) -> None:
+    """Measure a shaft voltage that goes on a parabola, from its begin, middle and end [V]."""
+    bend = 0.5 * (first + last) - middle
+    meters.of_shaft[0] += duration * (first + 4.0 * middle + last) / 6.0
+    square = (first * first + first * last + last * last - 2.0 * bend * (first + last)) / 3.0
+    meters.of_shaft[1] += duration * (square + 8.0 * bend * bend / 15.0)
+    _stretch(meters.ranges[0], first, last)
+    _stretch(meters.ranges[0], middle, middle)
+
+
+@inner
+def _stretch(ends: Array, first: float, last: float) -> None:
+    """Let a range, its lowest and its highest value, hold two further values."""
+    ends[0], ends[1] = min(ends[0], first, last), max(ends[1], first, last)
 
 
 @inner

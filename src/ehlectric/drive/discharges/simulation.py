@@ -121,6 +121,7 @@ class _Log:
         self.kept: list[Array] = []
         self.number = 0
         self.counts = np.zeros((2, BLOCKS), dtype=np.int64)
+        self.positive = np.zeros(2, dtype=np.int64)
         self.sums, self.largest = np.zeros((2, COLUMNS)), np.zeros((2, COLUMNS))
         self.burning = np.zeros(2)
 
@@ -134,6 +135,7 @@ class _Log:
         for b in range(2):
             own = events[:, FILM] == b
             self.counts[b] += np.bincount(block[own], minlength=BLOCKS)
+            self.positive[b] += np.count_nonzero(events[own, VOLTAGE] > 0.0)
             self.sums[b] += np.sum(np.abs(events[own]), axis=0)
             self.largest[b] = np.max(np.abs(events[own]), axis=0, initial=0.0).clip(self.largest[b])
         if self.number < KEPT:
@@ -248,6 +250,8 @@ def _meters(measuring: Measuring) -> Meters:
         spaced=np.array([measuring.start, measuring.duration / shaft.size]),
         touching=np.zeros(2),
         square=np.zeros(2),
+        of_shaft=np.zeros(2),
+        ranges=np.array([[math.inf, -math.inf], [math.inf, -math.inf]]),
         trace=np.zeros((TRACE, 4)),
         traced=np.zeros(1, dtype=np.int64),
         until=np.array([measuring.start * (1.0 - _SAME), measuring.start + measuring.trace]),
@@ -263,10 +267,13 @@ def _traced(measuring: Measuring, meters: Meters) -> Array:
 
 
 def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None) -> Record:
+    mean, square = meters.of_shaft / measuring.duration
+    (lowest, highest), (source_lowest, source_highest) = meters.ranges.tolist()
     return Record(
         duration=measuring.duration,
         events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
         counts=log.counts,
+        positive=log.positive.astype(float),
         sums=log.sums,
         largest=log.largest,
         edges=np.linspace(meters.edges[0], meters.edges[1], BINS + 1),
@@ -275,6 +282,12 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         above=meters.above,
         peak=meters.peak,
         spectrum=spectrum_of(meters.shaft),
+        shaft_mean=float(mean),
+        shaft_rms=math.sqrt(square),
+        shaft_lowest=lowest,
+        shaft_highest=highest,
+        source_lowest=source_lowest,
+        source_highest=source_highest,
         touching=meters.touching,
         rms=np.sqrt(meters.square / measuring.duration),
         burning=log.burning,

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from ehlectric.drive.drive_record import ON, VOLTAGE
-from ehlectric.drive.motor_circuit import states_of
+from ehlectric.bearing.circuit import Path
+from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.drive_record import FILM, ON, VOLTAGE
+from ehlectric.drive.motor_circuit import capacitive_divider, states_of
 from tests.helpers.drives import arc, element, march, motor, square
 
 PERIOD = 1e-4
@@ -70,6 +72,57 @@ def test_the_trace_is_at_the_begin_where_nothing_discharges():
                    trace=2.0 * PERIOD, at_event=True)  # fmt: skip
     assert record.trace[0, 0] == 0.0
     assert record.trace[-1, 0] < 2.0 * PERIOD
+
+
+def sine(mean, amplitude, count, pieces=400):
+    """Sine about a mean voltage, from its mean on, as straight pieces: ``count`` periods."""
+    values = mean + amplitude * np.sin(2.0 * np.pi * np.arange(count * pieces + 1) / pieces)
+    step = PERIOD / pieces
+    none = np.zeros(count * pieces, dtype=complex)
+    return Segments(np.full(none.size, step), values[:-1], np.diff(values) / step, none)
+
+
+@pytest.mark.parametrize(("path", "part"), [(Path(), 1.0), (Path(coating=300e-12), 0.5)])
+def test_a_sine_on_the_shaft_has_the_numbers_of_a_sine(path, part):
+    """By hand: the divider times the mean m, sqrt(m^2 + A^2/2), and m + A and m - A of the source.
+
+    A coating of the capacitance of the films leaves these half of the voltage of the shaft.
+    """
+    bearings = [element(300e-12, path=path) for _ in range(2)]
+    circuit = motor()
+    record = march(circuit, bearings, arc(), sine(30.0, 100.0, 20))
+    ratio = capacitive_divider(circuit, bearings)[0] / part
+    assert record.shaft_mean == pytest.approx(30.0 * ratio, rel=1e-6)
+    assert record.shaft_rms == pytest.approx(np.sqrt(30.0**2 + 0.5 * 100.0**2) * ratio, rel=1e-4)
+    assert record.shaft_highest == pytest.approx(130.0 * ratio, rel=1e-6)
+    assert record.shaft_lowest == pytest.approx(-70.0 * ratio, rel=1e-6)
+    assert (record.source_lowest, record.source_highest) == pytest.approx((-70.0, 130.0), rel=1e-9)
+
+
+def test_the_shaft_has_the_numbers_of_its_waveform():
+    """Those of numpy from the time at each voltage of a film without a coating, and from its trace."""
+    bearings = [element(breakdown=8.0, shape=4.0), element(100e-12, breakdown=9.0, shape=4.0)]
+    record = march(motor(), bearings, arc(), square(100.0, PERIOD, 1e-6, 20), seed=1, trace=np.inf)
+    assert np.sum(record.counts) > 20
+    assert len(record.trace) < 20_000
+    source, volts = record.trace[:, 1], record.trace[:, 2]
+    assert record.shaft_highest == pytest.approx(np.max(volts), rel=1e-6)
+    assert record.shaft_lowest == pytest.approx(np.min(volts), rel=1e-6)
+    middle, share = record.edges[:-1] + 0.5 * np.diff(record.edges), record.histogram[0] / record.duration
+    assert record.shaft_mean == pytest.approx(np.sum(middle * share), abs=np.diff(record.edges)[0])
+    assert record.shaft_rms == pytest.approx(np.sqrt(np.sum(middle**2 * share)), rel=2e-3)
+    assert record.shaft_rms == pytest.approx(record.rms[0], rel=1e-6)
+    assert record.source_highest - record.source_lowest == pytest.approx(np.ptp(source))
+
+
+def test_discharges_of_both_signs_are_all_discharges():
+    bearings = [element(breakdown=6.0, shape=4.0), element(breakdown=9.0, shape=4.0)]
+    record = march(motor(), bearings, arc(), square(100.0, PERIOD, 1e-6, 200), seed=2)
+    for b in range(2):
+        own = record.events[record.events[:, FILM] == b, VOLTAGE]
+        assert own.size == np.sum(record.counts[b]) > 20
+        assert record.positive[b] == np.sum(own > 0.0)
+        assert own.size - record.positive[b] == np.sum(own < 0.0) > 0
 
 
 def random_circuit(seed):
