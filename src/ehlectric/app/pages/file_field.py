@@ -36,7 +36,7 @@ class UploadField:
         uploader = ui.upload(on_upload=weakly(self._uploaded), max_file_size=LARGEST).style("display: none")
         address = json.dumps(uploader.props["url"])
         send = f"(event) => ({script('send_file')})({LARGEST}, {address}, emit)(event)"
-        with ui.element("div").classes("key upload"):
+        with ui.element("div").classes("upload"):
             words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
             ui.html(label or words, sanitize=False, tag="label").props(f'for="{name}-file"')
             field = ui.element("input").props(f'type="file" id="{name}-file" data-testid="upload-{name}"')

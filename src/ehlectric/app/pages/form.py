@@ -20,7 +20,7 @@ from ehlectric.app.form_fields.field_defaults import default_of, end_and_key
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_own
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
-from ehlectric.app.pages.page_parts import Control, GroupBox, brief, removable, say
+from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say
 from ehlectric.errors import InputError, LostError
 
 Change = Callable[[str, Any], Awaitable[None]]
@@ -154,7 +154,7 @@ class Form:
             await self._slide(field, float(event.args))
 
         options = self._options(field)
-        kind = "text" if not options else "list" if len(options) <= LONGEST_LIST else "search"
+        kind = kind_of_list(options) if options else "text"
         number = field.kind in ("number", "count")
         control = Control(
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
@@ -319,9 +319,6 @@ def groups_for(case: Inputs) -> Sequence[Group]:
         return DRIVE_GROUPS
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))
 
-
-# Most entries of a list without a search.
-LONGEST_LIST = 6
 
 # Longest note that is shown in an empty box [characters].
 _LONGEST_PLACEHOLDER = 14

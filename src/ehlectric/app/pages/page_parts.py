@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Container, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from functools import cache, partial
 from html import escape
@@ -125,6 +125,37 @@ class Control(_Shown, component="../static/control.js"):
             f"const box = document.getElementById({json.dumps(self.props['box-id'])});"
             "if (box) { box.scrollIntoView({block: 'center'}); box.focus({preventScroll: true}); }"
         )
+
+
+# Most entries of a list without a search.
+_LONGEST_LIST = 6
+
+
+def kind_of_list(options: Sized) -> str:
+    """Kind of the field of a list to choose from: one with a search where it is long."""
+    return "list" if len(options) <= _LONGEST_LIST else "search"
+
+
+def control(
+    name: str,
+    label: str,
+    typed: Callable[[str], Awaitable[None]],
+    options: Mapping[str, str] | None = None,
+    *,
+    kind: str = "",
+) -> Control:
+    """Field for a text, or list of options to choose from, which can be searched where it is long, unless a
+    kind is given.
+    """
+    kind = kind or ("text" if options is None else kind_of_list(options))
+    listed = [{"value": value, "label": text, "group": ""} for value, text in (options or {}).items()]
+    made = Control(name, kind=kind, label=label, options=listed)
+
+    async def committed(event: Any) -> None:
+        await typed(str(event.args).strip())
+
+    made.on("commit", committed)
+    return made
 
 
 class GroupBox(_Shown, component="../static/group.js"):

@@ -238,13 +238,13 @@ def behind(summary: str, inner: str) -> str:
     return f"<details><summary>{escape(summary)}</summary>{inner}</details>"
 
 
-def table_html(table: Table) -> str:
-    """Table that scrolls within its own box."""
+def table_html(table: Table, test: str = "") -> str:
+    """Table that scrolls within its own box, with a mark for tests."""
     rows = "".join(
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows
     )
     caption = f"<caption>{escape(table.caption)}</caption>"
-    return scrolling_table(table.caption, table.heads, rows, caption=caption)
+    return scrolling_table(table.caption, table.heads, rows, test, caption)
 
 
 def _list(texts: Iterable[str], kept: Iterable[str] = ()) -> str:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
-from html import escape
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import SummitsTable, SurfaceAnswer
+from ehlectric.app.answers import SummitsTable, SurfaceAnswer, Table
 from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
-from ehlectric.app.pages.page_parts import JobBox, button, figure, heading, say
-from ehlectric.app.pages.result_parts import told_all
+from ehlectric.app.pages.page_parts import Control, GroupBox, JobBox, button, control, figure, heading, say
+from ehlectric.app.pages.result_parts import table_html, told_all
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,
@@ -40,71 +39,37 @@ class Keys:
         self, table: str, keys: Sequence[RoughKey], values: Mapping[str, Any], changed: Changed
     ) -> None:
         self._table, self._changed = table, changed
-        self._errors: dict[str, tuple[ui.label, ui.element]] = {}
+        self._fields: dict[str, Control] = {}
         with ui.element("div").classes("key-fields"):
             for key in keys:
-                self._field(key, values.get(key.key))
+                self._fields[key.key] = self._field(key, values.get(key.key))
 
     def tell(self, error: Exception | None) -> bool:
         """Show an error next to its field, and remove others; False where no field here has its key."""
         name = str(getattr(error, "key", None) or "").removeprefix(f"{self._table}.")
-        for key, (label, box) in self._errors.items():
-            wrong = error is not None and key == name
-            say(label, str(error) if wrong else "")
-            box.props(f"aria-invalid={'true' if wrong else 'false'}")
-        return name in self._errors
+        for key, field in self._fields.items():
+            field.show(error=str(error) if error is not None and key == name else "")
+        return name in self._fields
 
-    def _field(self, key: RoughKey, value: Any) -> None:
-        async def typed(event: Any) -> None:
-            found = event.args if isinstance(event.args, str) else ""
-            keep(found)
-            await self._changed(key.key, value_of(key, found))
+    def _field(self, key: RoughKey, value: Any) -> Control:
+        async def typed(text: str) -> None:
+            field.turn(text=text)
+            await self._changed(key.key, value_of(key, text))
 
-        name = f"{self._table}-{key.key}"
+        kind = "list" if key.choices else "text"
+        field = control(f"{self._table}-{key.key}", key.label, typed, key.choices or None, kind=kind)
         text = "true" if value is True else "" if value is None else str(value)
-        with ui.element("div").classes("key"):
-            ui.html(escape(key.label), sanitize=False, tag="label").props(f'for="{name}"')
-            box, keep = _box(key, text)
-            box.props(f'id="{name}" data-testid="field-{name}" aria-describedby="{name}-error"')
-            box.on("change", typed, js_handler="(event) => emit(event.target.value)")
-            label = ui.label().classes("error").props(f'id="{name}-error" role="alert"')
-            label.props(f'data-testid="error-{name}"')
-            label.set_visibility(False)
-            self._errors[key.key] = (label, box)
-
-
-def _box(key: RoughKey, text: str) -> tuple[ui.element, Callable[[str], None]]:
-    """Field, and the function that keeps what was typed there when the page draws it again."""
-    if not key.choices:
-        box = ui.element("input").props('type="text" autocomplete="off" spellcheck="false"')
-        box.props["placeholder"] = f"for example {key.example}" if key.example else ""
-
-        def typed(found: str) -> None:
-            # The attribute, not the value: each answer draws the whole page again, and would write the value
-            # over what is being typed.
-            box.props["^value"] = found
-
-        typed(text)
-        return box, typed
-    options: dict[str, ui.html] = {}
-    with ui.element("select") as box:
-        for choice, label in key.choices.items():
-            options[choice] = ui.html(escape(label), sanitize=False, tag="option")
-            options[choice].props["value"] = choice
-
-    def chosen(found: str) -> None:
-        for choice, option in options.items():
-            option.props.set_bool("selected", choice == (found or next(iter(key.choices))))
-
-    chosen(text)
-    return box, chosen
+        field.show(text=text or next(iter(key.choices), ""))
+        field.show(placeholder=f"for example {key.example}" if key.example else "")
+        return field
 
 
 def show_surface(answer: SurfaceAnswer) -> None:
     """Show a surface with its steps, its summits and warnings."""
     ui.label(_sentence(answer)).props('data-testid="surface-size"')
     if answer.rows:
-        _show_table("Statistics", "surface-statistics", answer.heads, answer.rows)
+        table = Table("Statistics", answer.heads, answer.rows)
+        ui.html(table_html(table, "surface-statistics"), sanitize=False)
     told_all(answer.warnings)
     if answer.summits is not None:
         _show_summits(answer.summits)
@@ -118,15 +83,9 @@ def show_surface(answer: SurfaceAnswer) -> None:
 def _show_summits(summits: SummitsTable) -> None:
     """Table of the summits, which bearings and models of asperities take."""
     title = summits.title[0].upper() + summits.title[1:]
-    heading(title, 3)
-    _show_table(title, "surface-summits", summits.heads, summits.rows)
-    ui.label(summits.note).classes("note")
-
-
-def _show_table(name: str, testid: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Table that scrolls sideways where it is wider than the screen."""
-    with ui.element("div").classes("scrolls").props(f'tabindex="0" role="group" aria-label="{name}"'):
-        ui.html(_table(heads, rows), sanitize=False, tag="table").props(f'data-testid="{testid}"')
+    table = Table(title, summits.heads, summits.rows)
+    ui.html(table_html(table, "surface-summits"), sanitize=False)
+    ui.label(summits.note).classes("soft")
 
 
 def _sentence(answer: SurfaceAnswer) -> str:
@@ -140,17 +99,6 @@ def _sentence(answer: SurfaceAnswer) -> str:
     if answer.lines:
         parts.append(f"{answer.lines['row']} rows and {answer.lines['column']} columns in the file")
     return "; ".join(parts)
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    head = "".join(f'<th scope="col">{escape(one)}</th>' for one in heads)
-    body = "".join(
-        f'<tr><th scope="row">{escape(row[0])}</th>'
-        + "".join(f"<td>{escape(entry)}</td>" for entry in row[1:])
-        + "</tr>"
-        for row in rows
-    )
-    return f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody>"
 
 
 # Size of a file from which a process of its own reads it [bytes]; smaller ones take a second at most.
@@ -167,7 +115,7 @@ class RoughnessBox:
         self._session, self._changed = session, changed
         self._draft: dict[str, Any] = {"surface": 1}
         self._parts: list[Keys] = []
-        self._groups: dict[Keys, ui.element] = {}
+        self._groups: dict[Keys, GroupBox] = {}
         self._answer: SurfaceAnswer | None = None
         # Numbers of the last look, and of that for which a job reads a large file.
         self._asked = self._asked_by_job = 0
@@ -255,10 +203,9 @@ class RoughnessBox:
 
     def _group(self, title: str, keys: Sequence[RoughKey], *, point: bool, opened: bool = False) -> None:
         shown = [key for key in keys if point or not key.point]
-        with ui.element("details") as group:
-            ui.html(title, sanitize=False, tag="summary")
+        opened = opened or any(key.key in self._draft for key in shown)
+        with GroupBox(title, title=title, opened=opened, first=True) as group:
             part = Keys("roughness", shown, self._draft, self._set)
-        group.props.set_bool("open", opened or any(key.key in self._draft for key in shown))
         self._parts.append(part)
         self._groups[part] = group
 
@@ -343,7 +290,7 @@ class RoughnessBox:
         found = [part for part in self._parts if part.tell(error)]
         for part in found:
             if part in self._groups:
-                self._groups[part].props("open")
+                self._groups[part].turn(opened=True)
         say(self._message, "" if error is None or found else str(error))
         if error is not None:
             self._use.disable()

@@ -42,7 +42,7 @@ from ehlectric.app.page_inputs import (
 )
 from ehlectric.app.pages import page_parts
 from ehlectric.app.pages.downloads import Downloads
-from ehlectric.app.pages.form import LONGEST_LIST, Form, groups_for
+from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.frame import (
     DRIVE,
     PAGE_PATIENCE,
@@ -55,7 +55,7 @@ from ehlectric.app.pages.frame import (
     show_address,
     start,
 )
-from ehlectric.app.pages.page_parts import Control, GroupBox, card, page_texts
+from ehlectric.app.pages.page_parts import Control, GroupBox, card, control, page_texts
 from ehlectric.app.pages.result_parts import NoteList, Panel
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
@@ -252,21 +252,6 @@ class RangesForm:
         self._axes[key].show(text=_texts(self._inputs)[key])
 
 
-def control(
-    name: str, label: str, typed: Callable[[str], Awaitable[None]], options: Mapping[str, str] | None = None
-) -> Control:
-    """Field for a text, or list of options to choose from, which can be searched where it is long."""
-    kind = "text" if options is None else "list" if len(options) <= LONGEST_LIST else "search"
-    listed = [{"value": value, "label": text, "group": ""} for value, text in (options or {}).items()]
-    made = Control(name, kind=kind, label=label, options=listed)
-
-    async def committed(event: Any) -> None:
-        await typed(str(event.args).strip())
-
-    made.on("commit", committed)
-    return made
-
-
 def range_of(variable: Variable) -> Range:
     """Range of an input to begin with."""
     return Range(variable.key, variable.low, variable.high, log=variable.log)
@@ -336,8 +321,7 @@ class MapPart:
         with ui.element("div").classes("answer-body") as self._body:
             self._panel = Panel((), "")
             self._note = ui.label().classes("soft").props('data-testid="map-note"')
-            self._select = control("show", "Result to show", self._other, {})
-            self._select.props["kind"] = "search"
+            self._select = control("show", "Result to show", self._other, {}, kind="search")
             with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
                 self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
                 self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
