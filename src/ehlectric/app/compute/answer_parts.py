@@ -198,17 +198,18 @@ def sentences_of(text: str) -> list[str]:
 
 
 def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:
-    """Verdict in its parts, without what it means. ``assumed`` are beginnings of sentences on assumptions."""
+    """Verdict in its parts under the heading of reports, without its meaning. ``assumed`` are beginnings of sentences on assumptions."""
     first, *others = sentences_of(verdict.text)
-    lead, _, rest = first.partition(": ")
+    _, _, rest = first.partition(": ")
+    light = light_of(verdict.level, verdict.text)
     return Judged(
         level=verdict.level,
-        lead=lead.rstrip("."),
+        lead=light.words,
         meaning="",
         numbers=rest[:1].upper() + rest[1:],
         reasons=tuple(text for text in others if not text.startswith(assumed)),
         assumptions=" ".join(text for text in others if text.startswith(assumed)),
-        bound=light_of(verdict.level, verdict.text).bound,
+        bound=light.bound,
     )
 
 

@@ -41,6 +41,7 @@ from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
     cards,
     case_of,
+    gauge_text,
     judged_of,
     lines_of,
     page_warnings_of,
@@ -65,7 +66,6 @@ from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
-from ehlectric.report.light import light_of
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.files import plain
@@ -193,10 +193,9 @@ def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
     )
     within = summary.get("uncertainty") or {}
     ends = (within["margin_low"], within["margin_high"]) if within else None
-    told = [f"Margin {ratio_text(margin)} on a scale from 0.1 to 10, with breakdown below 1"]
-    told += [f"{name} {text}" for name, text in facts if probable]
-    told += [f"median {ratio_text(within['margin_median'])}"] if within else []
-    gauge = Gauge("; ".join(told), within.get("margin_median", margin), ends)
+    median = [("median", ratio_text(within["margin_median"]))] if within else []
+    label = gauge_text(margin, [*(facts if probable else ()), *median])
+    gauge = Gauge(label, within.get("margin_median", margin), ends)
     return Deciding("bearing.margin", facts, gauge, "breakdown", _SAID)
 
 
@@ -244,9 +243,8 @@ def judged(verdict: Verdict) -> Judged:
     >>> parts.numbers, parts.assumptions
     ('Margin 1.4.', 'Upper bound: smooth film.')
     """
-    parts, light = judged_of(verdict, ("Upper bound", "Best estimate")), light_of(verdict.level, verdict.text)
-    meaning = TEXTS["meanings"]["bearing"].get(parts.lead, _NO_VERDICT)
-    return replace(parts, lead=light.words, meaning=meaning)
+    meaning = TEXTS["meanings"]["bearing"].get(verdict.lead.rstrip("."), _NO_VERDICT)
+    return replace(judged_of(verdict, ("Upper bound", "Best estimate")), meaning=meaning)
 
 
 def quick_verdict(solution: BearingSolution) -> Verdict:

@@ -34,7 +34,6 @@ from ehlectric.discharge.film_verdict import (
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
-from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -212,8 +211,7 @@ _ASSUMED = ("Upper bound", "Dielectric strength ", "The table of ", "The Weibull
 
 def judged(verdict: Verdict) -> Judged:
     """Verdict in its parts, with a heading that says where it is that of an ideal film."""
-    words = light_of(verdict.level, verdict.text).words
-    return replace(judged_of(verdict, _ASSUMED), lead=words, meaning=_TEXTS["meanings"][verdict.level])
+    return replace(judged_of(verdict, _ASSUMED), meaning=_TEXTS["meanings"][verdict.level])
 
 
 def deciding_by_formula(case: Case, verdict: Verdict) -> str:

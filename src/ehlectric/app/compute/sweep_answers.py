@@ -51,7 +51,6 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
-from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -122,8 +121,7 @@ def judged(verdict: Verdict) -> Judged:
     ('Breakdown likely at some points', 'Breakdown is likely at 3 of 8 points.', 'Best estimate: rough film.')
     """
     parts = judged_of(verdict, ("Upper bound", "Best estimate"))
-    words = light_of(verdict.level, verdict.text).words
-    return replace(parts, lead=words, meaning="" if words.startswith(parts.lead) else f"{parts.lead}.")
+    return replace(parts, meaning="" if parts.lead.startswith(verdict.lead) else f"{verdict.lead}.")
 
 
 def _lowest(chart: Chart) -> Number | None:
