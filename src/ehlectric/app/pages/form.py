@@ -22,6 +22,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, removable, say
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import printed
 
 Change = Callable[[str, Any], Awaitable[None]]
 
@@ -157,7 +158,8 @@ class Form:
         control = Control(
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
         )
-        control.show(ignored=field.ignored, lacks=field.lacks, help=field.help)
+        unit = printed(field.unit) if field.unit else ""
+        control.show(ignored=field.ignored, lacks=field.lacks, help=field.help, unit=unit)
         control.on("commit", committed)
         if number:
             control.on("slide", slid)
