@@ -331,6 +331,18 @@ def test_usual_values_of_the_library_are_its_ends(source):
         assert [min(values), max(values)] == pytest.approx(about.usual, rel=2e-3), key
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_usual_factors_of_films_are_those_of_a_fast_cold_greased_bearing():
+    changes = {
+        "bearing.temperature": "40 degC",
+        "bearing.inner_speed": "15000 rpm",
+        "bearing.supply": "grease",
+    }
+    found = solve(BearingCase.from_dict(changed(BEARING, changes))).summary()["bearing"]
+    assert found["heat_factor"] == pytest.approx(help_at("bearing.film_factor").usual[0], rel=0.02)
+    assert found["supply_factor"] == pytest.approx(help_at("bearing.supply").usual[0], rel=0.02)
+
+
 def test_help_of_a_field_is_one_text_in_both_bearings_of_a_drive():
     end = dataclasses.replace(FIELDS["bearing.radial_load"], key="drive_end.bearing.radial_load")
     assert help_text(end_and_key(end.key)[1]) == help_text("bearing.radial_load")
