@@ -63,7 +63,7 @@ def compared(page):
 
 
 # Name of the picture: address of the page, and what waits until it is complete.
-_PAGES = {
+PAGES = {
     "bearing": (lambda: "/", bearing),
     "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
     "contact": (lambda: "/contact", contact),
@@ -98,9 +98,9 @@ def assert_is_picture(picture, path, width):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", _PAGES)
+@pytest.mark.parametrize("name", PAGES)
 def test_pictures_of_a_page(open_page, app_server, folder, name):
-    address, complete = _PAGES[name]
+    address, complete = PAGES[name]
     page = open_page(app_server, address())
     complete(page)
     for width, height in ((1280, 900), (400, 800)):

@@ -34,8 +34,8 @@ class Call(Generic[T]):
 
     Examples
     --------
-    >>> Call("answer_parts.field_help").function().__name__
-    'field_help'
+    >>> Call("duty_answers.look").function().__name__
+    'look'
     """
 
     name: str  # module in ``ehlectric.app.compute`` and function
@@ -49,8 +49,6 @@ class Call(Generic[T]):
         """Call the function."""
         return self.function()(*values)
 
-
-FIELD_HELP: Call[dict[str, str]] = Call("answer_parts.field_help")
 
 # A bearing.
 BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -17,7 +16,16 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import Table, annotation_of, any_of, meant, nearest, number_of, table_of
 from ehlectric.errors import InputError
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at, inputs, table_and_key
+from ehlectric.quantities.inputs import (
+    BOTH,
+    ENDS,
+    described,
+    end_and_key,
+    input_at,
+    inputs,
+    plain_text,
+    table_and_key,
+)
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.units import printed
 
@@ -75,10 +83,7 @@ def descriptions(table: str) -> dict[str, str]:
         raise InputError.unknown(table, nearest(table, inputs()))
     laws = law_parameters() if table == "lubricant" else {}
     entries = {name: parameter.quantity for name, parameter in laws.items()} | dict(inputs()[table])
-    return {
-        name: entry.meaning if entry.meaning.startswith(entry.label) else f"{entry.label}, {entry.meaning}"
-        for name, entry in entries.items()
-    }
+    return {name: described(entry) for name, entry in entries.items()}
 
 
 def describe(key: str) -> str:
@@ -91,7 +96,7 @@ def describe(key: str) -> str:
     >>> describe("contact.load"), describe("roughness.1.hurst")
     ('load of a point contact [N]', 'Hurst exponent of a self-affine surface')
     >>> describe("bearing.radial_load")
-    'radial load, F_r [N]'
+    'radial load, F_r, force on the inner ring across the axis [N]'
     """
     table, name, _ = table_and_key(key)
     if not table or name not in (descriptions(table) if table in inputs() else {}):
@@ -107,46 +112,15 @@ def phrase(table: str, key: str) -> str:
     Examples
     --------
     >>> phrase("bearing", "radial_load"), phrase("contact.body", "youngs_modulus")
-    ('radial load, F_r', "Young's modulus, E")
+    ('radial load, F_r, force on the inner ring across the axis', "Young's modulus, E")
     """
     return plain_text(descriptions(table)[key])
-
-
-# Commands of LaTeX in descriptions, as plain text.
-_LATEX = {
-    r"\\(?:mathrm|text)\{([^}]*)\}": r"\1",
-    r"\\sqrt\{((?:[^{}]|\{[^}]*\})*)\}": r"√(\1)",
-    r"\\eta": "η",
-    r"\\tau": "τ",
-    r"\\mu": "µ",
-    r"\\Lambda": "Λ",
-    r"\\nu": "ν",
-    r"\\omega": "ω",
-    r"\\sigma": "σ",
-    r"\\alpha": "α",
-    r"\\beta": "β",
-    r"\\epsilon": "ϵ",
-    r"\\rho": "ρ",
-    r"\\zeta": "ζ",
-    r"\\lambda": "λ",
-    r"\\(?:var)?epsilon": "ε",
-    r"\\ln": "ln ",
-    r"\^2": "²",
-    r"[${}`]": "",
-}
 
 
 def _numbered(key: str) -> str:
     """Key with the number of a rough surface, which a description does not need."""
     first, _, rest = key.partition(".")
     return f"{first}.1.{rest}" if first == "roughness" and not rest[:1].isdecimal() else key
-
-
-def plain_text(text: str) -> str:
-    """Text without the marks of Markdown and LaTeX."""
-    for pattern, plain in _LATEX.items():
-        text = re.sub(pattern, plain, text)
-    return text
 
 
 def input_field(key: str) -> FieldInfo:

@@ -7,6 +7,7 @@ parameter of a law of the lubricant stand with the law.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
@@ -128,3 +129,45 @@ def input_at(key: str) -> Input | None:
     if found is None or not number:
         return found
     return replace(found, label=f"{found.label} {_NUMBERED[table]} {number}") if table in _NUMBERED else None
+
+
+def described(entry: Quantity) -> str:
+    """Description of an input in Markdown, which begins with its label.
+
+    Examples
+    --------
+    >>> described(inputs()["contact"]["load"])
+    'load of a point contact'
+    """
+    return entry.meaning if entry.meaning.startswith(entry.label) else f"{entry.label}, {entry.meaning}"
+
+
+# Commands of LaTeX in descriptions, as plain text.
+_LATEX = {
+    r"\\(?:mathrm|text)\{([^}]*)\}": r"\1",
+    r"\\sqrt\{((?:[^{}]|\{[^}]*\})*)\}": r"√(\1)",
+    r"\\eta": "η",
+    r"\\tau": "τ",
+    r"\\mu": "µ",
+    r"\\Lambda": "Λ",
+    r"\\nu": "ν",
+    r"\\omega": "ω",
+    r"\\sigma": "σ",
+    r"\\alpha": "α",
+    r"\\beta": "β",
+    r"\\epsilon": "ϵ",
+    r"\\rho": "ρ",
+    r"\\zeta": "ζ",
+    r"\\lambda": "λ",
+    r"\\(?:var)?epsilon": "ε",
+    r"\\ln": "ln ",
+    r"\^2": "²",
+    r"[${}`]": "",
+}
+
+
+def plain_text(text: str) -> str:
+    """Text without the marks of Markdown and LaTeX."""
+    for pattern, plain in _LATEX.items():
+        text = re.sub(pattern, plain, text)
+    return text

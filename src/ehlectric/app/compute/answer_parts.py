@@ -16,7 +16,6 @@ from typing import Any
 from ehlectric.app.answers import SEVERITIES, Judged, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
-from ehlectric.cases.input_keys import describe
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
@@ -198,7 +197,9 @@ def sentences_of(text: str) -> list[str]:
 
 
 def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:
-    """Verdict in its parts under the heading of reports, without its meaning. ``assumed`` are beginnings of sentences on assumptions."""
+    """Verdict in its parts under the heading of reports, without its meaning. ``assumed`` are beginnings of
+    sentences on assumptions.
+    """
     first, *others = sentences_of(verdict.text)
     _, _, rest = first.partition(": ")
     light = light_of(verdict.level, verdict.text)
@@ -237,17 +238,3 @@ def page_warnings_of(warnings: Iterable[ResultWarning], level: str = "") -> tupl
         meaning = "The margin is below 1: breakdown is likely." if likely else about.meaning
         found.append(PageWarning(one.code, one.severity, one.text, about.concerns, meaning))
     return tuple(sorted(found, key=lambda warning: SEVERITIES.index(warning.severity)))
-
-
-def field_help(keys: Iterable[str]) -> dict[str, str]:
-    """Descriptions of dotted keys, as the reference of the input files has them.
-
-    Keys without a description, such as ``title``, are left out.
-    """
-    found = {}
-    for key in keys:
-        try:
-            found[key] = describe(key)
-        except InputError:
-            continue
-    return found

@@ -45,7 +45,7 @@ _SHOWN: dict[str, dict[str, Any]] = {
         "when": _hot,
         "low": 1000.0,
         "high": 3000.0,
-        "note": "about 2000 J/kg/K; needs a density",
+        "note": "needs a density",
     },
     **{f"contact.{key}": {"when": given(*(f"contact.{one}" for one in _ELASTIC))} for key in _ELASTIC},
     "contact.slide_to_roll_ratio": {"when": given("contact.entrainment_speed")},

@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
@@ -136,6 +137,7 @@ class Field:
     kind: Literal["number", "count", "choice", "text", "ways"] = "number"
     choices: tuple[str, ...] = ()  # values of a choice; empty where the library has them
     note: str = ""  # what a user must know beside the field
+    help: str = ""  # what the input is, its usual values, and what follows as it grows
     # Label of the entry of a choice that stands for values of one's own, without a name of the library.
     own: str = ""
     ways: tuple[Way, ...] = ()
@@ -233,6 +235,7 @@ def field_of(key: str, **more: Any) -> Field:
         "high": entry.slider[1],
         "when": never if key in form_data("only_given") else always,
         "note": entry.field_note,
+        "help": help_text(key),
         **{name: getattr(entry, name) for name in ("log", "kind", "choices", "optional")},
         **form_data("fields").get(key, {}),
     }
@@ -246,7 +249,7 @@ def list_of_ways(name: str, when: When = always) -> Field:
     for way in entry["ways"]:
         changes = {key: None if value == "" else value for key, value in way.get("changes", {}).items()}
         ways.append(Way(**(way | {"changes": changes})))
-    return Field(entry["key"], entry["label"], kind="ways", ways=tuple(ways), when=when)
+    return Field(entry["key"], entry["label"], kind="ways", ways=tuple(ways), when=when, help=entry["help"])
 
 
 @dataclass(frozen=True)

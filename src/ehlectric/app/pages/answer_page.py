@@ -213,7 +213,7 @@ class AnswerView(Generic[A]):
             self.build_below_panel()
             with ui.element("div").classes("answer-body") as self._rest:
                 heading("Numbers", 2)
-                table = ui.element("table").classes("quiet").props('data-testid="numbers" aria-live="polite"')
+                table = ui.element("table").classes("quiet").props('data-testid="numbers"')
                 with table.props('aria-label="Numbers"'), ui.element("tbody"):
                     self.numbers = {key: NumberBox("tr", "th", "td") for key in self.keys}
                 self._notes = NoteList()

@@ -9,7 +9,6 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.calls import FIELD_HELP
 from ehlectric.app.catalogue import choices
 from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields import BEARING_GROUPS
@@ -21,7 +20,8 @@ from ehlectric.app.form_fields.field_rules import Memory, changed, is_own
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say
-from ehlectric.errors import InputError, LostError
+from ehlectric.errors import InputError
+from ehlectric.quantities.units import printed
 
 Change = Callable[[str, Any], Awaitable[None]]
 
@@ -72,8 +72,6 @@ class Form:
         brief(self.note, "")
         self._show()
         self.tell(None)
-        if session_here() is not None:
-            ui.timer(0.3, self._load_help, once=True)
 
     def tell(self, error: Exception | None) -> None:
         """Show an error next to its field, and remove the one before."""
@@ -159,7 +157,8 @@ class Form:
         control = Control(
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
         )
-        control.show(ignored=field.ignored, lacks=field.lacks)
+        unit = printed(field.unit) if field.unit else ""
+        control.show(ignored=field.ignored, lacks=field.lacks, help=field.help, unit=unit)
         control.on("commit", committed)
         if number:
             control.on("slide", slid)
@@ -297,20 +296,6 @@ class Form:
         above = [field for field in shown if key.startswith(f"{field.key}.")]
         below = [field for field in shown if field.key.startswith(f"{key}.")]
         return next(iter([*exact, *above, *below]), None)
-
-    async def _load_help(self) -> None:
-        """Load the meanings of the fields."""
-        session = session_here()
-        if session is None:
-            return
-        keys = [field.key for field, _ in self._controls if field.kind != "ways"]
-        try:
-            texts = await session.work.quick(FIELD_HELP, keys)
-        except LostError as error:
-            brief(self.note, f"no help for the fields: {error}")
-            return
-        for field, control in self._controls:
-            control.show(help=texts.get(field.key, ""))
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:

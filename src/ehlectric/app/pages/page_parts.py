@@ -316,7 +316,8 @@ def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
     """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
     plot = ui.plotly(dict(data)).classes("figure")
     # As an item: in a text of properties, a label could hold further properties, which browsers run.
-    plot.props.update({"role": "img", "aria-label": label})
+    # No image: its bar of buttons can be reached by keyboard.
+    plot.props.update({"role": "figure", "aria-label": label})
     return plot
 
 

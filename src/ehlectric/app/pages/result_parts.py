@@ -18,9 +18,9 @@ class Panel:
 
     def __init__(self, leading: Iterable[str], waits: str) -> None:
         with ui.element("div").classes("panel").props('data-testid="panel"') as self._box:
-            with ui.element("div").classes("panel-words"):
+            with ui.element("div").classes("panel-words").props('role="status" aria-atomic="false"'):
                 self.verdict = VerdictBox()
-                with ui.element("div").classes("deciding").props('aria-live="polite"') as self._deciding:
+                with ui.element("div").classes("deciding") as self._deciding:
                     self._number = NumberBox("div", "div", "div")
                     self._gauge, self._facts = (ui.html("", sanitize=False) for _ in range(2))
                 self.verdict.build_sentences()
@@ -106,7 +106,7 @@ class VerdictBox:
     """Traffic light of a bearing, and below the number that decides its sentences."""
 
     def __init__(self) -> None:
-        self._box = ui.element("div").classes("verdict grey").props('data-testid="verdict" role="status"')
+        self._box = ui.element("div").classes("verdict grey").props('data-testid="verdict"')
         with self._box:
             with ui.element("h2").classes("lead"):
                 ui.element("span").classes("sign").props('aria-hidden="true"')
@@ -118,7 +118,7 @@ class VerdictBox:
 
     def build_sentences(self) -> None:
         """Build the place of the sentences."""
-        with ui.element("div").classes("sentences").props('aria-live="polite"'):
+        with ui.element("div").classes("sentences"):
             self._assumed = ui.label().classes("assumed").props('data-testid="assumptions"')
             self._reasons = ui.html("", sanitize=False)
         say(self._assumed, "")

@@ -6,10 +6,11 @@ const THROTTLE = 100; // ms between two values of a dragged slider
 
 export default {
   template: `
-    <div v-if="shown" class="field" :class="{ wrong: !!error, listed: beside }">
+    <div v-if="shown" class="field" :class="{ wrong: !!error, listed: beside }" @keydown.esc="helped = false">
       <div class="field-head">
         <label :for="boxId">{{ label }}</label>
         <span v-if="note" class="field-note" :id="boxId + '-note'">{{ note }}</span>
+        <span v-if="unit" class="unseen" :id="boxId + '-unit'">in {{ unit }}</span>
         <button v-if="help" type="button" class="help" :aria-expanded="helped ? 'true' : 'false'"
           :aria-controls="boxId + '-help'" :aria-label="'About ' + label" @click="helped = !helped">?</button>
       </div>
@@ -54,6 +55,7 @@ export default {
     kind: { type: String, default: "number" },
     label: String,
     note: String,
+    unit: String,
     help: String,
     error: String,
     shown: { type: Boolean, default: true },
@@ -110,7 +112,7 @@ export default {
       return this.kind === "list" && this.options.every((o) => o.label.length <= SHORT);
     },
     described() {
-      const by = [this.note && "-note", this.help && this.helped && "-help", this.error && "-error"]
+      const by = [this.unit && "-unit", this.note && "-note", this.help && this.helped && "-help", this.error && "-error"]
         .filter(Boolean)
         .map((end) => this.boxId + end);
       return { "aria-invalid": this.error ? "true" : null, "aria-describedby": by.join(" ") || null };

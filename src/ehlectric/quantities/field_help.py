@@ -1,0 +1,95 @@
+"""Help of the fields of the app: what an input is, its usual values, and what follows as it grows.
+
+What an input is stands in the book of inputs, as in the reference of the files; the rest is in
+``field_help.toml``, whose effects a test compares with solved examples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from ehlectric.quantities.inputs import Input, described, input_at, plain_text, table_and_key
+from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.units import printed, rounded
+
+
+@dataclass(frozen=True, kw_only=True)
+class Help:
+    """Usual values of an input and effects of a larger value.
+
+    ``usual`` has two numbers in the unit of the field, or a phrase; it is None where no source is known, and
+    empty where a range says nothing. ``rises`` and ``falls`` are names of effects.
+    """
+
+    usual: Sequence[float] | str | None = None
+    source: str = ""
+    more: str = ""
+    rises: Sequence[str] = ()
+    falls: Sequence[str] = ()
+
+
+@cache
+def _data() -> dict[str, dict[str, Any]]:
+    return data_file("ehlectric.quantities", "field_help.toml")
+
+
+def effect(name: str) -> dict[str, Any]:
+    """Sentence of an effect as it rises and as it falls, and its keys in summaries.
+
+    Examples
+    --------
+    >>> effect("film")["falls"]
+    'the films get thinner'
+    """
+    found: dict[str, Any] = _data()["effects"][name]
+    return found
+
+
+def help_at(key: str) -> Help:
+    """Usual values and effects of the input of a dotted key."""
+    table, name, _ = table_and_key(key)
+    return Help(**_data().get(table, {}).get(name, {}))
+
+
+def help_text(key: str) -> str:
+    """Help of the field of a dotted key, two to four short sentences as plain text.
+
+    Examples
+    --------
+    >>> help_text("motor.rise_time").partition(". ")[2]
+    'Usual: 0.05 to 0.1 µs (assumed for typical inverters).'
+    >>> help_text("bearing.outer_ring_temperature").rpartition(". ")[2]
+    'As it grows, the capacitance rises, the films get thinner and the breakdown voltage falls.'
+    """
+    entry = input_at(key)
+    if entry is None:
+        raise KeyError(key)
+    about = help_at(key)
+    # What follows a semicolon is about other keys of the file.
+    meaning = plain_text(described(entry).partition("; ")[0])
+    parts = [meaning, about.more.rstrip("."), _usual_text(entry, about), _effect_text(about)]
+    return " ".join(f"{part[0].upper()}{part[1:]}." for part in parts if part)
+
+
+def _usual_text(entry: Input, about: Help) -> str:
+    """Sentence on the usual values of an input, without its full stop."""
+    if about.usual is None:
+        return "" if entry.kind in ("choice", "text") else "No source of usual values is known"
+    if isinstance(about.usual, str):
+        words = about.usual
+    else:
+        low, high = (rounded(value) for value in about.usual)
+        words = " ".join(filter(None, [f"{low} to {high}", printed(entry.shown)]))
+    source = _data()["sources"].get(about.source, about.source)
+    return f"usual: {words}{f' ({source})' if source else ''}" if words else ""
+
+
+def _effect_text(about: Help) -> str:
+    """Sentence on the results that rise or fall as an input grows, without its full stop."""
+    words = [effect(name)["rises"] for name in about.rises] + [effect(name)["falls"] for name in about.falls]
+    if not words:
+        return ""
+    return "as it grows, " + " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
