@@ -8,7 +8,7 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import DriveAnswer
+from ehlectric.app.answers import DriveAnswer, Figure
 from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
@@ -54,7 +54,7 @@ class DriveView(AnswerView[DriveAnswer]):
         """Build the parts of the answer below its numbers."""
         self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
         self.build_figures(("duty",), ("duty",))
-        self._answer: DriveAnswer | None = None
+        self._offered: dict[str, Figure] = {}
         self._opened = False
         with ui.element("details").props('data-testid="further"') as self._further:
             ui.html(_SUMMARY, sanitize=False, tag="summary")
@@ -73,29 +73,20 @@ class DriveView(AnswerView[DriveAnswer]):
         self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
         self._remedies.set_visibility(remedies is not None)
         self._ends.content = behind("Both bearings, as the command prints them", table_html(answer.ends))
-        self._answer = answer
-        self._further.set_visibility(bool(self._offered()))
-        self._choices.offer(self._offered())
+        beside = answer.deciding.figure
+        names = (name for name, key in _FURTHER.items() if key in answer.figures and key != beside)
+        self._offered = {name: answer.figures[_FURTHER[name]] for name in names}
+        self._further.set_visibility(bool(self._offered))
+        self._choices.offer(self._offered)
         self._draw()
-
-    def _offered(self) -> list[str]:
-        """Buttons of the figures of the answer that do not stand beside its verdict."""
-        figures = {} if self._answer is None else self._answer.figures.keys() - {self._answer.deciding.figure}
-        return [name for name, figure in _FURTHER.items() if figure in figures]
 
     def _toggled(self, event: Any) -> None:
         self._opened = bool(event.args)
         self._draw()
 
     def _draw(self) -> None:
-        """Draw the chosen figure where its place is open, the first one where none is chosen."""
-        offered = self._offered()
-        if not self._opened or not offered or self._answer is None:
-            self._drawing.show(None)
-            return
-        if self._choices.chosen not in offered:
-            self._choices.show(offered[0])
-        self._drawing.show(self._answer.figures[_FURTHER[self._choices.chosen]])
+        """Draw the chosen figure where its place is open."""
+        self._drawing.show(self._offered.get(self._choices.chosen) if self._opened else None)
 
 
 class RemedyBox:

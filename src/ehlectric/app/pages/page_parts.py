@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Awaitable, Callable, Container, Iterable, Iterator, Mapping, Sized
+from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from functools import cache, partial
 from html import escape
@@ -244,12 +244,12 @@ class Choices:
             one.props(f'aria-pressed="{str(name == chosen).lower()}"')
             mark(one, "primary", on=name == chosen)
 
-    def offer(self, names: Container[str]) -> None:
+    def offer(self, names: Collection[str]) -> None:
         """Hide all buttons but these; a hidden one is released."""
         for name, one in self._buttons.items():
             one.set_visibility(name in names)
         if self.chosen not in names:
-            self.show("")
+            self.show(next(iter(names), "") if self._always else "")
 
 
 @contextmanager
