@@ -277,21 +277,15 @@ def worded(text: str) -> str:
 # Words that are keys of files; symbols such as h_min are none. Tables of keys without one.
 _KEY = re.compile(r"\b[a-z]{2,}(?:[._][a-z0-9]+)+\b")
 _TABLES = (
-    "bearing",
-    "circuit",
-    "breakdown",
-    "source",
-    "drive",
-    "discharge",
-    "lubricant",
-    "contact",
-    "grid",
-    "film",
-)
+    "bearing", "circuit", "breakdown", "source", "drive", "discharge", "lubricant", "lubricant.temperature",
+    "contact", "grid", "film",
+)  # fmt: skip
 
 
 def _name_of_key(found: re.Match[str]) -> str:
     word = found[0]
+    if word in NAMES_OF_ENDS:
+        return NAMES_OF_ENDS[word]
     known = (input_at(key) for key in (word, *(f"{table}.{word}" for table in _TABLES)))
     return next((about.label for about in known if about is not None and about.label), word.replace("_", " "))
 

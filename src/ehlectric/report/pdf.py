@@ -72,7 +72,7 @@ _PAD, _LINE_LENGTH = 3.0, 96
 _ROOM = 130.0
 
 # Height of a figure beside the numbers of the first page [pt]: with its caption it is as high as they are.
-_BESIDE = 215.0
+_BESIDE = 235.0
 
 # Share of the height of a page above which a figure has a page of its own.
 _TALL = 0.6

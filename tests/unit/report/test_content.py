@@ -10,7 +10,7 @@ from ehlectric.errors import InputError
 from ehlectric.figures import figure_names
 from ehlectric.figures.figure_names import in_formats
 from ehlectric.quantities.rows import Row
-from ehlectric.report.background import inputs_of, material_sources, source_section
+from ehlectric.report.background import inputs_of, material_sources, source_section, worded
 from ehlectric.report.build import report_of
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.report_content import Numbers, Picture, Table, Text, Warnings
@@ -263,6 +263,19 @@ def test_standards_are_those_of_machines_with_inverters(motor):
         captions = [block.caption for block in source_section(case).blocks if isinstance(block, Table)]
         assert any(caption.startswith("Standards") for caption in captions) == told
         assert any("peak alone" in limit.text for limit in limits_of(case)) == told
+
+
+@each(
+    ("text", "shown"),
+    [
+        ("non_drive_end: 0.2 A/mm²", "non-drive end: 0.2 A/mm²"),
+        ("give it or iso_vg", "give it or ISO viscosity grade"),
+        ("lower circuit.winding_rotor_capacitance", "lower winding-rotor capacitance"),
+        ("V/h_min and d_m; sweep.csv has them", "V/h_min and d_m; sweep.csv has them"),
+    ],
+)
+def test_keys_are_told_by_their_names(text, shown):
+    assert worded(text) == shown
 
 
 def test_conditions_of_limits_and_publications_are_known():
