@@ -195,13 +195,14 @@ def solved_coarsely(tmp_path):
 def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     view = solved_coarsely(tmp_path)
     assert (view.judged.level, "must not be used" in words(view)) == ("grey", True)
-    assert len(view.shown) == 7
-    for one in view.shown:
+    # The dry contact knows nothing of the film.
+    shown = [one for one in view.shown if not one.key.startswith("hertz.")]
+    assert len(shown) == 7
+    for one in shown:
         assert "severe" in [told.severity for told in one.warnings], one.key
     severe = [set(cause.concerns) for cause in CODES.values() if cause.severity == "severe"]
-    shown = {one.key for one in view.shown}
     assert severe
-    assert all(shown <= keys for keys in severe)
+    assert all({one.key for one in shown} <= keys for keys in severe)
 
 
 @pytest.mark.slow
