@@ -35,7 +35,7 @@ from ehlectric.figures.style import (
     legend_above,
     length_axis,
 )
-from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ORANGE, OUT_OF_RANGE
+from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ON_MAP, ORANGE, OUT_OF_RANGE, PALE_BLUE
 from ehlectric.quantities.units import unit_for
 
 
@@ -49,7 +49,7 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=ticks)
     x, y = _mesh(result)
     lines = np.linspace(low, high, 12)[1:-1]
-    ax.contour(x, y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
+    ax.contour(x, y, field.potential, lines, colors=ON_MAP, linewidths=0.4, linestyles="-")
     return ax
 
 
@@ -198,7 +198,7 @@ def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
     for axes, values in ((ax, ticks), (twin, step * np.arange(intervals + 1))):
         axes.set_ylim(0.0, values[-1])
         axes.set_yticks(values)
-    ax.grid(axis="y", lw=0.4, color="0.88")
+    ax.grid(axis="y", lw=0.4)
     ax.set_axisbelow(True)
 
 
@@ -213,7 +213,7 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
     left, right = shown_range(x)
     shown = (x >= left) & (x <= right)
     factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
-    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.6, label="if not flattened")
+    ax.plot(x, -factor * heights, color=PALE_BLUE, lw=1.6, label="if not flattened")
     ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
     ax.set_xlim(*shown_range(x))
     ax.set_ylabel(f"change of film [{unit}]")

@@ -24,6 +24,7 @@ from ehlectric.figures.style import (
     figure_of,
     legend_above,
     new_panels,
+    outlined,
     save_each,
     save_figure,
     style,
@@ -217,7 +218,9 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         none = (np.abs(middle) < _ZERO) | ((ends[0] <= 0.0) & (ends[1] >= 0.0))
         drawn = ~none | (np.max(np.abs([middle, *ends]), axis=0) > _NOTHING)
         look: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 0.9, "capsize": 2.5}
-        ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        bars = ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        for part in (*bars.lines[1], *bars.lines[2]):
+            part.set_path_effects(outlined(2.4))
         for row in np.flatnonzero(~drawn):
             ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=colour)
     ax.axvline(0.0, color="black", lw=0.7)
