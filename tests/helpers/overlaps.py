@@ -43,6 +43,11 @@ class _Box:
     x1: float
     y1: float
 
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Ends along x and along y [pt]."""
+        return (self.x0, self.x1), (self.y0, self.y1)
+
     def near(self, other: _Box, x: float, y: float) -> bool:
         """Whether the boxes are less than ``x`` and ``y`` apart; negative ones allow an overlap [pt]."""
         beside = self.x1 + x <= other.x0 or other.x1 + x <= self.x0
@@ -60,7 +65,7 @@ def overlaps(figure: Figure) -> list[str]:
     Measured are titles, labels of axes, their numbers, notes, legends, and the frames of panels; texts must
     be as far apart as a reader needs, and panels must not be slivers.
     """
-    texts, drawn = _texts(figure), list(_shown(figure))
+    texts, drawn = text_boxes(figure), list(_shown(figure))
     legends = [_box("legend", of, of.get_window_extent()) for of in drawn if isinstance(of, Legend)]
     frames = [_box("frame", of, of.get_window_extent()) for of in drawn if _framed(of)]
     page = _box("page", figure, figure.bbox)
@@ -155,7 +160,7 @@ class _Recorder(RendererAgg):
             self.boxes.append((s, (min(at_x), min(at_y), max(at_x), max(at_y)), self._number))
 
 
-def _texts(figure: Figure) -> list[_Box]:
+def text_boxes(figure: Figure) -> list[_Box]:
     """Boxes of the lines of all texts of a figure, as they are drawn."""
     figure.set_dpi(_DPI)
     figure.draw_without_rendering()

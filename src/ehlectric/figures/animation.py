@@ -43,7 +43,7 @@ from ehlectric.figures.motion_panels import (
     name_run,
     time_unit,
 )
-from ehlectric.figures.style import figure_of, new_panels, share_below, style
+from ehlectric.figures.style import figure_of, new_panels, share_below, style, text_colour
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.palette import BLUE, BODY, OIL, ON_MAP, ORANGE
 from ehlectric.quantities.units import unit_for
@@ -142,7 +142,7 @@ def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
     def show(frame: int) -> None:
         curve(frame)
         dot.set_data([at[frame]], [largest[frame]])
-        ax.set_title(f"maximum {largest[frame]:#.3g} {unit}", loc="right", color=ORANGE)
+        ax.set_title(f"maximum {largest[frame]:#.3g} {unit}", loc="right", color=text_colour(ORANGE))
 
     return show
 

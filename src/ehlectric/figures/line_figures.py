@@ -34,6 +34,7 @@ from ehlectric.figures.style import (
     label_position,
     legend_above,
     length_axis,
+    text_colour,
 )
 from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ON_MAP, ORANGE, OUT_OF_RANGE, PALE_BLUE
 from ehlectric.quantities.units import unit_for
@@ -171,7 +172,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     # Dashes tell the curves of both axes apart without colours too.
     dashed = [replace(one, dash="longdash") if one.name == "film thickness" else one for one in below.curves]
     lines += draw_curves(dashed, twin)
-    twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=ORANGE)
+    twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=text_colour(ORANGE))
     _align(ax, twin, above.top, below.top / 3.0)
     length_axis(result, ax)
     legend_above(ax, lines, 4 if len(lines) < 5 else 3, lift=LENGTH_AXIS)

@@ -28,6 +28,7 @@ from ehlectric.figures.style import (
     save_each,
     save_figure,
     style,
+    text_colour,
 )
 from ehlectric.figures.sweep_lines import LinePath, joined, lines_of, value_lines
 from ehlectric.figures.sweep_maps import value_map
@@ -222,7 +223,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         for part in (*bars.lines[1], *bars.lines[2]):
             part.set_path_effects(outlined(2.4))
         for row in np.flatnonzero(~drawn):
-            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=colour)
+            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=text_colour(colour))
     ax.axvline(0.0, color="black", lw=0.7)
     ax.set_yticks(rows, labels=[label_of(i.key, results.case).name for i in ordered])
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))

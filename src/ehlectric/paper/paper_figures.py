@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact.result import Result
 from ehlectric.figures import line_figures as plot
-from ehlectric.figures.style import figure_of, new_panels
+from ehlectric.figures.style import figure_of, new_panels, outlined
 from ehlectric.paper.paper_contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
 from ehlectric.quantities.palette import AMBER, BLUE, BODY, GREEN, OCHRE, OIL, PURPLE
@@ -143,7 +143,7 @@ _AROUND = 0.9
 _COINCIDE = 1e-6
 
 # Look of the straight-line reading of mid-film, drawn over the curves of s = 1/2.
-_STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
+_STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4)), "path_effects": outlined(1.2)}
 
 
 @dataclass(frozen=True)
