@@ -60,7 +60,8 @@ class _Box:
 
 
 def overlaps(figure: Figure) -> list[str]:
-    """Pairs of things that lie over each other in a figure, by name, and things out of it.
+    """Pairs of things that lie over each other in a figure, by name, and things out of it; and texts that only
+    Matplotlib reads, such as "_nolegend_".
 
     Measured are titles, labels of axes, their numbers, notes, legends, and the frames of panels; texts must
     be as far apart as a reader needs, and panels must not be slivers.
@@ -71,6 +72,7 @@ def overlaps(figure: Figure) -> list[str]:
     page = _box("page", figure, figure.bbox)
     near_frame = ((box, frame) for box in texts for frame in frames if box.near(frame, -_SLIGHT, -_SLIGHT))
     found = [
+        *(f"{box.name} is no name for a reader" for box in texts if box.name.startswith("'_")),
         *(f"{box.name} is out of the figure" for box in (*texts, *legends) if box.leaves(page)),
         *_touching(texts),
         *(

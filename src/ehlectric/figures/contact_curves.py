@@ -169,7 +169,15 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
         )
     k = int(np.argmin(voltages))
     ax.plot(
-        at[k], least, ls="none", marker="o", ms=4.5, mfc="white", color=BLUE, label=f"minimum, {least:.3g} V"
+        at[k],
+        least,
+        ls="none",
+        marker="o",
+        ms=4.5,
+        mfc="white",
+        color=BLUE,
+        clip_on=False,
+        label=f"minimum, {least:.3g} V",
     )
     ax.set_xlim(at[0], at[-1])
     ax.set_ylim(0.0, _SHOWN * max(applied, least))

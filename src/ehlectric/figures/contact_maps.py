@@ -414,7 +414,7 @@ def _map(result: PointResult, ax: Axes | None) -> Axes:
         *on_page(result, *at), touched, shading="nearest", cmap=ListedColormap([ORANGE]), rasterized=True
     )
     edge = hertz_ellipse(result, ax, ON_MAP)
-    entrainment(result, ax, ON_MAP)
+    entrainment(result, ax)
     legend_above(ax, [Patch(color=ORANGE, label="surfaces touch"), legend_line(edge)])
     ticks = round_levels(*limits, 5)
     label = f"film thickness [{unit}]"

@@ -369,7 +369,8 @@ def legend_above(
     axes [pt], which leaves room for an axis on top of them.
     """
     entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
-    named = [entry[-1] if isinstance(entry, tuple) else entry for entry in entries]
+    # Bars and lines with error bars are subclasses of tuple with labels of their own.
+    named = [entry[-1] if type(entry) is tuple else entry for entry in entries]
     labels = options.pop("labels", None) or [str(entry.get_label()) for entry in named]
     figure, size = figure_of(ax), _size_of("legend.fontsize")
     fitting = _fitting(labels, columns, 72.0 * figure.get_figwidth() / _side_by_side(ax) - _LEFT)

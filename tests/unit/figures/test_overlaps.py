@@ -236,6 +236,7 @@ def two_narrow_panels(ax):
         (lambda ax: ax.set_xlabel("label " * 20), ["is out of the figure"]),
         (lambda ax: ax.legend(loc="lower left", bbox_to_anchor=(1.0, 0.0)), ["out of the figure"]),
         (two_narrow_panels, ["is a sliver"]),
+        (lambda ax: legend_above(ax, labels=["_nolegend_"]), ["'_nolegend_' is no name for a reader"]),
     ],
 )
 def test_what_overlaps_is_found(spoil, told):
