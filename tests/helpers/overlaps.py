@@ -60,7 +60,7 @@ class _Box:
 
 
 def overlaps(figure: Figure) -> list[str]:
-    """Pairs of things that lie over each other in a figure, by name, and things out of it; and texts that only
+    """Pairs of things that lie over each other in a figure, by name, things out of it, and texts that only
     Matplotlib reads, such as "_nolegend_".
 
     Measured are titles, labels of axes, their numbers, notes, legends, and the frames of panels; texts must
