@@ -331,7 +331,8 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.set_ylim(0.0, 1.15 * np.max(everything))
     if shaft is not None:
         ax.axhspan(ax.get_ylim()[0], shaft, color=ORANGE, alpha=0.12, lw=0.0, zorder=0.0)
-        note(ax, 0.01, 0.03, "below the shaft voltage: breakdown", color=ORANGE)
+        text, edge = "below the shaft voltage: breakdown", outlined(2.0)  # marks may lie where it stands
+        note(ax, 0.01, 0.03, text, color=ORANGE, path_effects=edge, zorder=5.0)
     for name, values, ring, shift, marker, colour in (
         ("inner", inner, position.inner, -0.12, "o", BLUE),
         ("outer", outer, position.outer, 0.12, "s", ORANGE),

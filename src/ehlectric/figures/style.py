@@ -40,7 +40,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
-from ehlectric.figures.tones import Outline, TonedFigure
+from ehlectric.figures.tones import Outline, toned_figure
 from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
 from ehlectric.runtime.files import write
@@ -156,7 +156,7 @@ def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: boo
 def new_figure(size: tuple[float, float]) -> Figure:
     """Empty figure of a width and height [inches], with the colours of the style that is in use."""
     tones = _LOOKS[_style.get()].tones
-    figure = TonedFigure(tones, size) if tones else Figure(figsize=size)
+    figure = toned_figure(tones, size) if tones else Figure(figsize=size)
     FigureCanvasAgg(figure)
     return figure
 

@@ -28,10 +28,10 @@ def profile(drawn: Profile, ax: Axes | None = None, name: str = "") -> Axes:
     ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
     s = statistics(drawn)
     scale, prefixed = unit_for(s.rq, "m", least=1.0)
-    amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
-    shape = f"Rsk {s.rsk:.2f}, Rku {s.rku:.1f}".replace("-", "−")
-    title = f"{name + ': ' if name else ''}{amplitudes}, {shape}"
-    ax.set_title(fitted_label(ax, title, along=True), loc="left")
+    sizes = [f"Rq {scale * s.rq:.3g} {prefixed}", f"Ra {scale * s.ra:.3g} {prefixed}"]
+    shape = [f"Rsk {s.rsk:.2f}".replace("-", "−"), f"Rku {s.rku:.1f}"]
+    values = ", ".join(value.replace(" ", "\u00a0") for value in (*sizes, *shape))
+    ax.set_title(fitted_label(ax, f"{name}: {values}" if name else values, along=True), loc="left")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
     ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
     return ax

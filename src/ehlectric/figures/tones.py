@@ -25,15 +25,20 @@ _FEW = 8
 _MORE, _FAINT = 1.6, 0.5
 
 
-class TonedFigure(Figure):
-    """Figure whose artists have the colours of another palette when it is drawn.
+def toned_figure(tones: Mapping[str, str], size: tuple[float, float]) -> Figure:
+    """Empty figure of a width and height [inches] that is drawn in the colours of another palette.
 
     Functions that draw name the colours of paper, and need not know the page. ``tones`` are the colours of
     the page by those of paper; colours that are not in it stay, as those of maps do.
     """
+    return _TonedFigure(tones, size)
 
-    def __init__(self, tones: Mapping[str, str], figsize: tuple[float, float]) -> None:
-        super().__init__(figsize=figsize)
+
+class _TonedFigure(Figure):
+    """Figure that exchanges the colours of all artists in it before it is drawn."""
+
+    def __init__(self, tones: Mapping[str, str], size: tuple[float, float]) -> None:
+        super().__init__(figsize=size)
         self._tones = tones
 
     def draw(self, renderer: Any) -> None:

@@ -87,7 +87,7 @@ def _luminance(colour: str) -> float:
 
 
 # Contrast of texts with a page, with some room for shadings behind them.
-_FOR_TEXT = 5.4
+_FOR_TEXT = 6.0
 
 
 def legible(colour: str, page: str) -> str:
@@ -95,7 +95,7 @@ def legible(colour: str, page: str) -> str:
     or else the first darker or lighter one. On faint shadings, too, the contrast is 4.5 then.
 
     >>> legible(GREY, WHITE), legible(ORANGE, WHITE)
-    ('#555555', '#af4d00')
+    ('#555555', '#a24700')
     """
     end = 0 if _luminance(page) > 0.2 else 255
     for step in range(101):
