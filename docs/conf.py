@@ -88,6 +88,7 @@ html_copy_source = False
 html_sidebars = {"verification": [], "measurement": [], "paper": []}  # they have no pages below them
 html_theme_options = {
     "header_links_before_dropdown": 9,
+    "navbar_persistent": ["search-button"],  # a field with a text would take a second row
     "navigation_with_keys": False,
     "secondary_sidebar_items": ["page-toc"],
     "footer_start": ["copyright"],

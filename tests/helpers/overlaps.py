@@ -43,6 +43,11 @@ class _Box:
     x1: float
     y1: float
 
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Ends along x and along y [pt]."""
+        return (self.x0, self.x1), (self.y0, self.y1)
+
     def near(self, other: _Box, x: float, y: float) -> bool:
         """Whether the boxes are less than ``x`` and ``y`` apart; negative ones allow an overlap [pt]."""
         beside = self.x1 + x <= other.x0 or other.x1 + x <= self.x0
@@ -55,17 +60,19 @@ class _Box:
 
 
 def overlaps(figure: Figure) -> list[str]:
-    """Pairs of things that lie over each other in a figure, by name, and things out of it.
+    """Pairs of things that lie over each other in a figure, by name, things out of it, and texts that only
+    Matplotlib reads, such as "_nolegend_".
 
     Measured are titles, labels of axes, their numbers, notes, legends, and the frames of panels; texts must
     be as far apart as a reader needs, and panels must not be slivers.
     """
-    texts, drawn = _texts(figure), list(_shown(figure))
+    texts, drawn = text_boxes(figure), list(_shown(figure))
     legends = [_box("legend", of, of.get_window_extent()) for of in drawn if isinstance(of, Legend)]
     frames = [_box("frame", of, of.get_window_extent()) for of in drawn if _framed(of)]
     page = _box("page", figure, figure.bbox)
     near_frame = ((box, frame) for box in texts for frame in frames if box.near(frame, -_SLIGHT, -_SLIGHT))
     found = [
+        *(f"{box.name} is no name for a reader" for box in texts if box.name.startswith("'_")),
         *(f"{box.name} is out of the figure" for box in (*texts, *legends) if box.leaves(page)),
         *_touching(texts),
         *(
@@ -155,7 +162,7 @@ class _Recorder(RendererAgg):
             self.boxes.append((s, (min(at_x), min(at_y), max(at_x), max(at_y)), self._number))
 
 
-def _texts(figure: Figure) -> list[_Box]:
+def text_boxes(figure: Figure) -> list[_Box]:
     """Boxes of the lines of all texts of a figure, as they are drawn."""
     figure.set_dpi(_DPI)
     figure.draw_without_rendering()

@@ -43,9 +43,9 @@ from ehlectric.figures.motion_panels import (
     name_run,
     time_unit,
 )
-from ehlectric.figures.style import figure_of, new_panels, share_below, style
+from ehlectric.figures.style import figure_of, new_panels, share_below, style, text_colour
 from ehlectric.motion.stored_run import MotionRun
-from ehlectric.quantities.palette import BLUE, BODY, OIL, ORANGE
+from ehlectric.quantities.palette import BLUE, BODY, OIL, ON_MAP, ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.runtime.files import refuse_full, whole
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
@@ -142,7 +142,7 @@ def _field(run: MotionRun, ax: Axes) -> Callable[[int], None]:
     def show(frame: int) -> None:
         curve(frame)
         dot.set_data([at[frame]], [largest[frame]])
-        ax.set_title(f"maximum {largest[frame]:#.3g} {unit}", loc="right", color=ORANGE)
+        ax.set_title(f"maximum {largest[frame]:#.3g} {unit}", loc="right", color=text_colour(ORANGE))
 
     return show
 
@@ -255,7 +255,7 @@ def _point_field(contact: _Contact, ax: Axes) -> Callable[[int], None]:
     limits = float(np.nanmin(least)), float(np.max(largest))
     show_map = _map(contact, ax, "strength", unit, limits=limits, colours=_FIELD_COLOURS)
     figure_of(ax).axes[-1].set_xlabel(f"field strength $|E|$ [{unit[1]}]")
-    hertz_ellipse(contact, ax, "white")
+    hertz_ellipse(contact, ax, ON_MAP)
     at = np.column_stack([run.values("max_strength_x"), run.values("max_strength_y")])
     cross = mark(contact, ax, at[:1], "largest")
 

@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
@@ -30,10 +28,12 @@ from ehlectric.figures.style import (
     beside_point,
     figure_of,
     legend_above,
+    new_figure,
     note,
     outlined,
     page_size,
     round_numbers,
+    text_colour,
 )
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
@@ -81,7 +81,7 @@ def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
     """Write the names of lines beside the right edge of the axes, at their heights and without overlap."""
     look: dict[str, Any] = {"transform": ax.transAxes, "fontsize": "small", "va": "center"}
     ordered = sorted(ends)
-    names = [_End(1.015, 0.5, text, color=colour, **look) for _, text, colour in ordered]
+    names = [_End(1.015, 0.5, text, color=text_colour(colour), **look) for _, text, colour in ordered]
     for name, (value, _, _) in zip(names, ordered, strict=True):
         name.names, name.end = names, value
         name.set_clip_on(False)
@@ -116,8 +116,7 @@ _MOST_TICKS = 7
 
 def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
     """Polar axes side by side in a new figure, whose size on the screen is in inches."""
-    figure = Figure(figsize=page_size(size))
-    FigureCanvasAgg(figure)
+    figure = new_figure(page_size(size))
     return list(figure.subplots(1, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
 
 
@@ -205,7 +204,7 @@ def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
     angles = np.arange(0, 360, 45)
     load = "radial load, 0°" if result.solution.case.bearing.radial_load else "0°"
     polar.set_thetagrids(angles, [load, *(f"{angle}°" for angle in angles[1:])])
-    polar.grid(color="0.85", lw=0.6)
+    polar.grid(lw=0.6)
     return polar
 
 
@@ -332,7 +331,8 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
         ax.set_ylim(0.0, 1.15 * np.max(everything))
     if shaft is not None:
         ax.axhspan(ax.get_ylim()[0], shaft, color=ORANGE, alpha=0.12, lw=0.0, zorder=0.0)
-        note(ax, 0.01, 0.03, "below the shaft voltage: breakdown", color=ORANGE)
+        text, edge = "below the shaft voltage: breakdown", outlined(2.0)  # marks may lie where it stands
+        note(ax, 0.01, 0.03, text, color=ORANGE, path_effects=edge, zorder=5.0)
     for name, values, ring, shift, marker, colour in (
         ("inner", inner, position.inner, -0.12, "o", BLUE),
         ("outer", outer, position.outer, 0.12, "s", ORANGE),
@@ -545,7 +545,7 @@ def _over_frequency(result: BearingResult, ax: Axes) -> None:
         note(ax, impedance.corner, 0.04, text, data_axis="x", color=GREY)
     _mark_period(result, ax)
     ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))
-    ax.grid(color="0.9", lw=0.6)
+    ax.grid(lw=0.6)
 
 
 def _mark_period(result: BearingResult, ax: Axes) -> None:

@@ -169,12 +169,20 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
         )
     k = int(np.argmin(voltages))
     ax.plot(
-        at[k], least, ls="none", marker="o", ms=4.5, mfc="white", color=BLUE, label=f"minimum, {least:.3g} V"
+        at[k],
+        least,
+        ls="none",
+        marker="o",
+        ms=4.5,
+        mfc="white",
+        color=BLUE,
+        clip_on=False,
+        label=f"minimum, {least:.3g} V",
     )
     ax.set_xlim(at[0], at[-1])
     ax.set_ylim(0.0, _SHOWN * max(applied, least))
     ax.set_ylabel("voltage [V]")
-    ax.grid(axis="y", lw=0.4, color="0.88")
+    ax.grid(axis="y", lw=0.4)
 
 
 def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
@@ -224,18 +232,19 @@ def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
         ax.axhline(
             factor * result.meter.capacitance, color=ORANGE, lw=1.2, label=f"with the parallel part, {whole}"
         )
-    for edge, name in (
-        (result.conditions.half_width, "Hertz zone"),
-        (profile.edge, "nearest edge of the domain"),
+    # Between both lines there may be no room for a name.
+    for edge, name, side in (
+        (result.conditions.half_width, "Hertz zone", "right"),
+        (profile.edge, "nearest edge of the domain", "left"),
     ):
         ax.axvline(1e3 * edge, color=GREY, lw=0.8)
-        look = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8.0, "color": GREY}
+        look = {"rotation": 90, "ha": side, "va": "top", "fontsize": "small", "color": GREY}
         note(ax, 1e3 * edge, 0.98, f" {name}", data_axis="x", **look)
     ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
     ax.set_xlim(at[0], at[-1])
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set_ylim(bottom=0.0)
-    ax.grid(axis="y", lw=0.4, color="0.88")
+    ax.grid(axis="y", lw=0.4)
     legend_above(ax, columns=2)
     return ax
 

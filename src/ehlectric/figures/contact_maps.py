@@ -38,7 +38,7 @@ from ehlectric.figures.style import (
     outlined,
     page_width,
 )
-from ehlectric.quantities.palette import ORANGE
+from ehlectric.quantities.palette import MAP_EDGE, ON_MAP, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Nodes along each side of a map, about: enough that no cell of the grid can be seen in print.
@@ -261,7 +261,7 @@ def colour_bar(
     return figure.colorbar(mappable, ax=list(axes), label=label, ticks=inside, extend=extend, **place)
 
 
-def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = "black") -> Ellipse:
+def hertz_ellipse(result: OfPointContact, ax: Axes, ink: str = MAP_EDGE) -> Ellipse:
     """Draw the Hertz ellipse, the edge of the dry contact, as a dashed line."""
     edge = Ellipse(
         (0.0, 0.0),
@@ -282,8 +282,8 @@ def legend_line(patch: Ellipse) -> Line2D:
 
 
 def _outlined(ink: str, width: float) -> list[AbstractPathEffect]:
-    """Outline of a line or text [pt], white for black ink and black for white."""
-    return outlined(width, "white" if ink == "black" else "black")
+    """Outline of a line or text on a map [pt]: dark around the light ink, light around the dark one."""
+    return outlined(width, MAP_EDGE if ink == ON_MAP else ON_MAP)
 
 
 def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
@@ -295,8 +295,8 @@ def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
         marker="x",
         ms=5.0,
         mew=1.1,
-        color="black",
-        path_effects=_outlined("black", 2.4),
+        color=MAP_EDGE,
+        path_effects=_outlined(MAP_EDGE, 2.4),
         label=label,
     )
     return line
@@ -305,17 +305,18 @@ def mark(result: OfPointContact, ax: Axes, at: Array, label: str) -> Line2D:
 def say(result: OfPointContact, ax: Axes, at: Array, text: str) -> None:
     """Write a text beside each of the positions ``at``, the rows x, y [m] of shape (n, 2).
 
-    Where entrainment points down, the text is below the marks, on the side of the outlet, and close marks
-    share one text.
+    The text is on the side of the outlet: right of the marks, or below them where entrainment points down.
+    Close marks share one text.
     """
     places = np.column_stack(_on_page(result, *(at / result.conditions.semi_axis_x).T))
-    down, (left, right) = is_turned(result.conditions), ax.get_xlim()
+    down = is_turned(result.conditions)
     offset, align = ((0.0, -11.0), {"ha": "center", "va": "top"}) if down else ((7.0, 0.0), {})
-    if down and np.ptp(places[:, 0]) < 0.2 * (right - left):
+    side, ends = (0, ax.get_xlim()) if down else (1, ax.get_ylim())
+    if np.ptp(places[:, side]) < 0.2 * np.ptp(ends):
         places = np.mean(places, axis=0, keepdims=True)
     for x, y in places:
-        edge = _outlined("black", 2.0)
-        beside_point(ax, (x, y), text, offset, fontsize=8.0, path_effects=edge, **align)
+        edge = _outlined(MAP_EDGE, 2.0)
+        beside_point(ax, (x, y), text, offset, color=MAP_EDGE, fontsize="small", path_effects=edge, **align)
 
 
 def extreme_positions(x: Array, y: Array, values: Array) -> Array:
@@ -327,7 +328,7 @@ def extreme_positions(x: Array, y: Array, values: Array) -> Array:
     return np.column_stack([x[i], y[j]])[[0, -1][: min(i.size, 2)]]
 
 
-def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
+def entrainment(result: OfPointContact, ax: Axes, ink: str = MAP_EDGE) -> None:
     """Draw an arrow in the direction of entrainment, in a corner of the map at the inlet."""
     down = is_turned(result.conditions)
     corner = (0.0, 1.0) if down else (0.0, 0.0)
@@ -350,7 +351,7 @@ def entrainment(result: OfPointContact, ax: Axes, ink: str = "black") -> None:
         *corner,
         "entrainment",
         color=ink,
-        fontsize=8.0,
+        fontsize="small",
         va=va,
         transform=off(*where),
         path_effects=_outlined(ink, 1.8),
@@ -412,8 +413,8 @@ def _map(result: PointResult, ax: Axes | None) -> Axes:
     ax.pcolormesh(
         *on_page(result, *at), touched, shading="nearest", cmap=ListedColormap([ORANGE]), rasterized=True
     )
-    edge = hertz_ellipse(result, ax, "white")
-    entrainment(result, ax, "white")
+    edge = hertz_ellipse(result, ax, ON_MAP)
+    entrainment(result, ax)
     legend_above(ax, [Patch(color=ORANGE, label="surfaces touch"), legend_line(edge)])
     ticks = round_levels(*limits, 5)
     label = f"film thickness [{unit}]"

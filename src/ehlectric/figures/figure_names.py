@@ -17,7 +17,7 @@ _OF_UNIT = re.compile(
 
 # Formats of the files, and styles of the figures.
 FORMATS = ("png", "svg", "pdf")
-STYLES = ("screen", "journal")
+STYLES = ("screen", "journal", "dark")
 
 # Figures of contacts. The roughness is drawn of rough contacts only, the breakdown of contacts with a
 # dielectric strength only, the capacitance at a meter of cases with a table meter only, the spots of contacts

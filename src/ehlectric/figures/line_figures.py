@@ -34,8 +34,9 @@ from ehlectric.figures.style import (
     label_position,
     legend_above,
     length_axis,
+    text_colour,
 )
-from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ORANGE, OUT_OF_RANGE
+from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ON_MAP, ORANGE, OUT_OF_RANGE, PALE_BLUE
 from ehlectric.quantities.units import unit_for
 
 
@@ -49,7 +50,7 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
     ax = _map(result, field.potential, ax, label="potential $V$ [V]", limits=(low, high), ticks=ticks)
     x, y = _mesh(result)
     lines = np.linspace(low, high, 12)[1:-1]
-    ax.contour(x, y, field.potential, lines, colors="white", linewidths=0.4, linestyles="-")
+    ax.contour(x, y, field.potential, lines, colors=ON_MAP, linewidths=0.4, linestyles="-")
     return ax
 
 
@@ -171,7 +172,7 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     # Dashes tell the curves of both axes apart without colours too.
     dashed = [replace(one, dash="longdash") if one.name == "film thickness" else one for one in below.curves]
     lines += draw_curves(dashed, twin)
-    twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=ORANGE)
+    twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=text_colour(ORANGE))
     _align(ax, twin, above.top, below.top / 3.0)
     length_axis(result, ax)
     legend_above(ax, lines, 4 if len(lines) < 5 else 3, lift=LENGTH_AXIS)
@@ -198,7 +199,7 @@ def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
     for axes, values in ((ax, ticks), (twin, step * np.arange(intervals + 1))):
         axes.set_ylim(0.0, values[-1])
         axes.set_yticks(values)
-    ax.grid(axis="y", lw=0.4, color="0.88")
+    ax.grid(axis="y", lw=0.4)
     ax.set_axisbelow(True)
 
 
@@ -213,7 +214,7 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
     left, right = shown_range(x)
     shown = (x >= left) & (x <= right)
     factor, unit = unit_for(float(np.max(np.abs(np.stack([change, heights])[:, shown]))), "m", least=1.0)
-    ax.plot(x, -factor * heights, color="#9ccbe8", lw=1.6, label="if not flattened")
+    ax.plot(x, -factor * heights, color=PALE_BLUE, lw=1.6, label="if not flattened")
     ax.plot(x, factor * change, color=ORANGE, lw=0.8, label="rough − smooth film")
     ax.set_xlim(*shown_range(x))
     ax.set_ylabel(f"change of film [{unit}]")

@@ -14,7 +14,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.touching import share_text
@@ -34,9 +33,10 @@ from ehlectric.figures.motion_panels import (
 )
 from ehlectric.figures.style import axes_or_new, drawing_of, figure_of, legend_above, new_panels, share_below
 from ehlectric.figures.style import style as figure_style
+from ehlectric.figures.tones import Outline
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import NEAR_MAXIMUM, MotionRun, coincident_frame, intervals_above
-from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ORANGE, OUT_OF_RANGE
+from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 
 # A film that differs by less than this part from that of stationary roughness is as thick.
@@ -159,7 +159,8 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
         _times(run, "frame_time"), strength, color=BLUE, ls="none", marker="o", ms=size, mew=0.0
     )
     dots.set_label(f"solved at {run.frames} instants")
-    handles, shown = [dots, thin], [strength, estimate]
+    handles: list[Any] = [dots, thin]
+    shown = [strength, estimate]
     if not always_near_maximum(run):
         handles.append(_high(run, ax))
     if "stationary_strength" in run.dataset:
@@ -173,8 +174,10 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _high(run: MotionRun, ax: Axes) -> Line2D:
-    """Draw the level above which the field is near its maximum, and shade the time above it."""
+def _high(run: MotionRun, ax: Axes) -> tuple[Artist, Artist]:
+    """Draw the level above which the field is near its maximum, and shade the time above it. Returns both for
+    one entry of the legend.
+    """
     factor, _ = field_unit(run)
     in_time, unit = time_unit(run)
     history = run.field_history
@@ -186,7 +189,8 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     settled, share = history.settled_from, 100.0 * history.share_near_maximum
     text = f"{100.0 * NEAR_MAXIMUM:g} % of the maximum: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
-    return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
+    line = ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
+    return Patch(facecolor=(GREEN, 0.25)), line
 
 
 def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
@@ -370,8 +374,8 @@ def _map(
 def _speeds(run: MotionRun) -> list[tuple[float, dict[str, Any]]]:
     """Mean speed, and speeds of rough surfaces that differ from it [m/s], with the styles of their lines."""
     mean = run.conditions.entrainment_speed
-    edge = [withStroke(linewidth=1.8, foreground="black", alpha=0.6)]
-    plain: dict[str, Any] = {"color": "white", "lw": 0.8, "path_effects": edge}
+    edge = [Outline(1.8, MAP_EDGE, 0.6)]
+    plain: dict[str, Any] = {"color": ON_MAP, "lw": 0.8, "path_effects": edge}
     same = [k for k, speed in run.speeds.items() if abs(speed - mean) <= 1e-9 * mean]
     name = ", also of both surfaces" if len(same) == 2 else f", also of surface {same[0]}" if same else ""
     speeds = [(mean, {"ls": "--", "label": f"mean speed{name}", **plain})]

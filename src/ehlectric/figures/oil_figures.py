@@ -28,8 +28,8 @@ from ehlectric.cases.oil_report import (
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import OIL_FIGURE_FILES
 from ehlectric.figures.style import (
-    DARK_COLOURS,
     figure_of,
+    line_colours,
     name_over,
     new_panels,
     save_each,
@@ -214,14 +214,15 @@ def _axes_of(panels: Sequence[_Panel]) -> list[Axes]:
 
 def _colours(number: int) -> list[str]:
     """Colours of curves from cold to hot."""
-    return [to_hex(DARK_COLOURS(part)) for part in np.linspace(0.0, 1.0, max(number, 2))[:number]]
+    colours = line_colours()
+    return [to_hex(colours(part)) for part in np.linspace(0.0, 1.0, max(number, 2))[:number]]
 
 
 def _finish(ax: Axes, panel: _Panel, title: str, by_numbers: Array | None = None) -> None:
     """Label and scale the vertical axis, with the law and its kind above; ticks are powers or numbers."""
     ax.set_ylabel(panel.label)
     ax.set_title(title, loc="left")
-    ax.grid(lw=0.4, color="0.9")
+    ax.grid(lw=0.4)
     if panel.log and by_numbers is not None:
         scale_axis(ax.yaxis, panel.label, values=by_numbers, log=True)
     elif panel.log:

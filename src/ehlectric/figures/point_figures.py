@@ -41,7 +41,7 @@ from ehlectric.figures.contact_maps import (
 from ehlectric.figures.contact_profiles import Cut
 from ehlectric.figures.film_section import draw_section
 from ehlectric.figures.style import axes_or_new, figure_of, label_position, legend_above, new_panels
-from ehlectric.quantities.palette import BLUE, GREY, ORANGE, OUT_OF_RANGE
+from ehlectric.quantities.palette import BLUE, CAVITATED, GREY, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 
 # Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
@@ -194,7 +194,7 @@ def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "
         heights,
         cut.of(field.potential)[away],
         np.linspace(low, high, 12)[1:-1],
-        colors="black",
+        colors=MAP_EDGE,
         linewidths=0.4,
         alpha=0.6,
         linestyles="-",
@@ -254,7 +254,6 @@ _ALIKE = 0.05
 
 # Part of the Hertz pressure above which no lines are drawn: at the pressure ridge they would be too dense.
 _BELOW_RIDGE = 0.95
-_CAVITATED = "#e3e6ea"
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
@@ -275,7 +274,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
     bar = colour_bar(result, mesh, [ax], label, window=window, ticks=levels, extend="max")
     ellipse = hertz_ellipse(result, ax)
     if not result.rough:
-        lines = ax.contour(*on_page(result, *at), thickness, levels, colors="black", linewidths=0.5)
+        lines = ax.contour(*on_page(result, *at), thickness, levels, colors=MAP_EDGE, linewidths=0.5)
         # Around the ellipse the gap widens so fast that the lines would merge to a black band.
         lines.set_clip_path(ellipse)
         bar.add_lines(lines)
@@ -319,14 +318,14 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     if not result.rough:
         inner = levels[(levels > 0.0) & (levels < _BELOW_RIDGE * factor * hertz)]
         bar.add_lines(
-            ax.contour(*on_page(result, *at), pressure, inner, colors="white", linewidths=0.4, alpha=0.6)
+            ax.contour(*on_page(result, *at), pressure, inner, colors=ON_MAP, linewidths=0.4, alpha=0.6)
         )
     cavitated = _cavitated(result, ax)
     position = extreme_positions(*nodes, film.pressure)
     peak = mark(result, ax, position, "maximum on this grid" if spike else "maximum")
     say(result, ax, position, f"{factor * film.max_pressure:.3g} {unit}")
-    legend_above(ax, [legend_line(hertz_ellipse(result, ax, "white")), peak, cavitated], 3)
-    entrainment(result, ax, ink="white")
+    legend_above(ax, [legend_line(hertz_ellipse(result, ax, ON_MAP)), peak, cavitated], 3)
+    entrainment(result, ax, ink=ON_MAP)
     return ax
 
 
@@ -342,9 +341,9 @@ def _cavitated(result: PointResult, ax: Axes) -> Patch:
     if np.any(cavitated):
         window = _in_metres(result, film_window(result))
         at, share = refined((film.x, film.y), smoothed(cavitated.astype(float)), window)
-        area = ax.contourf(*on_page(result, *at), share, [0.5, 1.5], colors=[_CAVITATED], hatches=["////"])
+        area = ax.contourf(*on_page(result, *at), share, [0.5, 1.5], colors=[CAVITATED], hatches=["////"])
         area.set(edgecolor=GREY, linewidth=0.0)
-    return Patch(label="cavitated", hatch="////", facecolor=_CAVITATED, edgecolor=GREY, linewidth=0.0)
+    return Patch(label="cavitated", hatch="////", facecolor=CAVITATED, edgecolor=GREY, linewidth=0.0)
 
 
 def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
@@ -365,13 +364,13 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
         ax.contour(*on_page(result, *at), strength, [level], colors="#00e5ff", linewidths=0.9)
     where = f", {field.max_strength_wall}" if result.rough else ""
     handles = [
-        legend_line(hertz_ellipse(result, ax, "white")),
+        legend_line(hertz_ellipse(result, ax, ON_MAP)),
         Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum"),
         mark(result, ax, _largest(result), f"maximum{where}"),
     ]
     say(result, ax, _largest(result), f"{factor * field.max_strength:.3g} {unit}")
     legend_above(ax, handles, 3)
-    entrainment(result, ax, ink="white")
+    entrainment(result, ax, ink=ON_MAP)
     return ax
 
 

@@ -146,8 +146,8 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
         Name of its file, such as "film.png" of a line contact, or "film" for short; ``figure_names`` lists
         the names.
     style : str
-        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
-        without the title.
+        "screen", "dark": light on a dark page, or "journal": as wide as one or two columns of a journal (84
+        or 174 mm), in small type, without the title.
     **options
         Options of the figures of a sweep, such as ``x`` and ``y``: varied keys along the axes.
 
@@ -233,8 +233,8 @@ def save_figures(
     formats : sequence of str
         Formats of the files, of "png", "svg" and "pdf".
     style : str
-        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
-        without the title, which the metadata of the files have in any style.
+        "screen", "dark": light on a dark page, or "journal": as wide as one or two columns of a journal (84
+        or 174 mm), in small type, without the title, which the metadata of the files have in any style.
 
     Returns
     -------

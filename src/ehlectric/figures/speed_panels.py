@@ -20,7 +20,7 @@ from ehlectric.bearing.speed_curves import (
 )
 from ehlectric.bearing.uncertainty import MarginBand
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
-from ehlectric.quantities.palette import BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
+from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
 from ehlectric.quantities.units import rpm_text as text_of_speed
 
@@ -96,6 +96,7 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
     # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
     least = max(0.5 * float(np.min(band.median, where=band.median > 0.0, initial=1.0)), _LEAST_MARGIN)
     low, median, high = (np.maximum(values, least) for values in (band.low, band.median, band.high))
+    even = np.clip(1.0, low, high)
     drawn = [
         Curve("margin 1", rpm, ones, MIDDLE_GREY, "dash"),
         Curve("median", rpm, np.where(band.median > least, median, np.nan), BLACK, width=1.4),
@@ -103,8 +104,8 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
     if own is not None:
         drawn.append(_mark(own[0], own[1], BLACK, "star"))
     areas: tuple[Area, ...] = (
-        Area("90 of 100 cases", rpm, np.isfinite(high), BLUE, 0.2, (low, high)),
-        Area("breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, np.minimum(high, 1.0))),
+        Area("90 of 100 cases", rpm, high > 1.0, BLUE, 0.2, (even, high)),
+        Area("of these, breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, even)),
     )
     touching = Area("surfaces touch in 5 of 100 cases or more", rpm, band.low == 0.0, MIDDLE_GREY, 0.2)
     if np.any(touching.within):
@@ -163,7 +164,7 @@ def _contacts_open(curves: Curves) -> Iterator[Area]:
     touching = float(touching_ratio(curves.summit_height))
     for low, high, name, colour, opacity in (
         (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
-        (CONDUCTING, touching, f"λ from 1 to {touching:g}: touching at times, no voltage", ORANGE, 0.1),
+        (CONDUCTING, touching, f"λ from 1 to {touching:g}: touching at times, no voltage", AMBER, 0.22),
         (touching, PARTIAL, f"λ from {touching:g} to 3: contacts at times", MIDDLE_GREY, 0.15),
     ):
         within = (ratio >= low) & (ratio < high)

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
@@ -22,7 +22,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
-from matplotlib.patheffects import AbstractPathEffect, withStroke
+from matplotlib.patheffects import AbstractPathEffect
 from matplotlib.text import Annotation
 from matplotlib.textpath import text_to_path
 from matplotlib.ticker import (
@@ -40,7 +40,8 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
-from ehlectric.quantities.palette import GREY
+from ehlectric.figures.tones import Outline, toned_figure
+from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
 from ehlectric.runtime.files import write
 from ehlectric.runtime.threads import Turn
@@ -48,7 +49,7 @@ from ehlectric.runtime.threads import Turn
 D = TypeVar("D")
 
 # Text properties of the title of a figure whose result is not converged.
-NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}
+NOT_CONVERGED: dict[str, Any] = {"color": RED, "weight": "bold"}
 
 # Metadata of a file of each format. Without a date, two runs of a case write the same bytes.
 _WITHOUT_DATE: Mapping[str, dict[str, Any]] = {
@@ -67,6 +68,7 @@ class _Look:
     # Widths of a figure in one column and across two columns of a page [inches]; as drawn if None.
     columns: tuple[float, float] | None = None
     height: float = 1.0  # ratio of the height of a figure in one column to its height on the screen
+    tones: Mapping[str, str] = field(default_factory=dict)  # colours by those of paper, which are the others
 
 
 def _settings(name: str) -> dict[str, Any]:
@@ -82,6 +84,7 @@ _SCREEN = _settings("screen")
 _LOOKS: Mapping[str, _Look] = {
     "screen": _Look(_SCREEN),
     "journal": _Look(_SCREEN | _settings("journal"), titled=False, columns=_COLUMNS, height=0.75),
+    "dark": _Look(_SCREEN | _settings("dark"), tones=DARK),
 }
 assert tuple(_LOOKS) == STYLES
 
@@ -111,8 +114,8 @@ def style(name: str | None = None) -> Iterator[None]:
     The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
     take turns, so that none restores the settings of another.
 
-    ``name``, name of the style, "screen" or "journal"; the style of the context around this one if omitted,
-    which is "screen" outside of any. Raises InputError where there is no style of this name.
+    ``name``, name of the style, "screen", "journal" or "dark"; the style of the context around this one if
+    omitted, which is "screen" outside of any. Raises InputError where there is no style of this name.
     """
     name = _style.get() if name is None else name
     if name not in _LOOKS:
@@ -146,14 +149,27 @@ def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: boo
     """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches]; in
     the style "journal" it is as wide as one column, or as two where panels are beside each other.
     """
-    figure = Figure(figsize=size if exact else page_size(size, columns))
-    FigureCanvasAgg(figure)
+    figure = new_figure(size if exact else page_size(size, columns))
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
 
-def outlined(width: float, colour: str = "white") -> list[AbstractPathEffect]:
+def new_figure(size: tuple[float, float]) -> Figure:
+    """Empty figure of a width and height [inches], with the colours of the style that is in use."""
+    tones = _LOOKS[_style.get()].tones
+    figure = toned_figure(tones, size) if tones else Figure(figsize=size)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def outlined(width: float, colour: str = WHITE) -> list[AbstractPathEffect]:
     """Edge of a line or text [pt], which keeps it visible on any colour."""
-    return [cast("AbstractPathEffect", withStroke(linewidth=width, foreground=colour))]
+    return [cast("AbstractPathEffect", Outline(width, colour))]
+
+
+def text_colour(colour: str) -> str:
+    """Shade of a colour of a line in which its name can be read in the style that is in use."""
+    tones = _LOOKS[_style.get()].tones
+    return legible(tones.get(colour, colour), tones.get(WHITE, WHITE))
 
 
 def note(
@@ -164,9 +180,11 @@ def note(
     *,
     data_axis: str = "",
     fontsize: float | str = "small",
+    color: str = BLACK,
     **look: Any,
 ) -> None:
     """Write a small text at a place in parts of the axes; along ``data_axis``, "x" or "y", in data units."""
+    look["color"] = text_colour(color)
     places = {"": ax.transAxes, "x": ax.get_xaxis_transform(), "y": ax.get_yaxis_transform()}
     ax.text(x, y, text, transform=places[data_axis], fontsize=fontsize, **look)
 
@@ -223,8 +241,8 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
             return
         others = []
     room = _FULL * 72.0 * figure.get_figwidth()
-    finding = broken(first, _FINDING, room)
-    below = [part for line in others for part in broken(line, _BELOW, room)]
+    finding = _even(first, _FINDING, room)
+    below = [part for line in others for part in _even(line, _BELOW, room)]
     how: dict[str, Any] = {} if converged else NOT_CONVERGED
     # Empty lines keep the room for the smaller ones, which are drawn beside them.
     lines = "\n".join([*finding, *(" " for _ in below)])
@@ -261,6 +279,16 @@ def broken(line: str, size: float, room: float, *, math: bool = False) -> list[s
             parts.append(word)
         else:
             parts[-1] = longer
+    return parts
+
+
+def _even(line: str, size: float, room: float) -> list[str]:
+    """Parts of a line as ``broken`` makes them, but of about the same length: no word stands alone."""
+    parts = broken(line, size, room)
+    for narrower in np.linspace(room, 0.5 * room, 26):
+        if len(other := broken(line, size, float(narrower))) > len(parts):
+            break
+        parts = other
     return parts
 
 
@@ -335,20 +363,23 @@ def legend_above(
 ) -> None:
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
-    ``handles``, artists in the legend, those of a tuple drawn over each other; all that have a label if
-    omitted; ``columns``, columns of the legend; fewer where the page is too narrow for them, and a figure of
-    a journal is then higher by the rows more; ``lift``, height of the legend above the axes [pt], which
-    leaves room for an axis on top of them.
+    ``handles``, artists in the legend, those of a tuple drawn over each other with the label of the last; all
+    that have a label if omitted; ``columns``, columns of the legend; fewer where the page is too narrow for
+    them, and a figure of a journal is then higher by the rows more; ``lift``, height of the legend above the
+    axes [pt], which leaves room for an axis on top of them.
     """
     entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
-    labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
+    # Bars and lines with error bars are subclasses of tuple with labels of their own.
+    named = [entry[-1] if type(entry) is tuple else entry for entry in entries]
+    labels = options.pop("labels", None) or [str(entry.get_label()) for entry in named]
     figure, size = figure_of(ax), _size_of("legend.fontsize")
     fitting = _fitting(labels, columns, 72.0 * figure.get_figwidth() / _side_by_side(ax) - _LEFT)
     more = math.ceil(len(labels) / fitting) - math.ceil(len(labels) / columns)
     if _LOOKS[_style.get()].columns is not None:
         figure.set_figheight(figure.get_figheight() + more * _ROW * size / 72.0)
     legend = ax.legend(
-        handles=entries,
+        entries,
+        labels,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
         bbox_transform=offset_copy(ax.transAxes, figure, y=lift, units="points"),
@@ -396,8 +427,14 @@ def _side_by_side(ax: Axes) -> int:
 
 COLOURS = colormaps["viridis"]
 
-# For lines and dots on white: the lightest colours are left out, they can hardly be seen there.
-DARK_COLOURS = ListedColormap(COLOURS(np.linspace(0.0, 0.85, 256)))
+
+def line_colours() -> ListedColormap:
+    """Colours of lines and dots: without the lightest ones, which can hardly be seen on white, or on a dark
+    page without the darkest ones.
+    """
+    ends = (0.38, 1.0) if _LOOKS[_style.get()].tones else (0.0, 0.85)
+    return ListedColormap(COLOURS(np.linspace(*ends, 256)))
+
 
 # An axis has a tick at each value where there are at most so many, each of at most so many characters.
 _FEW_VALUES, _SHORT = 8, 4

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from ehlectric.figures.style import axes_or_new, figure_of, new_panels, save_figure, style
+from ehlectric.figures.style import axes_or_new, figure_of, fitted_label, new_panels, save_figure, style
 from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
 from ehlectric.surfaces.maps import Map
@@ -19,8 +19,8 @@ from ehlectric.surfaces.profiles import Profile, rms, statistics
 _BEYOND = 0.1
 
 
-def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title."""
+def profile(drawn: Profile, ax: Axes | None = None, name: str = "") -> Axes:
+    """Draw the heights of a profile about their mean, with its name, Rq, Ra, Rsk and Rku in the title."""
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)
@@ -28,8 +28,10 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
     ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
     s = statistics(drawn)
     scale, prefixed = unit_for(s.rq, "m", least=1.0)
-    amplitudes = f"Rq {scale * s.rq:.3g} {prefixed}, Ra {scale * s.ra:.3g} {prefixed}"
-    ax.set_title(f"{amplitudes}, Rsk {s.rsk:.2f}, Rku {s.rku:.1f}".replace("-", "−"), loc="right")
+    sizes = [f"Rq {scale * s.rq:.3g} {prefixed}", f"Ra {scale * s.ra:.3g} {prefixed}"]
+    shape = [f"Rsk {s.rsk:.2f}".replace("-", "−"), f"Rku {s.rku:.1f}"]
+    values = ", ".join(value.replace(" ", "\u00a0") for value in (*sizes, *shape))
+    ax.set_title(fitted_label(ax, f"{name}: {values}" if name else values, along=True), loc="left")
     ax.set(xlabel=f"$x$ [{length}]", ylabel=f"height [{unit}]")
     ax.set_xlim(along * drawn.x[0], along * drawn.x[-1])
     return ax
@@ -78,6 +80,9 @@ def save_surface(
             # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
             figure_of(panels[0]).set_layout_engine("compressed")
         for ax, (name, step) in zip(panels, first_and_last, strict=True):
-            drawn = height_map(step, ax) if isinstance(step, Map) else profile(step, ax)
-            drawn.set_title(name if step is steps[0][1] else "after the last step", loc="left")
+            title = name if step is steps[0][1] else "after the last step"
+            if isinstance(step, Map):
+                height_map(step, ax).set_title(title, loc="left")
+            else:
+                profile(step, ax, title)
         return save_figure(figure_of(panels[0]), path, formats)

@@ -24,9 +24,11 @@ from ehlectric.figures.style import (
     figure_of,
     legend_above,
     new_panels,
+    outlined,
     save_each,
     save_figure,
     style,
+    text_colour,
 )
 from ehlectric.figures.sweep_lines import LinePath, joined, lines_of, value_lines
 from ehlectric.figures.sweep_maps import value_map
@@ -217,9 +219,11 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         none = (np.abs(middle) < _ZERO) | ((ends[0] <= 0.0) & (ends[1] >= 0.0))
         drawn = ~none | (np.max(np.abs([middle, *ends]), axis=0) > _NOTHING)
         look: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 0.9, "capsize": 2.5}
-        ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        bars = ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        for part in (*bars.lines[1], *bars.lines[2]):
+            part.set_path_effects(outlined(2.4))
         for row in np.flatnonzero(~drawn):
-            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=colour)
+            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=text_colour(colour))
     ax.axvline(0.0, color="black", lw=0.7)
     ax.set_yticks(rows, labels=[label_of(i.key, results.case).name for i in ordered])
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))

@@ -18,7 +18,6 @@ from ehlectric.arrays import Array, IntArray
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.figure_names import literal
 from ehlectric.figures.style import (
-    DARK_COLOURS,
     axes_or_new,
     broken,
     by_logarithm,
@@ -26,6 +25,7 @@ from ehlectric.figures.style import (
     figure_of,
     legend_above,
     levels_of,
+    line_colours,
     norm_of,
     round_numbers,
     scale_axis,
@@ -110,9 +110,8 @@ def lines_of(selection: Slice, *, log: bool) -> list[SeriesLine]:
     else:
         values = np.array([value for value, _ in series])
         places = np.asarray(colours_between(values, log=log)(values))
-    return [
-        SeriesLine(value, n, DARK_COLOURS(place)) for (value, n), place in zip(series, places, strict=True)
-    ]
+    colours = line_colours()
+    return [SeriesLine(value, n, colours(place)) for (value, n), place in zip(series, places, strict=True)]
 
 
 def joined(selection: Slice, lines: list[SeriesLine]) -> bool:
@@ -314,7 +313,7 @@ def _name_lines(
         scaled = scale.of(numbers)
         levels = round_numbers(scaled.min(), scaled.max()) if log else levels_of(scaled, log=False)
         inside = levels[(levels >= scaled.min()) & (levels <= scaled.max())]
-        colour_bar(ax, colours_between(scaled, log=log), label.axis(scale), inside, DARK_COLOURS)
+        colour_bar(ax, colours_between(scaled, log=log), label.axis(scale), inside, line_colours())
         return
     handles = [
         Line2D([], [], color=line.colour, marker="o", ms=3.5, label=_line_name(line.value, scale))

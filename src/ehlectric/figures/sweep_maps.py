@@ -46,7 +46,7 @@ from ehlectric.figures.sweep_points import (
     voltage_text,
 )
 from ehlectric.quantities.formats import Scale
-from ehlectric.quantities.palette import GREY, ORANGE
+from ehlectric.quantities.palette import GREY, ON_MAP, ORANGE
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice, Surface, applied_at, spaced_log, surface_of, take
 
@@ -200,7 +200,9 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=colours)
         # Nothing is beyond the first and the last level: a line there would follow the edge of a plateau.
         inner = levels[1:-1] if levels.size > 2 else levels
-        lines = ax.tricontour(*drawn, levels=inner, colors="white", linewidths=0.4, linestyles="-")
+        if selection.of_discharge and np.array_equal(selection.values, selection.margin, equal_nan=True):
+            inner = inner[inner != 1.0]  # the line of breakdown has a name already
+        lines = ax.tricontour(*drawn, levels=inner, colors=ON_MAP, linewidths=0.4, linestyles="-")
         entries, taken = _breakdown(between, ax)
         handles += entries
         label_lines(ax, lines, taken, [f"{level:.6g}" for level in inner], **ON_COLOURS)

@@ -27,7 +27,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.errors import CODES
 from ehlectric.figures.style import figure_of, name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
-from ehlectric.quantities.palette import BLUE, GREY, ORANGE
+from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
 from ehlectric.sweep.axis_labels import Label, label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice
@@ -39,8 +39,8 @@ ON_BOX: dict[str, Any] = {
     "zorder": 6.0,
 }
 ON_COLOURS: dict[str, Any] = {
-    "color": "white",
-    "path_effects": outlined(1.6, "#222222"),
+    "color": ON_MAP,
+    "path_effects": outlined(1.6, MAP_EDGE),
     "zorder": 4.5,
 }
 

@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact.result import Result
 from ehlectric.figures import line_figures as plot
-from ehlectric.figures.style import figure_of, new_panels
+from ehlectric.figures.style import figure_of, new_panels, outlined
 from ehlectric.paper.paper_contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
-from ehlectric.quantities.palette import AMBER, BLUE, BODY, GREEN, OIL, PURPLE
+from ehlectric.quantities.palette import AMBER, BLUE, BODY, GREEN, OCHRE, OIL, PURPLE
 from ehlectric.quantities.units import unit_for
 
 _INK = "black"
@@ -95,10 +95,10 @@ def field_model() -> Figure:
     half = _gap(x)
     ax.fill_between(x, -half, half, color=OIL, lw=0.0)
     for level in np.linspace(-1.0, 1.0, 9)[1:-1]:
-        ax.plot(x, level * half, color="#b08800", lw=0.5)
+        ax.plot(x, level * half, color=OCHRE, lw=0.5)
     for column in np.linspace(-1.25, 1.25, 26):
         reach = float(_gap(np.array([column]))[0])
-        ax.plot([column, column], [-reach, reach], color="#b08800", lw=0.5)
+        ax.plot([column, column], [-reach, reach], color=OCHRE, lw=0.5)
     for sign, k, volts in ((-1.0, 1, "−1"), (1.0, 2, "+1")):
         ax.fill_between(x, sign * half, sign * 0.62, color=BODY, lw=0.0)
         ax.plot(x, sign * half, color=_INK, lw=1.2)
@@ -143,7 +143,7 @@ _AROUND = 0.9
 _COINCIDE = 1e-6
 
 # Look of the straight-line reading of mid-film, drawn over the curves of s = 1/2.
-_STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
+_STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4)), "path_effects": outlined(1.2)}
 
 
 @dataclass(frozen=True)

@@ -175,8 +175,8 @@ class Shown(Tabled, Values):
             Name of the figure, with or without ".png", such as "field_map". By default the figure that tells
             most about a result of this kind. ``ehlectric.figure_names`` lists the names.
         **options
-            ``style``, "screen" or "journal"; and of the figures of a sweep ``x``, ``y``, ``value`` and
-            ``at``, see ``ehlectric.figures.sweep_figures.figure``.
+            ``style``, "screen", "journal" or "dark"; and of the figures of a sweep ``x``, ``y``, ``value``
+            and ``at``, see ``ehlectric.figures.sweep_figures.figure``.
 
         Returns
         -------

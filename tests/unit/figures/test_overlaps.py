@@ -1,4 +1,6 @@
-"""In no figure of any style does a text lie over another one, over a legend or a frame, or off the page."""
+"""In no figure of any style does a text lie over another one, over a legend or a frame, or off the page, and
+each has a contrast of at least 4.5 with what lies behind it.
+"""
 
 import numpy as np
 import pytest
@@ -29,6 +31,7 @@ from ehlectric.surfaces.profiles import Profile
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.store import read_sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.contrasts import faint_texts
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 from tests.helpers.overlaps import overlaps
@@ -46,23 +49,30 @@ def bearing(file, **changes):
     return solve_bearing(case.replace({"contacts": "formula"} | changes))
 
 
+def flaws(figure):
+    """Texts that are hard to read, and things that lie over each other. Texts lose their outlines as they are
+    measured.
+    """
+    return [*faint_texts(figure), *overlaps(figure)]
+
+
 def drawn(names, draw, styles=STYLES):
-    """What overlaps in figures of some names, by name and style; empty where nothing does."""
+    """Flaws of figures of some names, by name and style; empty where there is none."""
     found = {}
     for name in names:
         for look in styles:
             with style(look):
-                if lines := overlaps(draw(name)):
+                if lines := flaws(draw(name)):
                     found[f"{name}, {look}"] = lines
     return found
 
 
 def of_result(result, names=None):
-    """What overlaps in the figures of a result; the style of the context is theirs."""
+    """Flaws of the figures of a result, by name and style."""
     found = {}
     for look in STYLES:
         for name in names or figure_names(result):
-            if lines := overlaps(figure(result, name, style=look)):
+            if lines := flaws(figure(result, name, style=look)):
                 found[f"{name}, {look}"] = lines
     return found
 
@@ -165,13 +175,15 @@ def test_surfaces(monkeypatch, tmp_path):
         surface_figures.save_surface([("as read", surfaces[name]), ("form: line", surfaces[name])], tmp_path)
         return kept.pop()
 
-    assert drawn(surfaces, draw, ["screen"]) == {}
+    assert drawn(surfaces, draw) == {}
 
 
 @pytest.mark.slow
 def test_frames_of_animations():
     runs = {"line": (line_frames, by_hand()), "point": (map_frames, by_hand(contact=MOVING_BALL))}
-    assert drawn(runs, lambda name: runs[name][0](MotionRun.of(runs[name][1])).figure, ["screen"]) == {}
+    assert (
+        drawn(runs, lambda name: runs[name][0](MotionRun.of(runs[name][1])).figure, ["screen", "dark"]) == {}
+    )
     for _, run in runs.values():
         assert of_result(run) == {}
 
@@ -224,6 +236,7 @@ def two_narrow_panels(ax):
         (lambda ax: ax.set_xlabel("label " * 20), ["is out of the figure"]),
         (lambda ax: ax.legend(loc="lower left", bbox_to_anchor=(1.0, 0.0)), ["out of the figure"]),
         (two_narrow_panels, ["is a sliver"]),
+        (lambda ax: legend_above(ax, labels=["_nolegend_"]), ["'_nolegend_' is no name for a reader"]),
     ],
 )
 def test_what_overlaps_is_found(spoil, told):

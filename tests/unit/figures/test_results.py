@@ -24,6 +24,7 @@ from ehlectric.figures.result_figures import draw_figures, figure_names
 from ehlectric.figures.style import name_over, new_panels, style
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.palette import RED
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.moving_cases import moving
@@ -264,13 +265,13 @@ def test_an_unconverged_figure_says_so_in_a_journal_too():
         ax = new_panels(1, 1, (6.3, 3.4))[0]
         name_over(ax, "NOT CONVERGED\nBy hand", converged=False)
     assert title_of(ax.figure) == ["NOT CONVERGED"]
-    assert ax.figure._suptitle.get_color() == "red"
+    assert ax.figure._suptitle.get_color() == RED
 
 
 def test_unknown_formats_and_styles_are_refused(line, tmp_path):
     with pytest.raises(InputError, match=r"^format: .*'jpg'.* png, svg, pdf$"):
         save_figures(line, tmp_path, ("jpg",))
-    with pytest.raises(InputError, match=r"^style: .*'book'.* screen, journal$"):
+    with pytest.raises(InputError, match=r"^style: .*'book'.* screen, journal, dark$"):
         save_figures(line, tmp_path, style="book")
     assert not list(tmp_path.iterdir())
 

@@ -38,8 +38,8 @@ def test_steps_are_saved(tmp_path, heights):
 
 def test_a_negative_skewness_has_a_minus_sign():
     heights = -np.abs(HEIGHTS[:, 0])
-    title = profile(Profile(1e-6, heights)).get_title(loc="right")
-    assert "Rsk −" in title
+    title = profile(Profile(1e-6, heights)).get_title(loc="left")
+    assert "Rsk\u00a0−" in title
     assert "-" not in title
 
 

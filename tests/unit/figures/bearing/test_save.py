@@ -31,7 +31,7 @@ from ehlectric.figures.bearing_figure_files import (
     speed_figure,
 )
 from ehlectric.figures.figure_names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
-from ehlectric.quantities.palette import BLACK, BLUE
+from ehlectric.quantities.palette import BLACK, BLUE, RED
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -337,7 +337,7 @@ def test_the_margin_over_the_speed_has_its_band_and_the_bearing_itself():
     least = max(0.5 * band.median.min(where=band.median > 0.0, initial=1.0), 0.05)
     shown = np.where(band.median > least, band.median, np.nan)
     np.testing.assert_allclose(median, np.stack([band.speed * RPM, shown], axis=-1))
-    ends = ax.collections[0].get_paths()[0].vertices[:, 1]
+    ends = np.concatenate([band.get_paths()[0].vertices[:, 1] for band in ax.collections[:2]])
     least = max(band.low.min(), least)
     assert (ends.min(), ends.max()) == pytest.approx((least, band.high.max()), rel=1e-6)
     # Round numbers are at most a factor of 2.5 apart: ticks reach as far as the band.
@@ -475,7 +475,7 @@ def test_a_bearing_that_did_not_converge_says_so(result):
     for name in bearing_figures_of(found):
         drawn = figure(found, name)
         assert title_of(drawn)[0] == "NOT CONVERGED"
-        assert drawn._suptitle.get_color() == "red"
+        assert drawn._suptitle.get_color() == RED
 
 
 @pytest.mark.parametrize("draw", OVER_SPEED)

@@ -22,7 +22,7 @@ from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
 from ehlectric.figures.motion_figures import beside_stationary, history, maps
 from ehlectric.figures.motion_panels import speed_text
 from ehlectric.motion.stored_run import MotionRun, intervals_above
-from ehlectric.quantities.palette import OUT_OF_RANGE
+from ehlectric.quantities.palette import OUT_OF_RANGE, RED
 from tests.helpers.each import each
 from tests.helpers.titles import title_of
 
@@ -152,7 +152,7 @@ def test_steps_and_instants_without_a_time_are_left_out():
     assert (run.dataset.sizes["step"], run.frames) == (150, 30)
     over = history(run).get_figure()._suptitle
     assert over.get_text().startswith("NOT COMPLETE, ends at ")
-    assert over.get_color() == "red"
+    assert over.get_color() == RED
 
 
 def test_time_above_a_level_is_that_of_a_sine():
