@@ -29,6 +29,14 @@ def complete(page):
     page.get_by_role("button", name="About Radial load").wait_for(state="attached")
 
 
+def drawn(page):
+    """Wait until all figures of a page are drawn, and two frames more."""
+    page.wait_for_function(
+        "() => [...document.querySelectorAll('.js-plotly-plot')].every(one => one._fullLayout)"
+    )
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
 def wait_for_address(page, text):
     """Wait until the address of a page has a text: then the server has taken over the inputs."""
     page.wait_for_function(

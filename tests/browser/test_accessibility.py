@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from tests.browser.driving import complete, field, number, type_into, wait_for_address
+from tests.browser.driving import complete, drawn, field, number, type_into, wait_for_address
 from tests.browser.test_screenshots import PAGES
 from tests.helpers.processes import wait_until
 
@@ -204,8 +204,7 @@ def test_nothing_jumps_when_numbers_arrive(open_page, app_server, path, slider, 
 
     def settled():
         page.locator("[data-testid=answer][aria-busy=false]:not([data-whole=false])").wait_for()
-        page.wait_for_load_state("networkidle")
-        page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        drawn(page)
         shifts = page.evaluate("() => window.shifts.splice(0)")
         assert sum(one["value"] for one in shifts) <= _MOST_SHIFT, shifts
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from tests.browser.driving import complete, seen, wait_for_number
+from tests.browser.driving import complete, drawn, seen, wait_for_number
 from tests.browser.outputs import address_of, downloaded, fits
 from tests.browser.test_contact_page import wait_until_solved
 from tests.browser.test_drive import AT_PEAK, short, simulate
@@ -77,10 +77,7 @@ def take(page, path):
     """Write a picture of a page that is small enough for a repository."""
     # Figures are drawn in the frames after their numbers.
     page.wait_for_load_state("networkidle")
-    page.wait_for_function(
-        "() => [...document.querySelectorAll('.js-plotly-plot')].every(one => one._fullLayout)"
-    )
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    drawn(page)
     page.evaluate("document.activeElement.blur(); window.scrollTo(0, 0)")
     page.screenshot(path=path, full_page=True, animations="disabled")
     with Image.open(path) as taken:
