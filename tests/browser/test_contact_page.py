@@ -303,7 +303,7 @@ def test_page_begins_with_a_bound_and_without_a_list_of_other_inputs(open_page, 
     wait_until_solved(page)
     strip = page.get_by_test_id("strip").inner_text()
     assert "≤" in strip
-    assert "Breakdown voltage ≤" in strip
+    assert "Margin ≤" in strip
     others = page.get_by_test_id("other-inputs")
     assert re.search(r"Other inputs of the file \(\d+\)", others.inner_text())
     assert not others.get_by_role("button", name="Remove grid.wedge").is_visible()

@@ -169,12 +169,12 @@ def beside_limits(density: float) -> str:
     Examples
     --------
     >>> beside_limits(0.364e6)
-    'above 2 of the published limits for bearings, 0.1, 0.3 and 0.8 A/mm²'
+    'above 2 of the 3 published limits for bearings (0.1, 0.3 and 0.8 A/mm²)'
     """
     *first, last = (f"{1e-6 * limit:g}" for limit in CURRENT_DENSITY_LIMITS)
-    above = sum(density > limit for limit in CURRENT_DENSITY_LIMITS)
-    part = "all" if above == len(CURRENT_DENSITY_LIMITS) else str(above) if above else "none"
-    return f"above {part} of the published limits for bearings, {', '.join(first)} and {last} A/mm²"
+    above, count = sum(density > limit for limit in CURRENT_DENSITY_LIMITS), len(CURRENT_DENSITY_LIMITS)
+    part = f"{above or 'none'} of the {count}"
+    return f"above {part} published limits for bearings ({', '.join(first)} and {last} A/mm²)"
 
 
 @dataclass(frozen=True)

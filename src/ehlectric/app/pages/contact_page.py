@@ -188,13 +188,12 @@ class ContactPage(AnswerPage[ContactAnswer]):
     kind = "contact"
     short = (
         *(
-            "film.minimum_thickness",
-            "discharge.breakdown_voltage",
+            "discharge.margin",
+            "breakdown_by_formula.margin",
             "asperities.behaviour",
-            "asperities.breakdown_5",
+            "film.minimum_thickness",
         ),
         *(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS),
-        "breakdown_by_formula.breakdown_voltage",
     )
     quick, solved = CONTACT_QUICK, CONTACT_SOLVED
 
