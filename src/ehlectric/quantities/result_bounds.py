@@ -67,12 +67,16 @@ def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     The capacitance of ceramic elements is one, too, so that the voltages that it divides are lower bounds.
     The numbers of a remedy, whose summary has no inputs, have none.
     """
-    inputs = summary.get("inputs", {})
-    ends = (inputs[end]["bearing"] for end in ("drive_end", "non_drive_end") if end in inputs)
-    ideal = any(_isothermal(end) or _smooth(end) for end in ends) or _parting(summary)
-    ceramic = "capacitance-bound" in summary.get("warning_codes", ())
-    every = ceramic and all(value_at(summary, f"{end}.breakdown_voltage") is None for end in ENDS)
-    divided = dict.fromkeys(_DIVIDED, ceramic) | {"capacitance": every}
+    inputs = {
+        end: summary.get("inputs", {})[end]["bearing"] for end in ENDS if end in summary.get("inputs", {})
+    }
+    ideal = any(_isothermal(end) or _smooth(end) for end in inputs.values()) or _parting(summary)
+    # Ceramic elements do not break down.
+    unknown = [
+        value_at(summary, f"{end}.breakdown_voltage") is None and bearing.get("element_capacitance") is None
+        for end, bearing in inputs.items()
+    ]
+    divided = dict.fromkeys(_DIVIDED, any(unknown)) | {"capacitance": bool(unknown) and all(unknown)}
     return _holding(book, lambda key: divided.get(key.rpartition(".")[2], ideal))
 
 

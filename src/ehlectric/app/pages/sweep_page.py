@@ -301,7 +301,10 @@ _RUNNING = Judged("grey", "Points are being solved", "The verdict follows with t
 
 
 # Words above a map that is not that of the present inputs.
-_OLD = "The inputs have changed, or another result needs further numbers: Run computes them. This is the map before."
+_OLD = (
+    "The inputs have changed, or the result to show needs further numbers: Run computes them. This is the "
+    "map of the ones before."
+)
 
 
 class MapPart:
