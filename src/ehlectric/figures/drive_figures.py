@@ -139,7 +139,7 @@ def remedies(result: DriveResult) -> str:
         return f"No remedy lowers the {number_text(now)} discharges a second of both bearings"
     names = " and ".join(textwrap.shorten(name, 40, placeholder=" ...") for name in best[:3])
     if not least:
-        return f"No discharge with {names}; {number_text(now)} a second as it is"
+        return f"No discharge with {names}; {number_text(now)} a second in both bearings as it is"
     left = "leaves" if len(best) == 1 else "leave"
     return f"{names} {left} {number_text(least)} of the {number_text(now)} discharges a second"
 

@@ -164,7 +164,13 @@ def _contacts_open(curves: Curves) -> Iterator[Area]:
     touching = float(touching_ratio(curves.summit_height))
     for low, high, name, colour, opacity in (
         (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
-        (CONDUCTING, touching, f"λ from 1 to {touching:g}: touching at times, no voltage", AMBER, 0.22),
+        (
+            CONDUCTING,
+            touching,
+            f"λ from 1 to {touching:g}: touching at times, not computed",
+            AMBER,
+            0.22,
+        ),
         (touching, PARTIAL, f"λ from {touching:g} to 3: contacts at times", MIDDLE_GREY, 0.15),
     ):
         within = (ratio >= low) & (ratio < high)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Bound, Keys
 from ehlectric.quantities.rows import Summary, value_at
 
@@ -63,12 +64,24 @@ def moving_bounds(book: Keys) -> dict[str, Bound]:
 def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a drive, by dotted key, where the films of a bearing are upper bounds.
 
+    The capacitance of ceramic elements is one, too, so that the voltages that it divides are lower bounds.
     The numbers of a remedy, whose summary has no inputs, have none.
     """
-    inputs = summary.get("inputs", {})
-    ends = (inputs[end]["bearing"] for end in ("drive_end", "non_drive_end") if end in inputs)
-    ideal = any(_isothermal(end) or _smooth(end) for end in ends) or _parting(summary)
-    return _holding(book, lambda _: ideal)
+    inputs = {
+        end: summary.get("inputs", {})[end]["bearing"] for end in ENDS if end in summary.get("inputs", {})
+    }
+    ideal = any(_isothermal(end) or _smooth(end) for end in inputs.values()) or _parting(summary)
+    # Ceramic elements do not break down.
+    unknown = [
+        value_at(summary, f"{end}.breakdown_voltage") is None and bearing.get("element_capacitance") is None
+        for end, bearing in inputs.items()
+    ]
+    divided = dict.fromkeys(_DIVIDED, any(unknown)) | {"capacitance": bool(unknown) and all(unknown)}
+    return _holding(book, lambda key: divided.get(key.rpartition(".")[2], ideal))
+
+
+# Voltages of a drive that the capacitance of its bearings divides.
+_DIVIDED = ("voltage_at_peak", "voltage_ratio", "peak_voltage", "rms_voltage")
 
 
 def _holding(book: Keys, holds: Callable[[str], bool]) -> dict[str, Bound]:

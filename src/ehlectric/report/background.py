@@ -302,8 +302,7 @@ def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
     ]
     groups = groupby(given, key=lambda one: end_and_key(one.key)[0])
     return "; ".join(
-        (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, one) for one in group)
-        for end, group in groups
+        (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, [*group])) for end, group in groups
     )
 
 
@@ -313,11 +312,16 @@ def _is_used(case: SweptCase, key: str) -> bool:
     return not (replaced_by(case, key) or (end and own.startswith(("motor.", "duty."))))
 
 
-def _given(case: SweptCase, one: Input) -> str:
-    key = end_and_key(one.key)[1]
-    # The folder of a file is that of one machine.
-    value = Path(one.value).name if key.endswith(".file") else input_text(case, one.key, one.value)
-    return f"{named(key).text} =\xa0{value}"
+def _given(case: SweptCase, inputs: Sequence[Input]) -> Iterator[str]:
+    """Names and values of inputs of one machine part."""
+    own = any("lubricant.viscosity" in one.key for one in inputs)
+    for one in inputs:
+        key = end_and_key(one.key)[1]
+        # The folder of a file is that of one machine.
+        value = Path(one.value).name if key.endswith(".file") else input_text(case, one.key, one.value)
+        if key == "lubricant.base" and own:
+            value = f"from a data sheet, with what that lacks from {value} of the library"
+        yield f"{named(key).text} =\xa0{value}"
 
 
 def _sources(inputs: Iterable[Input]) -> list[Source]:

@@ -323,5 +323,18 @@ def test_ceramic_elements_have_their_voltage_in_the_drive_and_no_card_without_a_
     ceramic = {"bearing.element_material": "silicon-nitride", "bearing.element_capacitance": "5 pF"}
     changes = {f"drive_end.{key}": value for key, value in ceramic.items()} | {"remedies": None}
     answer = quick_answer(DRIVE.changed(changes).table)
-    assert answer.number(answer.deciding.key).text == f"{280.0 * 50.0 / (550.0 + 2.0 * 45.0):.3g}"
+    number = answer.number(answer.deciding.key)
+    assert (number.text, number.bound) == (f"{280.0 * 50.0 / (550.0 + 2.0 * 45.0):.3g}", "")
     assert all(one.known for one in answer.shown)
+    assert "No current" in answer.judged.meaning
+
+
+def test_voltages_of_ceramic_elements_without_their_capacitance_are_lower_bounds():
+    """Their capacitance is an upper bound then, and divides the voltage of the source."""
+    ceramic = {"drive_end.bearing.element_material": "silicon-nitride", "remedies": None}
+    answer = quick_answer(DRIVE.changed(ceramic).table)
+    bounds = {one.key: one.bound for one in answer.shown}
+    assert (bounds["end.voltage_at_peak"], bounds["end.voltage_ratio"]) == ("≥", "≥")
+    assert bounds["end.capacitance"] == "≤"
+    steel = {one.key: one.bound for one in quick_answer(DRIVE.table).shown}
+    assert (steel["end.voltage_at_peak"], steel["end.capacitance"]) == ("", "")

@@ -8,6 +8,7 @@ from ehlectric.app.compute import sweep_answers
 from ehlectric.app.page_inputs import Inputs, Range, case_of_link, with_ranges
 from ehlectric.app.pages.frame import DRIVE
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.report.drive_report import swept_verdict
 from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.store import read_sweep
 
@@ -74,6 +75,15 @@ def test_every_offered_result_has_a_value(folder):
         assert view is not None
         assert len(view.chart.points) == 4
     assert results.values("drive_end.peak_voltage").min() > 0.0
+
+
+@pytest.mark.slow
+def test_the_verdict_is_that_of_the_report(folder):
+    view = sweep_answers.seen(folder, "drive.events_per_second", TABLE)
+    verdict = swept_verdict(read_sweep(folder))
+    assert view.judged.level == verdict.level
+    assert verdict.text.startswith(view.judged.lead)
+    assert view.number is None
 
 
 @pytest.mark.slow

@@ -127,6 +127,8 @@ def test_a_refused_point_has_its_reason_and_no_number(folder):
     assert ["elements" in refused[0].texts[-1], "bore" in refused[1].texts[-1]] == [True, True]
     marked = [trace for trace in view.figure["data"] if trace.get("name") == "refused or failed"]
     assert marked[0]["customdata"] == [point.number for point in refused] == [1, 2, 3]
+    told = " ".join(one.text for one in view.warnings if "no result" in one.text)
+    assert ["elements" in told, "bore" in told] == [True, True]
     (coloured,) = (trace for trace in view.figure["data"] if trace.get("colorscale") == "Viridis")
     assert sum(value is None for row in coloured["z"] for value in row) == 3
 

@@ -54,10 +54,15 @@ def reported(summary):
     return {row[0]: row for table in tables for row in table.rows}
 
 
+# Capacitance, and voltages that it divides: bounds with ceramic elements, and none in ideal films alone.
+DIVIDED = ("capacitance", "voltage_ratio", "voltage_at_peak", "peak_voltage", "rms_voltage")
+
+
 def test_rows_are_those_of_the_book(summary):
     for key, row in rows_by_key(drive_rows(summary)).items():
         about = DRIVE_BOOK[of_book(key)]
-        assert (row.name, row.bound) == (about.label, about.bound), key
+        bound = "" if key.rpartition(".")[2] in DIVIDED else about.bound
+        assert (row.name, row.bound) == (about.label, bound), key
         if not isinstance(row.value, str):
             assert (row.unit, row.digits) == (shown_unit(about, row.value), about.digits), key
 

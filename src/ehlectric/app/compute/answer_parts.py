@@ -192,8 +192,10 @@ def sentences_of(text: str) -> list[str]:
     --------
     >>> sentences_of("No breakdown expected: margin 1.44. Upper bound: smooth film.")
     ['No breakdown expected: margin 1.44.', 'Upper bound: smooth film.']
+    >>> sentences_of("The margin is 0.5 to 2.00. 16 more points have no margin.")
+    ['The margin is 0.5 to 2.00.', '16 more points have no margin.']
     """
-    return re.split(r"(?<=[.!?]) (?=[A-Z])", text)
+    return re.split(r"(?<=[.!?]) (?=[A-Z]|\d+ more )", text)
 
 
 def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:

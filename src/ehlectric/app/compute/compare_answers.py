@@ -63,7 +63,9 @@ def _contact(case: Case) -> Side:
     verdict = contact_answers.verdict_by_formula(
         case, meaning.summary.get("breakdown_by_formula"), meaning.warnings
     )
-    decides = contact_answers.deciding(contact_answers.deciding_by_formula(case, verdict), verdict)
+    decides = contact_answers.deciding(
+        contact_answers.deciding_by_formula(case, verdict), verdict, case.electric.voltage
+    )
     return Side(
         kind="contact",
         title=case.title,
@@ -78,7 +80,7 @@ def _contact(case: Case) -> Side:
 
 def _number(rows: Iterable[Row], key: str) -> Number | None:
     """Number of a key; None where no row has it."""
-    return next((card(row) for row in rows if row.key == key), None)
+    return next((card(row) for row in rows if key and row.key == key), None)
 
 
 # Voltages of a bearing that are compared over its speed.

@@ -92,7 +92,7 @@ def by_formula(case: Case) -> ContactAnswer:
         judged=judged(verdict),
         how=_TEXTS["moving" if moving else "by_formula"],
         shown=with_warnings(cards(meaning.rows, keys), told),
-        deciding=deciding(deciding_by_formula(case, verdict), verdict),
+        deciding=deciding(deciding_by_formula(case, verdict), verdict, case.electric.voltage),
         lines=lines_of(meaning.rows),
         warnings=told,
         solvable=not moving,
@@ -186,7 +186,12 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
         judged=judged(verdict),
         how="Solved." if result.converged else "Not converged.",
         shown=with_warnings(shown, told),
-        deciding=deciding("discharge.margin" if verdict.interval else known, verdict, next(iter(drawn), "")),
+        deciding=deciding(
+            "discharge.margin" if verdict.interval else known,
+            verdict,
+            result.case.electric.voltage,
+            next(iter(drawn), ""),
+        ),
         lines=lines_of(rows),
         warnings=told,
         figures=drawn,
@@ -225,10 +230,15 @@ def deciding_by_formula(case: Case, verdict: Verdict) -> str:
 _SAID = ("Applied voltage ", "By formula the film ", "breakdown-expected")
 
 
-def deciding(key: str, verdict: Verdict, figure: str = "") -> Deciding:
-    """Number of a key, the margin where the verdict has one, with the interval of a margin."""
+def deciding(key: str, verdict: Verdict, voltage: float, figure: str = "") -> Deciding:
+    """Number of a key, the margin where the verdict has one, with the voltage [V] and the interval of a
+    margin: its film may be off, and the strength may differ by 20 %.
+    """
     if verdict.margin is None or verdict.interval is None:
         return Deciding(key, figure=figure)
-    facts = (("margin within what is uncertain", " to ".join(map(ratio_text, verdict.interval))),)
+    facts = (
+        ("applied voltage", f"{voltage:.3g} V"),
+        ("of this film, within its errors", " to ".join(map(ratio_text, verdict.interval))),
+    )
     gauge = Gauge(gauge_text(verdict.margin, facts), verdict.margin, verdict.interval)
     return Deciding(key, facts, gauge, figure, _SAID)

@@ -177,7 +177,8 @@ def judged_before(verdict: Verdict) -> Judged:
     >>> parts.lead, parts.numbers, parts.reasons
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
-    meaning = TEXTS["meanings"]["drive_before"][verdict.level]
+    insulated = verdict.level == "green" and verdict.margin is None
+    meaning = TEXTS["meanings"]["drive_before"]["ceramic" if insulated else verdict.level]
     return replace(judged_of(verdict, ()), meaning=meaning, assumptions=_NOT_SIMULATED)
 
 

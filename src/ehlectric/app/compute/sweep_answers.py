@@ -51,6 +51,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
+from ehlectric.report.drive_report import swept_verdict
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -82,7 +83,8 @@ def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
 def view_of(results: SweepResults, shown: str) -> SweepView:
     """State of a sweep as the page shows it."""
     chart = _chart(results, shown)
-    verdict, lowest = results.verdict, _lowest(chart)
+    of_drive = isinstance(results.case, DriveCase)
+    verdict, lowest = swept_verdict(results) if of_drive else results.verdict, _lowest(chart)
     return SweepView(
         counts=dict(Counter(point.state for point in chart.points)),
         judged=_NO_VERDICT if verdict is None else judged(verdict),
@@ -102,11 +104,11 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         ),
         values=_values(results),
         accuracy=_accuracy(results),
-        warnings=tuple(map(_without_code, page_warnings_of(sweep_warnings(results)))),
+        warnings=(*_failures(results), *map(_without_code, page_warnings_of(sweep_warnings(results)))),
     )
 
 
-# Judgement on points without margins, such as drives, whose discharges depend on both bearings.
+# Judgement on points without margins.
 _NO_VERDICT = Judged("grey", "No margin to judge by", "The map has the results of the points.", "", (), "")
 
 
@@ -120,7 +122,7 @@ def judged(verdict: Verdict) -> Judged:
     >>> found.lead, found.meaning, found.assumptions
     ('Breakdown likely at some points', 'Breakdown is likely at 3 of 8 points.', 'Best estimate: rough film.')
     """
-    parts = judged_of(verdict, ("Upper bound", "Best estimate"))
+    parts = judged_of(verdict, ("Upper bound", "Best estimate", "Points are judged "))
     return replace(parts, meaning="" if parts.lead.startswith(verdict.lead) else f"{verdict.lead}.")
 
 
@@ -145,6 +147,14 @@ def deciding(chart: Chart) -> Deciding:
     )
     said = ("The margin is ", "breakdown-expected")
     return Deciding("sweep.margin", facts, Gauge(gauge_text(ends[0], facts), ends[0], ends), said=said)
+
+
+def _failures(results: SweepResults) -> Iterator[PageWarning]:
+    """Warnings with the reasons why points have no result, the most frequent one first."""
+    reasons = Counter(point.reason for point in results.points if not point.solved and point.reason)
+    for reason, count in reasons.most_common(_MOST_WARNINGS):
+        points = "1 point has" if count == 1 else f"{count} points have"
+        yield PageWarning("", "warning", f"{points} no result: {reason}")
 
 
 def _without_code(warning: PageWarning) -> PageWarning:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, Generic, Literal, TypeVar
@@ -37,7 +37,8 @@ class AnswerPage(Generic[A]):
     start: ClassVar[Inputs]  # inputs with which the page begins
     kind: ClassVar[Literal["bearing", "drive", "contact"]]
     groups: ClassVar[Sequence[Group]]
-    short: ClassVar[Sequence[str]]  # keys of the numbers of the short answer
+    # Keys of the numbers of the short answer, with the words before each; its name where there are none.
+    short: ClassVar[Mapping[str, str]]
     # Time for which the page waits for its first answer before it is sent without one [s].
     wait: ClassVar[float] = 0.0
     elsewhere: ClassVar[Sequence[str]] = ()  # keys that other parts of the page than its form show
@@ -179,7 +180,7 @@ class AnswerPage(Generic[A]):
     def _put(self, answer: A) -> None:
         self.view.show(answer)
         named = [one for one in answer.shown if one.key in self.short and one.known]
-        texts = [f"{one.name} {one.with_unit}" for one in named]
+        texts = [f"{self.short[one.key] or one.name} {one.with_unit}" for one in named]
         self._strip.show(answer.judged.level, answer.judged.lead, texts, bound=answer.judged.bound)
 
     def _dim(self, *, dimmed: bool) -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import ClassVar
 
 from nicegui import ui
 
@@ -148,7 +149,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     start = BEARING
     kind = "bearing"
     groups = BEARING_GROUPS
-    short = ("bearing.margin", "margin.critical_speed")
+    short: ClassVar[Mapping[str, str]] = {"bearing.margin": "", "margin.critical_speed": "breakdown below"}
     wait = 1.0
     elsewhere = (DUTY_FILE,)
     quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED
@@ -197,6 +198,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
         super()._show(inputs, answer)
+        self.view.helps.offer()
         if answer.whole:
             self.view.helps.refresh()
         if self.duty.file is None:

@@ -263,13 +263,13 @@ class ComparePage:
     def _build_answer(self) -> None:
         first, second = self._answers
         with first:
+            page_parts.heading("Inputs", 2)
+            self._inputs = ui.html("", sanitize=False)
             self._figures = {"over-speed": FigureBox("over-speed")}
             page_parts.heading("Effect on the results", 2)
             self._method = ui.label().classes("soft")
             self._effects = ui.html(_NOTHING, sanitize=False)
         with second:
-            page_parts.heading("Inputs", 2)
-            self._inputs = ui.html("", sanitize=False)
             self._notes = ui.html("", sanitize=False).props('data-testid="warnings"')
             self._figures["films"] = FigureBox("films")
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from nicegui import ui
 
@@ -34,8 +34,9 @@ _CUTS = ("cut-x", "cut-y")
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"
 
-# Formulas whose films an answer shows, by geometry.
+# Formulas whose films an answer shows, of a line and of a point contact.
 _FORMULAS = ("pan_hamrock", "chittenden")
+_FILMS_BY_FORMULA = tuple(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS)
 
 
 class CutSlider:
@@ -186,15 +187,10 @@ class ContactPage(AnswerPage[ContactAnswer]):
     title = "Film, pressure and field of one contact"
     start = contact_start("line")
     kind = "contact"
-    short = (
-        *(
-            "discharge.margin",
-            "breakdown_by_formula.margin",
-            "asperities.behaviour",
-            "film.minimum_thickness",
-        ),
-        *(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS),
-    )
+    short: ClassVar[Mapping[str, str]] = {
+        **dict.fromkeys(("discharge.margin", "breakdown_by_formula.margin", "asperities.behaviour"), ""),
+        **dict.fromkeys(("film.minimum_thickness", *_FILMS_BY_FORMULA), "minimum film"),
+    }
     quick, solved = CONTACT_QUICK, CONTACT_SOLVED
 
     view: ContactView

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 from nicegui import ui
 
@@ -201,7 +201,9 @@ class DrivePage(AnswerPage[DriveAnswer]):
     groups = DRIVE_GROUPS
     elsewhere = (REMEDIES, _FILE, DUTY_FILE)
     first = 1
-    short = ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage")
+    short: ClassVar[Mapping[str, str]] = dict.fromkeys(
+        ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage"), ""
+    )
     quick, solved = DRIVE_QUICK, DRIVE_SIMULATED
 
     def build_view(self) -> None:

@@ -35,6 +35,7 @@ class HelpBox:
 
     def __init__(self, session: Session) -> None:
         self._session = session
+        self._scrolls = ""  # script that brings the effect of a remedy just pressed into sight
         self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
         self.following: Following[Both, RemedyAnswer] = Following(
             lambda both: self._answer(REMEDY_QUICK, both),
@@ -47,7 +48,7 @@ class HelpBox:
         with ui.element("section").classes("helps").props('aria-label="What would help"') as self._box:
             self._box.props('data-testid="helps"')
             heading("What would help", 2)
-            self._choices = Choices(BEARING_REMEDIES, "Remedies", lambda _: self.refresh())
+            self._choices = Choices(BEARING_REMEDIES, "Remedies", self._press)
             self._list = Control("remedy.oil", kind="list", label="Oil", options=_oils())
             self._list.on("commit", self._other_oil)
             with ui.element("div").props('aria-live="polite" data-testid="helps-effect"') as self._effect:
@@ -66,14 +67,19 @@ class HelpBox:
         self.following.drop()
         mark(self._effect, "stale", on=True)
 
-    def refresh(self) -> None:
-        """Offer what the present bearing has not yet, and ask for the effect of the pressed one."""
-        self.following.drop()
-        inputs = self._session.inputs.changed({"duty": None})
+    def offer(self) -> Mapping[str, Any] | None:
+        """Offer what the present bearing has not yet. Returns the pressed remedy; None without one."""
+        inputs = self._session.inputs
         found = {name: remedy_at_bearing(inputs, name, self._oil) for name in BEARING_REMEDIES}
         self._box.set_visibility(True)
         self._choices.offer([name for name, remedy in found.items() if remedy is not None])
-        remedy = found.get(self._choices.chosen)
+        return found.get(self._choices.chosen)
+
+    def refresh(self) -> None:
+        """Ask for the effect of the pressed remedy."""
+        self.following.drop()
+        inputs = self._session.inputs.changed({"duty": None})
+        remedy = self.offer()
         self._effect.set_visibility(remedy is not None)
         self._list.set_visibility(remedy is not None and self._choices.chosen == _OIL)
         if remedy is not None:
@@ -98,6 +104,10 @@ class HelpBox:
 
     def _show(self, answer: RemedyAnswer) -> None:
         self._table.content = table_html(answer.table)
+        if self._scrolls:
+            with self._effect:
+                ui.run_javascript(f"setTimeout(() => {{ {self._scrolls} }}, 50)")
+            self._scrolls = ""
         self._effect.props(f'data-whole="{str(answer.whole).lower()}"')
         mark(self._effect, "stale", on=False)
 
@@ -107,6 +117,13 @@ class HelpBox:
         self._link.set_visibility(False)
         mark(self._effect, "stale", on=False)
         say(self._told, text)
+
+    def _press(self, name: str) -> None:
+        """Show the effect of a pressed remedy, on the screen where it is below."""
+        self.refresh()
+        if name:
+            found = f'document.getElementById("{self._effect.html_id}")'
+            self._scrolls = f"{found}?.scrollIntoView({{block: 'nearest'}})"
 
     def _other_oil(self, event: Any) -> None:
         self._oil = str(event.args)

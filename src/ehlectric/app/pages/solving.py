@@ -114,7 +114,7 @@ class Solving(Generic[A]):
         self._other.set_visibility(solved)
         self._other.text = self._words.show_solved if self._quick else self._words.show_quick
         self._return.set_visibility(bool(self._solved) and not solved)
-        if self._solved and not solved and answer is not None:
+        if self._solved and not solved and answer is not None and answer.solvable:
             self.how.text += f" {self._words.earlier}"
         if self._running is not None and self._running[0] != self._session.inputs:
             self.how.text += f" {self._words.running}"

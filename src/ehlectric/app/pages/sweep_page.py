@@ -27,7 +27,8 @@ from ehlectric.app.calls import (
 from ehlectric.app.charts.sweep_charts import chosen_trace
 from ehlectric.app.charts.sweep_charts import place as place_of_point
 from ehlectric.app.form_fields import Group
-from ehlectric.app.form_fields.field import in_field_unit
+from ehlectric.app.form_fields.field import Field as FormField
+from ehlectric.app.form_fields.field import in_field_unit, written_text
 from ehlectric.app.page_inputs import (
     Inputs,
     Range,
@@ -60,6 +61,7 @@ from ehlectric.app.pages.result_parts import NoteList, Panel
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.units import split
 from ehlectric.runtime.worker_processes import cores
 
 Change = Callable[[Inputs], Awaitable[None]]
@@ -123,9 +125,20 @@ class RangesForm:
 
     def _in_unit(self, key: str, text: str) -> str:
         """Text of an error of a range with its bounds in the unit of the field of its input."""
-        name = key.removeprefix("vary.").rpartition(".")[0]
-        fields = [field for group in self._groups or () for field in group.fields if field.key == name]
-        return in_field_unit(fields[0], text) if fields else text
+        field = self._field_of(key.removeprefix("vary.").rpartition(".")[0])
+        return text if field is None else in_field_unit(field, text)
+
+    def _with_unit(self, key: str, text: str) -> str:
+        """Text of a value that was typed, with the unit of the field of its input where it has none."""
+        field = self._field_of(key)
+        return (
+            text if field is None or split(text) is None else str(field.from_text(written_text(field, text)))
+        )
+
+    def _field_of(self, key: str) -> FormField | None:
+        """Field of an input of the base case; None where its form has none."""
+        fields = (field for group in self._groups or () for field in group.fields)
+        return next((field for field in fields if field.key == key), None)
 
     def _build_axes(self) -> None:
         """Fields of the varied inputs."""
@@ -229,8 +242,8 @@ class RangesForm:
             return int(text) if text.isdecimal() and len(text) < _LONGEST else text
 
         parts = (
-            ("from", "From", lambda text: put(start=text)),
-            ("to", "To", lambda text: put(stop=text)),
+            ("from", "From", lambda text: put(start=self._with_unit(now.key, text))),
+            ("to", "To", lambda text: put(stop=self._with_unit(now.key, text))),
             ("count", "Number of values", lambda text: put(count=count(text))),
         )
         with ui.element("div").classes("range"):
@@ -285,6 +298,13 @@ _FEW = 200
 # Verdicts of a sweep before its points are solved.
 _NOTHING = Judged("grey", "Nothing is solved yet", "Run fills the map.", "", (), "")
 _RUNNING = Judged("grey", "Points are being solved", "The verdict follows with the last of them.", "", (), "")
+
+
+# Words above a map that is not that of the present inputs.
+_OLD = (
+    "The inputs have changed, or the result to show needs further numbers: Run computes them. This is the "
+    "map of the ones before."
+)
 
 
 class MapPart:
@@ -367,7 +387,7 @@ class MapPart:
         """Dim the map where the inputs have changed since."""
         page_parts.mark(self._body, "stale", on=old)
         if old:
-            self._note.text = "The inputs have changed: this is the map of the ones before."
+            self._note.text = _OLD
         elif self._view is not None:
             self._note.text = _told(self._view)
 

@@ -585,7 +585,8 @@ def test_curves_begin_where_the_surfaces_part():
     assert [at for at, _ in points] == sorted(at for at, _ in points)
     named = f"{float(f'{first[0] * RPM:.3g}'):g} rpm"
     drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=(slow.case.bearing.inner_speed, slow.summary()))
-    assert title_of(drawn)[0].startswith(f"Margin below 1 at all speeds from {named} to 400 rpm;")
+    whole = " ".join(title_of(drawn))
+    assert whole.startswith(f"Margin below 1 at all speeds from {named} to 400 rpm;")
     assert f"below {named}" in said(drawn)
     # What the shading means stands above the axes, not on a curve.
     (ax,) = drawn.axes
