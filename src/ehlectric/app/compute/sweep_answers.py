@@ -51,7 +51,6 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, split
-from ehlectric.report.drive_report import swept_verdict
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -83,8 +82,7 @@ def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
 def view_of(results: SweepResults, shown: str) -> SweepView:
     """State of a sweep as the page shows it."""
     chart = _chart(results, shown)
-    of_drive = isinstance(results.case, DriveCase)
-    verdict, lowest = swept_verdict(results) if of_drive else results.verdict, _lowest(chart)
+    verdict, lowest = _verdict(results), _lowest(chart)
     return SweepView(
         counts=dict(Counter(point.state for point in chart.points)),
         judged=_NO_VERDICT if verdict is None else judged(verdict),
@@ -106,6 +104,16 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         accuracy=_accuracy(results),
         warnings=(*_failures(results), *map(_without_code, page_warnings_of(sweep_warnings(results)))),
     )
+
+
+def _verdict(results: SweepResults) -> Verdict | None:
+    """Verdict of the command or, on drives, of their report."""
+    if not isinstance(results.case, DriveCase):
+        return results.verdict
+    # Reports load a library for figures, which no other answer of a page needs.
+    from ehlectric.report.drive_report import swept_verdict
+
+    return swept_verdict(results)
 
 
 # Judgement on points without margins.
