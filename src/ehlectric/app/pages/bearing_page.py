@@ -150,7 +150,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     kind = "bearing"
     groups = BEARING_GROUPS
     short: ClassVar[Mapping[str, str]] = {"bearing.margin": "", "margin.critical_speed": "breakdown below"}
-    wait = 1.0
+    wait = 0.4
     elsewhere = (DUTY_FILE,)
     quick, later, solved = BEARING_QUICK, (BEARING_OVER_SPEED, BEARING_WHOLE), BEARING_SOLVED
 

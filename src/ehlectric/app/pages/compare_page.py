@@ -155,7 +155,7 @@ _START = Inputs(
 )
 
 # Time for which the page waits for its first answer before it is sent without one [s].
-_FIRST = 1.0
+_FIRST = 0.4
 
 # Number of answers that are kept.
 _KEPT = 20
