@@ -56,7 +56,8 @@ class HelpBox:
                 self._assumed = ui.label().classes("soft").props('data-testid="helps-assumed"')
                 self._link = ui.link("See it in its drive", PATHS["drive"]).props('data-testid="helps-drive"')
                 self._told = ui.label().classes("soft").props('role="status" data-testid="helps-told"')
-        self._box.set_visibility(False)
+        for part in (self._box, self._list, self._effect):
+            part.set_visibility(False)
 
     async def _answer(self, call: Call[RemedyAnswer], both: Both) -> RemedyAnswer:
         bearing, drive = (dict(one.table) for one in both)
