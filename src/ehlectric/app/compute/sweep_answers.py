@@ -326,7 +326,7 @@ def _reason(point: Point, state: PointState) -> str:
     if state == "no value":
         summary = point.summary or {}
         if summary.get("bearing", {}).get("lubrication") == "conducting":
-            return "the lambda ratio is below 1, contacts open and close, and no voltage is computed"
+            return "surfaces touch, at times at least: contacts open and close, and no voltage is computed"
         return "the case has no such number"
     return point.reason
 
