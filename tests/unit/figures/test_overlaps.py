@@ -139,6 +139,7 @@ def test_a_contact_at_a_meter():
     assert of_result(solve(case)) == {}
 
 
+@pytest.mark.slow
 def test_sweeps_with_a_margin():
     """A map and lines with the line of margin 1 and their legend of four entries."""
     results = grid({SPEED: (0.5, 1.0, 2.0, 4.0, 8.0), LOAD: (2e5, 5e5, 1e6, 2e6)})
@@ -159,6 +160,7 @@ def test_sensitivity():
     assert of_result(sobol(ranges, 64, breakdown), ["sensitivity"]) == {}
 
 
+@pytest.mark.slow
 def test_oils():
     draws = {"pressure": oil_figures.over_pressure, "temperature": oil_figures.over_temperature}
     report = oil_report("fva-3", ["40 degC", "80 degC"], ["1 GPa"])
