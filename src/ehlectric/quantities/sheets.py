@@ -42,6 +42,10 @@ CONTACT_CARDS, CHECK_CARDS = _cards("contact"), _cards("contact_check")
 TOUCHING_CARDS, SPOT_CARDS = _cards("touching_contact"), _cards("spots")
 BEARING_CARDS, DRIVE_CARDS = _cards("bearing"), _cards("drive")
 
+# Formula by geometry of the film of the breakdown voltage by formula, which pages show and compare with
+# heights of roughness: those from which a bearing by formula has its films.
+BREAKDOWN_FORMULAS = {"line": "pan_hamrock", "point": "chittenden"}
+
 # Large numbers of the first page of a report, each with those that stand small below it.
 FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_DRIVE = _cards("first_page_of_bearing"), _cards("first_page_of_drive")
 

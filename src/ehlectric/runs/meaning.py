@@ -22,6 +22,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
+from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS
 from ehlectric.quantities.units import rpm
 from ehlectric.sweep.sweep_inputs import Sweep
 
@@ -126,8 +127,7 @@ def _breakdown_by_formula(
 ) -> dict[str, str | float | None] | None:
     """Breakdown voltage of the minimum film of a formula; None without a strength that is known beforehand.
 
-    A strength over pressure and a Weibull law need the field in the whole film. The formulas are those from
-    which a bearing by formula has its films.
+    A strength over pressure and a Weibull law need the field in the whole film.
     """
     from ehlectric.discharge.film_breakdown import dielectric_strength
 
@@ -136,7 +136,7 @@ def _breakdown_by_formula(
         return None
     if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
         return None
-    name, thickness = _film_by_formula(conditions, line="pan_hamrock", point="chittenden")
+    name, thickness = _film_by_formula(conditions, **BREAKDOWN_FORMULAS)
     film = thickness.minimum_thickness
     strength = float(dielectric_strength(discharge, np.zeros(())))
     applied = abs(case.electric.voltage)

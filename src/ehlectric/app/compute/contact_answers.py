@@ -33,7 +33,13 @@ from ehlectric.discharge.film_verdict import (
 )
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
+from ehlectric.quantities.sheets import (
+    BREAKDOWN_FORMULAS,
+    CHECK_CARDS,
+    CONTACT_CARDS,
+    SPOT_CARDS,
+    TOUCHING_CARDS,
+)
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -46,10 +52,6 @@ _QUICK_ERROR = 1e-3
 
 # Part by which a film of a formula may be off, as the command says.
 _FORMULA = 0.4
-
-# Formula by geometry whose films an answer shows large and compares with heights of roughness: the one of the
-# breakdown voltage by formula.
-FORMULA_BY_GEOMETRY = {"line": "pan_hamrock", "point": "chittenden"}
 
 
 def contact_case(table: Mapping[str, Any], session: Path | str | None = None) -> Case:
@@ -83,7 +85,7 @@ def by_formula(case: Case) -> ContactAnswer:
     """Answer about a contact before its film is solved, as of ``ehlectric check``."""
     meaning = check(case)
     verdict = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
-    formula = FORMULA_BY_GEOMETRY[case.contact.geometry]
+    formula = BREAKDOWN_FORMULAS[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
     told = page_warnings_of(meaning.warnings)
     moving = case.motion is not None
@@ -223,7 +225,7 @@ def deciding_by_formula(case: Case, verdict: Verdict) -> str:
     """Key of the number that decides before the film is solved: the margin, or the film without one."""
     if verdict.margin is not None:
         return "breakdown_by_formula.margin"
-    return f"film_formulas.{FORMULA_BY_GEOMETRY[case.contact.geometry]}.minimum_thickness"
+    return f"film_formulas.{BREAKDOWN_FORMULAS[case.contact.geometry]}.minimum_thickness"
 
 
 # Beginnings of sentences, and code of a warning, that say no more than the margin beside its voltages.

@@ -14,7 +14,6 @@ import numpy as np
 from ehlectric.app.answers import PageWarning, StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.charts.surface_charts import line_figure, map_figure, profile_figure
 from ehlectric.app.compute.answer_parts import page_warnings_of, with_own_files
-from ehlectric.app.compute.contact_answers import FORMULA_BY_GEOMETRY
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
@@ -23,6 +22,7 @@ from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
+from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS
 from ehlectric.quantities.units import to_si, unit_for
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -160,7 +160,7 @@ class _Contact:
         found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         thin = too_rough(
-            table, rough, formulas_of(self.conditions)[FORMULA_BY_GEOMETRY[self.case.contact.geometry]]
+            table, rough, formulas_of(self.conditions)[BREAKDOWN_FORMULAS[self.case.contact.geometry]]
         )
         shown = tuple(plainly(one, table, rough, self.domain) for one in page_warnings_of(found))
         return shown if thin is None else (thin, *shown)

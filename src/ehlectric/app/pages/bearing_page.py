@@ -198,9 +198,10 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
         super()._show(inputs, answer)
-        self.view.helps.offer()
         if answer.whole:
             self.view.helps.refresh()
+        else:
+            self.view.helps.offer()
         if self.duty.file is None:
             self.view.duty.show(None)
         elif self.duty.lost:

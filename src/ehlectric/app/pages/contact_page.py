@@ -22,7 +22,13 @@ from ehlectric.app.pages.result_parts import FigureBox
 from ehlectric.app.pages.roughness_box import RoughnessBox
 from ehlectric.app.session import Session
 from ehlectric.errors import InputError, LostError
-from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
+from ehlectric.quantities.sheets import (
+    BREAKDOWN_FORMULAS,
+    CHECK_CARDS,
+    CONTACT_CARDS,
+    SPOT_CARDS,
+    TOUCHING_CARDS,
+)
 
 # Figures beside the verdict, further ones, and those on which a click chooses the point of the cuts.
 _LEADING = ("profiles", "surface")
@@ -34,9 +40,8 @@ _CUTS = ("cut-x", "cut-y")
 # Position of a click on a figure, all that is sent of it.
 _PLACE = "(event) => emit({x: event.points[0].x, y: event.points[0].y})"
 
-# Formulas whose films an answer shows, of a line and of a point contact.
-_FORMULAS = ("pan_hamrock", "chittenden")
-_FILMS_BY_FORMULA = tuple(f"film_formulas.{name}.minimum_thickness" for name in _FORMULAS)
+# Films by formula of the short answer, of a line and of a point contact.
+_FILMS_BY_FORMULA = tuple(f"film_formulas.{name}.minimum_thickness" for name in BREAKDOWN_FORMULAS.values())
 
 
 class CutSlider:
@@ -150,7 +155,7 @@ class ContactView(AnswerView[ContactAnswer]):
             key.replace("*", formula)
             for cards in (CONTACT_CARDS, TOUCHING_CARDS, SPOT_CARDS, CHECK_CARDS)
             for key in cards
-            for formula in _FORMULAS
+            for formula in BREAKDOWN_FORMULAS.values()
         )
     )
     leading = _LEADING
@@ -224,7 +229,7 @@ class ContactPage(AnswerPage[ContactAnswer]):
         with ui.element("div").classes("answer-body") as self._places:
             self.view = ContactView(self.session, self.solving.folder)
             rough = self.session.inputs.value("roughness") is not None
-            with GroupBox("Rough surfaces", title="Rough surfaces", opened=rough, first=True):
+            with GroupBox("Rough surfaces", opened=rough, first=True):
                 self._roughness = RoughnessBox(self.session, self._inputs_changed)
             moves = "Rough surfaces in motion"
             with GroupBox("Motion", title=moves, opened=self._moving, first=True) as self._movie_card:

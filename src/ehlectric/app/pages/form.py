@@ -120,7 +120,7 @@ class Form:
             await self.take({group.table: self._memory.table(group, self._inputs) if event.args else None})
 
         first, opened = group in self._first, group.opened
-        box = GroupBox(group.title, title=group.title, note=group.note, opened=opened, first=first)
+        box = GroupBox(group.title, note=group.note, opened=opened, first=first)
         if group.table:
             box.show(switches=True)
             box.on("switch", switched)

@@ -35,7 +35,7 @@ class HelpBox:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._scrolls = ""  # script that brings the effect of a remedy just pressed into sight
+        self._pressed = False  # whether a remedy was just pressed, whose effect is brought into sight
         self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
         self.following: Following[Both, RemedyAnswer] = Following(
             lambda both: self._answer(REMEDY_QUICK, both),
@@ -105,10 +105,11 @@ class HelpBox:
 
     def _show(self, answer: RemedyAnswer) -> None:
         self._table.content = table_html(answer.table)
-        if self._scrolls:
+        if self._pressed:
+            self._pressed = False
+            found = f'document.getElementById("{self._effect.html_id}")'
             with self._effect:
-                ui.run_javascript(f"setTimeout(() => {{ {self._scrolls} }}, 50)")
-            self._scrolls = ""
+                ui.run_javascript(f"setTimeout(() => {found}?.scrollIntoView({{block: 'nearest'}}), 50)")
         self._effect.props(f'data-whole="{str(answer.whole).lower()}"')
         mark(self._effect, "stale", on=False)
 
@@ -121,10 +122,8 @@ class HelpBox:
 
     def _press(self, name: str) -> None:
         """Show the effect of a pressed remedy, on the screen where it is below."""
+        self._pressed = bool(name)
         self.refresh()
-        if name:
-            found = f'document.getElementById("{self._effect.html_id}")'
-            self._scrolls = f"{found}?.scrollIntoView({{block: 'nearest'}})"
 
     def _other_oil(self, event: Any) -> None:
         self._oil = str(event.args)

@@ -159,11 +159,11 @@ def control(
 
 
 class GroupBox(_Shown, component="../static/group.js"):
-    """Group of fields that opens and closes; it emits ``switch``."""
+    """Group of fields that opens and closes under its name, or another title; it emits ``switch``."""
 
     def __init__(self, name: str, **props: Any) -> None:
         super().__init__()
-        self.props.update(testid=name.lower().replace(" ", "-"), **props)
+        self.props.update({"testid": name.lower().replace(" ", "-"), "title": name, **props})
 
 
 class ThemeButton(Element, component="../static/theme.js"):

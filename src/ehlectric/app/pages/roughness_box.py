@@ -204,7 +204,7 @@ class RoughnessBox:
     def _group(self, title: str, keys: Sequence[RoughKey], *, point: bool, opened: bool = False) -> None:
         shown = [key for key in keys if point or not key.point]
         opened = opened or any(key.key in self._draft for key in shown)
-        with GroupBox(title, title=title, opened=opened, first=True) as group:
+        with GroupBox(title, opened=opened, first=True) as group:
             part = Keys("roughness", shown, self._draft, self._set)
         self._parts.append(part)
         self._groups[part] = group

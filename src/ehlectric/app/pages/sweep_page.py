@@ -83,12 +83,12 @@ class RangesForm:
         self._groups: Sequence[Group] | None = None
         self._focus = ""
         with ui.element("div").classes("form").props('role="form" aria-label="Sweep"'):
-            with GroupBox("What varies", title="What varies", first=True):
+            with GroupBox("What varies", first=True):
                 self._varied = ui.element("div").classes("group-body")
                 self._message = (
                     ui.label().classes("field-error").props('role="alert" data-testid="error-form"')
                 )
-            with GroupBox("Base case", title="Base case"):
+            with GroupBox("Base case"):
                 self._build_base()
         self._build_axes()
         self._set_base()
@@ -172,7 +172,7 @@ class RangesForm:
         contacts = partial(self._changed_case, "contacts")
         self._kind = control("case.contacts", "Contacts of the bearing", contacts, kinds)
         self._page = ui.link("Open the base case on its page", "/", new_tab=True)
-        self._values = GroupBox("Inputs of the base case", title="Inputs of the base case", opened=False)
+        self._values = GroupBox("Inputs of the base case", opened=False)
 
     def _set_base(self) -> None:
         """Show the base case."""
