@@ -193,8 +193,7 @@ def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any
     fine = _values(scales, finest, outer)
     coarse = _values(scales, patch.coarse, 0.0)
     if found.fraction is not None:
-        fluid, order = found.problem.fluid, found.problem.wedge_order
-        coarse["film_fraction"] = oil_fraction(fluid, patch.coarse, order)
+        coarse["film_fraction"] = oil_fraction(patch.coarse, found.problem.wedge_order)
         fine["film_fraction"] = found.fraction
     added = patch.problem.added_gap
     if added is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -20,14 +20,14 @@ from ehlectric.film.film_error import (
 )
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import filled_state, grid_problem, levels_of, nested_iteration
-from ehlectric.film.newton import GridSolution, Progress, State
+from ehlectric.film.newton import GridSolution, Guess, Progress
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved_solver import (
-    StarvedFilm,
     StarvedProblem,
     at_centre_line,
     film_of_ratio,
+    isothermal,
     taken_layer,
 )
 from ehlectric.runtime.stored import number
@@ -172,8 +172,6 @@ class StarvedSolution(RefinedSolution):
     """Starved film on its last grid, with those on the coarser ones and the flooded film."""
 
     flooded: GridSolution | None = None
-    # Starved film on the last grid; None if the flooded film needs no more oil than there is.
-    film: StarvedFilm | None = None
     # Thickness H of the layer of oil at the lines of the last grid; None where it is not known, shape (ny,).
     layer: Array | None = None
 
@@ -184,7 +182,7 @@ class StarvedSolution(RefinedSolution):
         The position of the meniscus is known to a node, which in a point contact changes the film.
         """
         order = self.problem.wedge_order
-        if self.film is None:
+        if not self.starved:
             return rough_film_error(self.problem, self.last, self.coarser)
         error = rough_film_error(replace(self.problem, wedge_order=max(2, order)), self.last, self.coarser)
         if error is None or (self.problem.width is None and order > 1):
@@ -193,9 +191,14 @@ class StarvedSolution(RefinedSolution):
         return max(error, richardson(films[0], films[1], order=1))
 
     @property
+    def starved(self) -> bool:
+        """Whether the flooded film needs more oil than there is."""
+        return self.last is not self.flooded
+
+    @property
     def fraction(self) -> Array | None:
         """Part of the gap that oil fills, shape (nx, ny); None for a flooded film."""
-        return None if self.film is None else self.film.fraction
+        return self.last.fraction if self.starved else None
 
     @property
     def by_ratio(self) -> bool:
@@ -208,7 +211,7 @@ class StarvedSolution(RefinedSolution):
 
         No pressure builds up upstream of a meniscus.
         """
-        if not self.by_ratio and self.film is not None and self._meniscus is not None:
+        if not self.by_ratio and self._meniscus is not None:
             return 0.0
         return self._inlet_deficit(self._decisive)
 
@@ -218,7 +221,8 @@ class StarvedSolution(RefinedSolution):
 
         No pressure is cut off where no node beside the sides of the domain is filled.
         """
-        if not self.by_ratio and self.film is not None and not np.any(self.film.content.filled[:, -2]):
+        filled = self._filled
+        if not self.by_ratio and filled is not None and not np.any(filled[:, -2]):
             return 0.0
         return self._side_deficit(self._decisive)
 
@@ -245,7 +249,14 @@ class StarvedSolution(RefinedSolution):
     @property
     def _meniscus(self) -> float | None:
         """Position X of the meniscus on the line Y = 0."""
-        return None if self.film is None else meniscus_of(self.last.level.mesh, self.film.content.filled)
+        filled = self._filled
+        return None if filled is None else meniscus_of(self.last.level.mesh, filled)
+
+    @property
+    def _filled(self) -> Mask | None:
+        """Nodes that oil fills in a starved film, shape (nx, ny); None for a flooded one."""
+        content = self.last.content
+        return content.filled if self.starved and content is not None else None
 
     @property
     def _decisive(self) -> GridSolution:
@@ -283,7 +294,7 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
     supply = problem.supply
     assert supply is not None
     flooded = nested_iteration(problem, progress)
-    found = _starved_on_grids(problem, supply, flooded, [], progress)
+    found = starved_on_grids(_isothermal_grids(problem, flooded, 0, progress), supply)
     target, doubled, unknown = problem.target_error, 0, 0
     problem.tell(found.last.level.mesh, found.error)
     while target is not None and (found.error is None or found.error > target):
@@ -296,69 +307,50 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
         if finer.nodes > problem.most_nodes or found.last.status != "converged":
             break
         problem, flooded = finer, nested_iteration(finer, progress, flooded)
-        found = _starved_on_grids(problem, supply, flooded, found.solutions, progress, found.film)
+        grids = _isothermal_grids(problem, flooded, found.last.level.nodes, progress)
+        found = starved_on_grids(grids, supply, found.solutions, found.layer)
         problem.tell(found.last.level.mesh, found.error)
     return found
 
 
-def _starved_on_grids(
-    problem: FilmProblem,
+def starved_on_grids(
+    grids: Sequence[StarvedProblem],
     supply: OilSupply,
-    flooded: list[GridSolution],
-    known: list[GridSolution],
-    progress: Progress | None,
-    film: StarvedFilm | None = None,
+    known: Sequence[GridSolution] = (),
+    layer: Array | None = None,
 ) -> StarvedSolution:
-    """Starved film on all grids of a problem that are finer than the known ones, from the coarsest on.
+    """Starved film on grids that are finer than those of the known films, from the coarsest on.
 
-    ``film`` is the starved film on the finest known grid.
+    ``layer`` (ny,) is the layer of oil on the finest known grid.
     """
-    solutions, last = list(known), film
-    coarsest = known[-1].level.nodes if known else 0
-    found = None
-    for posed, full in _flooded_on_grids(problem, flooded, coarsest):
-        finest = posed.nodes == problem.nodes
-        starved = _starved_problem(posed, full, progress, finest=finest)
-        near = None if last is None else filled_state(starved.level, last.solution, last.content.filled)
-        layer, last = _layer_and_film(starved, supply, near, last)
-        solution = full if last is None else last.solution
-        solutions.append(solution)
-        found = StarvedSolution(posed, solutions, flooded=full, film=last, layer=layer)
-        if last is not None and last.solution.status != "converged":
-            last = None
-    assert found is not None
-    return found
+    solutions = list(known)
+    for starved in grids:
+        near, last = None, solutions[-1] if solutions else None
+        if last is not None and last.status == "converged" and last.content is not None:
+            near = Guess(*filled_state(starved.level, last, last.content.filled), last)
+        layer, film = _layer_and_film(starved, supply, near, layer)
+        solutions.append(starved.flooded if film is None else film)
+    return StarvedSolution(grids[-1].problem, solutions, flooded=grids[-1].flooded, layer=layer)
 
 
-def _flooded_on_grids(
-    problem: FilmProblem, flooded: list[GridSolution], coarsest: int
-) -> list[tuple[FilmProblem, GridSolution]]:
-    """Problem and flooded film on each grid with more nodes than ``coarsest``, from the coarsest on."""
-    by_nodes = {solution.level.nodes: solution for solution in flooded}
+def _isothermal_grids(
+    problem: FilmProblem, flooded: list[GridSolution], coarsest: int, progress: Progress | None
+) -> list[StarvedProblem]:
+    """Starved films without heat on each grid with more nodes than ``coarsest``, from the coarsest on."""
+    by_nodes, finest = {solution.level.nodes: solution for solution in flooded}, problem.nodes
     grids = []
     while problem.nodes in by_nodes and problem.nodes > coarsest:
-        grids.append((problem, by_nodes[problem.nodes]))
+        posed = grid_problem(
+            problem, levels_of(problem), progress, finest=problem.nodes == finest, times=_MORE
+        )
+        grids.append(StarvedProblem(problem, posed, by_nodes[problem.nodes], isothermal(posed)))
         problem = problem.halved()
     return grids[::-1]
 
 
-def _starved_problem(
-    problem: FilmProblem, flooded: GridSolution, progress: Progress | None, *, finest: bool
-) -> StarvedProblem:
-    """Equations of the starved film on the grid of a problem."""
-    levels = levels_of(problem)
-    mesh = levels[0].mesh
-    return StarvedProblem(
-        grid_problem(problem, levels, progress, finest=finest, times=_MORE),
-        order=problem.wedge_order,
-        flooded=flooded,
-        dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
-    )
-
-
 def _layer_and_film(
-    starved: StarvedProblem, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
-) -> tuple[Array | None, StarvedFilm | None]:
+    starved: StarvedProblem, supply: OilSupply, near: Guess | None, last: Array | None
+) -> tuple[Array | None, GridSolution | None]:
     """Layer of oil on a grid and its film; None where the flooded film needs no more oil than there is."""
     if supply.layer is None:
         assert supply.film_ratio is not None

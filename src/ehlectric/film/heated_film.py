@@ -4,7 +4,7 @@ error.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, TypeAlias
@@ -26,16 +26,28 @@ from ehlectric.film.energy_equation import (
     solve_energy,
     stream_of,
 )
-from ehlectric.film.film_solver import RefinedSolution, refined_solution
+from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method, starved_on_grids
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import grid_problem, interpolated_state, levels_of
-from ehlectric.film.newton import GridProblem, GridSolution, NewtonStep, Progress, State, Status, newton
+from ehlectric.film.newton import (
+    GridProblem,
+    GridSolution,
+    Guess,
+    NewtonStep,
+    Progress,
+    State,
+    Status,
+    newton,
+)
+from ehlectric.film.oil_content import Supply
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
 from ehlectric.film.shear_laws import UNBOUNDED
-from ehlectric.film.starved_solver import conserving_film, forms_again
+from ehlectric.film.starved_solver import StarvedProblem, flooded_inlet, forms_again, isothermal, with_inlet
+from ehlectric.film.touching_film import touching_newton
+from ehlectric.film.touching_solver import NEAR_DAMPING
 from ehlectric.runtime.threads import quiet_solution
 
 # Degree of the polynomial across the film.
@@ -48,8 +60,9 @@ _MOST_CHANGE = 40.0
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
-# Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step.
-_CARRYING = 3
+# Multiples of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
+# of one whose surfaces touch, as its spots do.
+_CARRYING, _TOUCHING = 3, 3
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
@@ -65,19 +78,32 @@ _HELD, _HELD_TURNS = 60, 15
 _SLOWEST = 0.9
 
 
-@dataclass(frozen=True, eq=False)
-class HeatedGrid:
-    """Film with heat on one grid."""
+@dataclass(frozen=True, kw_only=True)
+class HeatedGrid(GridSolution):
+    """Film with heat or shear on one grid; its status is that of film and temperature together."""
 
-    solution: GridSolution  # pressure and film thickness
+    iteration: OuterIteration  # iteration that found it
     heat: Heat | None  # temperature and heat flow into the bodies; None for an isothermal film
-    flow: ShearedFlow
-    loops: int
+    law: ShearedFlow  # flow law with the temperature of the film
+    loops: int = 0  # number of outer loops
 
     @property
-    def converged(self) -> bool:
-        """Whether film and temperature stand."""
-        return self.solution.status == "converged"
+    def middle(self) -> Array | None:
+        """Temperature at mid-film (nx, ny) [K]; None without heat."""
+        return None if self.heat is None else mid_film(self.heat.temperature)
+
+    @property
+    def largest_rise(self) -> float | None:
+        """Largest rise of the mid-film temperature over that of the oil that enters [K]."""
+        thermal, middle = self.iteration.physics.thermal, self.middle
+        return (
+            None if middle is None or thermal is None else float(np.max(middle)) - thermal.inlet_temperature
+        )
+
+    @property
+    def filled(self) -> Mask | None:
+        """Nodes that oil fills, shape (nx, ny); None of a film that does not carry its oil."""
+        return None if self.content is None else self.content.filled
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,9 +120,9 @@ class OuterIteration:
     # for a held film.
     held: bool = False
     degree: int = DEGREE  # degree of the polynomial across the film
-    # Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
-    # cavities count as full, shape (nx, ny).
-    filled: Mask | None = None
+    # Oil at the inlet edge of a film that carries its oil through cavities; None of one whose cavities count
+    # as full.
+    supply: Supply | None = None
 
     @property
     def level(self) -> Level:
@@ -138,7 +164,7 @@ class OuterIteration:
 
     def _clipped(self, state: State) -> Array:
         """Pressure of a state, not below ambient."""
-        return np.maximum(state.pressure, self.problem.fluid.ambient_pressure)
+        return np.maximum(state.oil_pressure, self.problem.fluid.ambient_pressure)
 
     def film(
         self,
@@ -152,24 +178,34 @@ class OuterIteration:
     ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
         """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
 
-        With the nodes ``filled`` that oil fills at first, the film carries its oil through cavities.
+        ``filled`` (nx, ny) marks the nodes that oil fills at first, of a film that carries its oil.
         """
-        flow = self.flow(state, heat)
-        fluid = replace(self.problem.fluid, flow=flow)
+        law = self.flow(state, heat)
+        fluid = replace(self.problem.fluid, flow=law)
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
-        if filled is None:
+        if self.supply is not None and filled is not None:
+            solution = isothermal(posed)(Guess(state, filled), self.supply)
+        else:
+            solution = self._apart_or_touching(posed, state, spike=spike)
+        if isinstance(law.profile, FrozenTemperature):
+            heat = law.profile.at(self._clipped(solution.state))
+        return solution, law, heat
+
+    def _apart_or_touching(self, posed: GridProblem, state: State, *, spike: bool) -> GridSolution:
+        """Film whose cavities count as full; surfaces touch where it is thinner than the boundary film."""
+        boundary_film = posed.asperities.boundary_film
+        if not state.touching.any():
             line = self.problem.width is None
             solution = newton(posed, state, min_iterations=1, eliminate_spike=spike and line)
-        else:
-            solution = conserving_film(posed, (state, filled), self.problem.wedge_order)
-        if isinstance(flow.profile, FrozenTemperature):
-            heat = flow.profile.at(self._clipped(solution.state))
-        return solution, flow, heat
+            if float(np.min(solution.state.thickness)) >= boundary_film:
+                return solution
+        most = _TOUCHING * posed.max_iterations
+        return touching_newton(replace(posed, max_iterations=most), state, first_damping=NEAR_DAMPING)
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.level.mesh
-        found = flow.columns(self.problem.fluid, state.pressure, state.thickness, mesh)
+        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
         if solution.fraction is not None:
             return found, solution.fraction
         mass = solution.final.coefficients.density * state.thickness
@@ -183,7 +219,7 @@ class OuterIteration:
             thermal.oil,
             columns,
             heat.temperature,
-            pressure=np.maximum(scales.pressure * solution.state.pressure, scales.ambient_pressure),
+            pressure=np.maximum(scales.pressure * solution.state.oil_pressure, scales.ambient_pressure),
             thickness=scales.thickness * solution.state.thickness,
             filled=filled,
             mesh=self.level.mesh,
@@ -191,7 +227,17 @@ class OuterIteration:
             pressure_scale=scales.pressure,
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
+            rubbing=self._rubbing(solution),
         )
+
+    def _rubbing(self, solution: GridSolution) -> tuple[Mask, Array] | None:
+        """Nodes where the surfaces touch, and the heat of their friction [W/m^2], both (nx, ny)."""
+        if not solution.touches:
+            return None
+        first, second = self.physics.speeds
+        friction = (self.physics.boundary_friction or 0.0) * abs(second - first)
+        pressure = self.problem.scales.pressure * np.asarray(solution.state.contact_pressure)
+        return solution.state.touching, friction * pressure
 
     def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
         """Surfaces of both bodies on the grid."""
@@ -210,31 +256,33 @@ class OuterIteration:
         temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
         return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
 
-    def __call__(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
+    def __call__(
+        self, state: State, heat: Heat | None, *, spike: bool, filled: Mask | None = None
+    ) -> HeatedGrid:
         """Film and temperature from an initial guess of both.
 
-        A film that forms again behind a cavity is solved once more, with the oil carried through it.
+        ``filled`` (nx, ny) marks the nodes that oil fills in the guess of a film with a supply. Another film
+        that forms again behind a cavity is solved once more, with the oil carried through it.
         """
-        found = self._turns(state, heat, spike=spike)
-        full = found.solution.final.full_film
-        if self.filled is not None or not found.converged or not forms_again(full):
+        found = self._turns(state, heat, filled, spike=spike)
+        full = found.final.full_film
+        if self.supply is not None or found.status != "converged" or not forms_again(full):
             return found
-        again = replace(self, filled=full)._turns(found.solution.state, found.heat, spike=False)
-        if not again.converged:
+        carrying = replace(self, supply=flooded_inlet(self.level, self.problem.wedge_order))
+        again = carrying._turns(found.state, found.heat, with_inlet(full), spike=False)
+        if again.status != "converged":
             return found
-        taken = found.solution.steps + again.solution.steps
-        return replace(again, solution=replace(again.solution, steps=taken), loops=found.loops + again.loops)
+        return replace(again, steps=found.steps + again.steps, loops=found.loops + again.loops)
 
-    def _turns(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
+    def _turns(self, state: State, heat: Heat | None, filled: Mask | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature in turns, from an initial guess of both."""
-        thermal, most, filled = self.physics.thermal, self.problem.max_iterations, self.filled
+        thermal, most = self.physics.thermal, self.problem.max_iterations
+        times = 1 if self.supply is None else _CARRYING
         if thermal is None:
-            if filled is not None:
-                most *= _CARRYING
-            solution, flow, _ = self.film(
-                state, None, steps=most, tolerance=self.posed.tolerance, spike=spike, filled=filled
+            solution, law, _ = self.film(
+                state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, filled=filled
             )
-            return HeatedGrid(solution, None, flow, 0)
+            return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
         surfaces, weight = self.surfaces(thermal), _weight(self.level, state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
@@ -244,13 +292,16 @@ class OuterIteration:
             steps, tolerance = (
                 (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, _LOOSE))
             )
-            if filled is not None:
-                steps *= _CARRYING
-            solution, flow, heat = self.film(
-                state, heat, steps=steps, tolerance=tolerance, spike=spike and loop == 0, filled=filled
+            solution, law, heat = self.film(
+                state,
+                heat,
+                steps=times * steps,
+                tolerance=tolerance,
+                spike=spike and loop == 0,
+                filled=filled,
             )
             assert heat is not None
-            filled = None if filled is None else solution.final.full_film
+            filled = filled if solution.content is None else solution.content.filled
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * central))
@@ -260,8 +311,8 @@ class OuterIteration:
             if self.held and loop < _HELD_TURNS:
                 new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
             else:
-                flow = self.flow(solution.state, heat) if self.careful else flow
-                new = self._heated(solution, heat, flow, surfaces)
+                law = self.flow(solution.state, heat) if self.careful else law
+                new = self._heated(solution, heat, law, surfaces)
             if new is None:
                 solution = replace(solution, status="diverged")
                 break
@@ -272,7 +323,8 @@ class OuterIteration:
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+        solution = replace(solution, steps=tuple(taken))
+        return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
 
     def _temperature_of_held(
         self,
@@ -383,15 +435,7 @@ def mid_film(temperature: Array) -> Array:
     return np.asarray(np.tensordot(weights, temperature, axes=1))
 
 
-def largest_rise(iteration: OuterIteration, grid: HeatedGrid) -> float | None:
-    """Largest rise of the mid-film temperature over that of the oil that enters [K]; None without heat."""
-    thermal = iteration.physics.thermal
-    if grid.heat is None or thermal is None:
-        return None
-    return float(np.max(mid_film(grid.heat.temperature))) - thermal.inlet_temperature
-
-
-def rise_error(found: list[tuple[OuterIteration, HeatedGrid]]) -> float | None:
+def rise_error(found: list[HeatedGrid]) -> float | None:
     """Estimated error of the largest rise of the mid-film temperature.
 
     Returns sum of the errors by the grid along the film, by the polynomial across it and by properties of the
@@ -401,41 +445,39 @@ def rise_error(found: list[tuple[OuterIteration, HeatedGrid]]) -> float | None:
     along = _along(found)
     if along is None:
         return None
-    others = [_finer_across, _curved_oil] if _beyond(*found[-1]) else [_finer_across]
-    parts = [_change(*found[-2], other) for other in others]
+    others = [_finer_across, _curved_oil] if _beyond(found[-1]) else [_finer_across]
+    parts = [_change(found[-2], other) for other in others]
     known = [part for part in parts if part is not None]
     return along + sum(known) if len(known) == len(parts) else None
 
 
-def _along(found: list[tuple[OuterIteration, HeatedGrid]]) -> float | None:
+def _along(found: list[HeatedGrid]) -> float | None:
     """Error by the grid along the film [K].
 
     At first order the error is the difference to the next coarser grid, and half of the difference between
     the two grids before. The larger one counts, as a difference of two maxima passes through zero. A peak
     that the grid hardly shows may still become the largest one.
     """
-    known = [(iteration, grid) for iteration, grid in found[-3:] if grid.converged and grid.heat is not None]
+    known = [grid for grid in found[-3:] if grid.status == "converged" and grid.heat is not None]
     if len(known) < 2 or known[-2:] != found[-2:]:
         return None
-    rises = [rise for each in reversed(known) if (rise := largest_rise(*each)) is not None]
+    rises = [rise for each in reversed(known) if (rise := each.largest_rise) is not None]
     changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
     return max(*changes, _LEAST, close_enough(rises[0]), _growing_peak(*known[-2:]))
 
 
-def _growing_peak(
-    coarse: tuple[OuterIteration, HeatedGrid], fine: tuple[OuterIteration, HeatedGrid]
-) -> float:
+def _growing_peak(coarse: HeatedGrid, fine: HeatedGrid) -> float:
     """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
-    meshes = [iteration.level.mesh for iteration, _ in (coarse, fine)]
-    before, now = (mid_film(grid.heat.temperature) for _, grid in (coarse, fine) if grid.heat is not None)
-    growth = np.maximum(now - on_mesh(before[np.newaxis], *meshes)[0], 0.0)
-    times = _GROWTH_UNBOUNDED if fine[0].physics.rheology.name in UNBOUNDED else _GROWTH
+    before, now = coarse.middle, fine.middle
+    assert before is not None and now is not None
+    growth = np.maximum(now - on_mesh(before[np.newaxis], coarse.level.mesh, fine.level.mesh)[0], 0.0)
+    times = _GROWTH_UNBOUNDED if fine.iteration.physics.rheology.name in UNBOUNDED else _GROWTH
     return float(np.max(now + times * growth) - np.max(now))
 
 
-def _beyond(iteration: OuterIteration, grid: HeatedGrid) -> bool:
+def _beyond(grid: HeatedGrid) -> bool:
     """Whether the film is hotter than the range in which the laws of the oil have values."""
-    thermal = iteration.physics.thermal
+    thermal = grid.iteration.physics.thermal
     assert thermal is not None and grid.heat is not None
     return bool(np.max(grid.heat.temperature) > thermal.oil.highest)
 
@@ -456,15 +498,15 @@ def _curved_oil(iteration: OuterIteration, heat: Heat) -> tuple[OuterIteration, 
     return replace(iteration, problem=replace(iteration.problem, physics=physics)), heat
 
 
-def _change(iteration: OuterIteration, grid: HeatedGrid, other: Variation) -> float | None:
+def _change(grid: HeatedGrid, other: Variation) -> float | None:
     """Change of the largest rise [K] by a variation of the solution; None if that does not converge."""
-    now = largest_rise(iteration, grid)
+    now = grid.largest_rise
     if now is None or grid.heat is None:
         return None
-    iteration, heat = other(replace(iteration, finer=0), grid.heat)
-    varied = iteration(grid.solution.state, heat, spike=False)
-    rise = largest_rise(iteration, varied)
-    return abs(rise - now) if rise is not None and varied.converged else None
+    iteration, heat = other(replace(grid.iteration, finer=0), grid.heat)
+    varied = iteration(grid.state, heat, spike=False, filled=grid.filled)
+    rise = varied.largest_rise
+    return abs(rise - now) if rise is not None and varied.status == "converged" else None
 
 
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
@@ -514,58 +556,79 @@ def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) ->
 
 
 def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
-    """Both films, with heat on all grids from coarse to fine."""
+    """Both films, with heat on all grids from coarse to fine: flooded first, then with the supply of oil."""
     assert problem.physics is not None
-    simple = refined_solution(replace(problem, physics=None), progress)
+    cold = replace(problem, physics=None)
+    simple = film_method(cold)(cold, progress)
     finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem)
-    found = _on_grids(finest, simple, progress, careful=False)
-    if not all(grid.converged for _, grid in found):
+    starts = simple.solutions if simple.patch is None else [simple.whole]
+    if isinstance(simple, StarvedSolution) and simple.flooded is not None:
+        starts = [simple.flooded]
+    found = _on_grids(finest, starts, progress, careful=False)
+    if not all(grid.status == "converged" for grid in found):
         # Very hot films take more grids and more exact loops.
-        found = _on_grids(finest, simple, progress, careful=True)
-    return _solution(simple, found)
+        found = _on_grids(finest, starts, progress, careful=True)
+    refined = RefinedSolution(finest, list(found))
+    if problem.supply is not None:
+        refined = starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
+    return _solution(simple, refined)
+
+
+def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
+    """Starved film with heat to be solved on the grid of a flooded film."""
+    iteration = flooded.iteration
+
+    def film(guess: Guess, supply: Supply) -> HeatedGrid:
+        before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
+        heat = None if before.heat is None else _finer(before.heat, before.level, iteration.level)
+        return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
+
+    return StarvedProblem(iteration.problem, iteration.posed, flooded, film)
 
 
 def _on_grids(
-    finest: FilmProblem, simple: RefinedSolution, progress: Progress | None, *, careful: bool
-) -> list[tuple[OuterIteration, HeatedGrid]]:
-    """Film with heat on all grids; the quick iteration ends with the first grid that it does not solve."""
+    finest: FilmProblem, starts: Sequence[GridSolution], progress: Progress | None, *, careful: bool
+) -> list[HeatedGrid]:
+    """Flooded film with heat on all grids; the quick iteration ends with the first that it does not solve.
+
+    ``starts`` are isothermal films over the whole domain, the one on the finest grid last.
+    """
     grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
     if finest.width is not None:
         least = _FIRST_POINT
     while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
         grids.append(grids[-1].halved())
-    found: list[tuple[OuterIteration, HeatedGrid]] = []
+    found: list[HeatedGrid] = []
     for finer, posed in reversed(list(enumerate(grids))):
         iteration = replace(_iteration_on(posed, finer=finer, progress=progress), careful=careful)
         if careful:
-            iteration, grid = _careful(iteration, simple, found)
+            found.append(_careful(iteration, starts, found))
         else:
-            grid = iteration(*_start(iteration, simple, found), spike=True)
-        found.append((iteration, grid))
-        if not careful and not grid.converged:
+            found.append(iteration(*_start(iteration, starts, found), spike=True))
+        if not careful and found[-1].status != "converged":
             break
     return found
 
 
 def _careful(
-    iteration: OuterIteration, simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]
-) -> tuple[OuterIteration, HeatedGrid]:
+    iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
+) -> HeatedGrid:
     """Film with heat on a grid by the first careful iteration that converges.
 
     The variant that converged on the coarser grid comes first.
     """
-    before = bool(found) and found[-1][0].held
+    before = bool(found) and found[-1].iteration.held
     variants = [replace(iteration, held=held) for held in (before, not before)]
-    state, heat = _start(iteration, simple, found)
-    tried: list[tuple[OuterIteration, HeatedGrid]] = []
+    state, heat = _start(iteration, starts, found)
+    tried: list[HeatedGrid] = []
     for variant in variants:
-        tried.append((variant, variant(state, heat, spike=True)))
-        if tried[-1][1].converged:
+        tried.append(variant(state, heat, spike=True))
+        if tried[-1].status == "converged":
             return tried[-1]
     if iteration.physics.slide_to_roll_ratio != 0.0:
         for variant in variants:
-            tried.append((variant, _by_slip(variant, simple)))
-            if tried[-1][1].converged:
+            tried.append(_by_slip(variant, starts))
+            if tried[-1].status == "converged":
                 return tried[-1]
     return tried[0]
 
@@ -585,35 +648,41 @@ def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None
     return OuterIteration(problem, posed, finer)
 
 
-def _by_slip(iteration: OuterIteration, simple: RefinedSolution) -> HeatedGrid:
+def _by_slip(iteration: OuterIteration, starts: Sequence[GridSolution]) -> HeatedGrid:
     """Film with heat on a grid from rolling to its slip in steps, which converges from farther."""
     first, second = iteration.physics.speeds
     mean = iteration.physics.mean_speed
-    (state, heat), loops = _start(iteration, simple, []), 0
+    (state, heat), loops = _start(iteration, starts, []), 0
     for part in _SLIPS:
         speeds = mean + part * (first - mean), mean + part * (second - mean)
         problem = replace(iteration.problem, physics=replace(iteration.physics, speeds=speeds))
         grid = replace(iteration, problem=problem)(state, heat, spike=False)
         loops += grid.loops
-        if grid.solution.status != "diverged":
-            state, heat = grid.solution.state, grid.heat
+        if grid.status != "diverged":
+            state, heat = grid.state, grid.heat
     return replace(grid, loops=loops)
 
 
 def _start(
-    iteration: OuterIteration, simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]
+    iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
 ) -> tuple[State, Heat | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
     level = iteration.level
-    if found and found[-1][1].converged:
-        coarse = found[-1][1]
-        state = interpolated_state(level, coarse.solution)
-        state = state.lifted(0.5 * float(coarse.solution.state.thickness.min()))
-        return state, None if coarse.heat is None else _finer(coarse.heat, coarse.solution.level, level)
-    for solution in reversed(simple.solutions):
-        if solution.level.mesh.shape == level.mesh.shape and simple.patch is None:
+    if found and found[-1].status == "converged":
+        coarse = found[-1]
+        return _finer_state(level, coarse), None if coarse.heat is None else _finer(
+            coarse.heat, coarse.level, level
+        )
+    for solution in reversed(starts):
+        if solution.level.mesh.shape == level.mesh.shape:
             return solution.state, None
-    return interpolated_state(level, simple.whole), None
+    return _finer_state(level, starts[-1]), None
+
+
+def _finer_state(level: Level, coarse: GridSolution) -> State:
+    """State on a grid from a solution on another one, with no gap that vanishes."""
+    state = interpolated_state(level, coarse)
+    return state if coarse.touches else state.lifted(0.5 * float(coarse.state.thickness.min()))
 
 
 def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
@@ -621,37 +690,39 @@ def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
     return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
 
 
-def _solution(simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]) -> HeatedSolution:
+def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSolution:
     """Results of the film on its finest grid."""
-    iteration, last = found[-1]
+    found = [grid for grid in refined.solutions if isinstance(grid, HeatedGrid)]
+    last = found[-1]
+    iteration, state = last.iteration, last.state
     problem, physics = iteration.problem, iteration.physics
-    mesh, state = iteration.level.mesh, last.solution.state
-    columns, filled = iteration.columns(last.solution, last.flow)
+    mesh = iteration.level.mesh
+    columns, filled = iteration.columns(last, last.law)
+    # The oil of the boundary film is no lubricant: friction coefficients of asperities stand for it.
+    sheared = filled * ~state.touching
     friction = traction(
         columns,
         state.thickness,
         mesh,
         load=iteration.level.load,
         stress_ratio=iteration.stress_scale / problem.scales.pressure,
-        filled=filled,
+        filled=sheared,
     )
     scales, level = problem.scales, iteration.level
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
-    heat = last.heat
-    middle = None if heat is None else mid_film(heat.temperature)
-    imbalance = None
+    heat, imbalance = last.heat, None
     if heat is not None and physics.thermal is not None:
-        stream = iteration.stream(last.solution, heat, columns, filled)
+        stream = iteration.stream(last, heat, columns, filled)
         imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
     return HeatedSolution(
-        refined=RefinedSolution(problem, [grid.solution for _, grid in found]),
+        refined=refined,
         simple=simple,
         temperature=None if heat is None else heat.temperature,
         zeta=columns.across.zeta,
-        mid_temperature=middle,
-        max_temperature_rise=largest_rise(iteration, last),
+        mid_temperature=last.middle,
+        max_temperature_rise=last.largest_rise,
         temperature_rise_error=rise_error(found),
-        shear_stress=iteration.stress_scale * columns.middle[0] * filled,
+        shear_stress=iteration.stress_scale * columns.middle[0] * sheared,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
         power_loss=friction.power_loss(
@@ -660,21 +731,9 @@ def _solution(simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedG
             slide_to_roll_ratio=physics.slide_to_roll_ratio,
         ),
         energy_imbalance=imbalance,
-        outer_iterations=sum(grid.loops for _, grid in found),
-        status=last.solution.status,
+        outer_iterations=sum(grid.loops for grid in found),
+        status=last.status,
     )
-
-
-def heated_status(found: HeatedSolution, status: Status) -> Status:
-    """Status of a film, "converged" only if its temperature converged with it and its surfaces are apart.
-
-    The equations of heat and shear know no surfaces that touch: a film thinner than the boundary film is no
-    solution of them.
-    """
-    if status != "converged":
-        return status
-    pierced = float(np.min(found.refined.last.state.thickness)) < found.refined.problem.boundary_film
-    return "stalled" if pierced else found.status
 
 
 def heated_result(

@@ -273,6 +273,8 @@ class Physics:
     speeds: tuple[float, float]
     viscosity: float  # viscosity eta_0 in the velocity parameter of the problem [Pa s]
     thermal: Thermal | None = None  # heat; None for an isothermal film
+    # Friction coefficient where the surfaces touch and slide, for its heat; None where it is not known.
+    boundary_friction: float | None = None
 
     @property
     def mean_speed(self) -> float:

@@ -15,7 +15,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.film_error import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
-from ehlectric.film.heated_film import heated_result, heated_status, solve_heated_film
+from ehlectric.film.heated_film import heated_result, solve_heated_film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
@@ -296,7 +296,7 @@ def _solved(
             return film_of(film_method(problem)(problem, progress))
         found = solve_heated_film(problem, progress)
         simple, film = film_of(found.simple), film_of(found.refined)
-        status = heated_status(found, film.status)
+        status = found.status if film.converged else film.status
         heated = heated_result(
             found,
             shape_on(found.refined.last.level.mesh),

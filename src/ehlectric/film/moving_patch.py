@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.film_solver import starved_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.starved_solver import StarvedFilm
-from ehlectric.film.unsteady import TOUCHING, History, Instant, MovingGap, UnsteadyFilm
+from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
 from ehlectric.runtime.threads import quiet_solution
 
 # Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice that of a
@@ -43,29 +43,28 @@ class MovingFilm:
     @cached_property
     def steady(self) -> GridSolution:
         """Stationary film on the whole domain before the motion. Raises ConvergenceError if it does not
-        converge, or if it is starved and thinner than the boundary film somewhere.
+        converge.
         """
         return self._found[0]
 
     @property
-    def starved(self) -> StarvedFilm | None:
-        """Stationary film with its content of oil; None where the inlet is flooded."""
+    def layer(self) -> Array | None:
+        """Thickness H of the layer of oil at the inlet edge (ny,); None where the inlet is flooded."""
         return self._found[1]
 
     @cached_property
-    def _found(self) -> tuple[GridSolution, StarvedFilm | None]:
-        """Stationary film, and its content of oil where it is starved."""
+    def _found(self) -> tuple[GridSolution, Array | None]:
+        """Stationary film, and its layer of oil where it is starved."""
+        layer = None
         with quiet_solution():
             if self.problem.supply is None:
-                steady, starved = nested_iteration(self.problem, None)[-1], None
+                steady = nested_iteration(self.problem, None)[-1]
             else:
                 found = starved_solution(replace(self.problem, target_error=None), None)
-                steady, starved = found.last, found.film
+                steady, layer = found.last, found.layer if found.starved else None
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")
-        if starved is not None and float(np.min(steady.state.thickness)) < self.problem.boundary_film:
-            raise ConvergenceError(f"film before the motion: {TOUCHING}")
-        return steady, starved
+        return steady, layer
 
     @cached_property
     def patch(self) -> Patch | None:
@@ -73,7 +72,7 @@ class MovingFilm:
 
         The meniscus of a starved film moves, and oil flows to and from the sides ahead of a patch.
         """
-        if self.starved is not None:
+        if self.layer is not None:
             return None
         return Patch.around(self.problem, self.steady, ahead=AHEAD)
 
@@ -81,13 +80,10 @@ class MovingFilm:
     def film(self) -> UnsteadyFilm:
         """Solver of the time steps, on the patch or on the whole domain."""
         problem = self.problem if self.patch is None else self.patch.refined(1)
-        layer = None if self.starved is None else self.starved.layer
-        return UnsteadyFilm(problem, self._moving_gap, layer)
+        return UnsteadyFilm(problem, self._moving_gap, self.layer)
 
     def start(self, step: float) -> History:
         """History that starts from the stationary film, with a time T between its two instants."""
-        if self.starved is not None:
-            return self.film.start(self.starved, step)
         if self.patch is None:
             return self.film.start(self.steady, step)
         with quiet_solution():

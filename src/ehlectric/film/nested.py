@@ -170,7 +170,7 @@ def _mixed(
     posed = grid_problem(problem, levels, progress, times=_MIXED if finest else _MIXED_COARSE)
     # A film whose surfaces touch needs all grids.
     posed = replace(posed, levels=levels)
-    conserving = Conserving(posed, problem.asperities, problem.wedge_order)
+    conserving = Conserving(posed, problem.wedge_order)
     found: list[GridSolution] = []
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = with_inlet(coarse.final.full_film)
@@ -184,7 +184,6 @@ def _mixed(
     counted_full = touching_films(
         posed,
         dry,
-        problem.asperities,
         film_guess=problem.thickness_guess,
         near=near,
         thorough=finest,
@@ -260,7 +259,8 @@ def grid_problem(
     tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
     direct = levels[0].mesh.dy is None and levels[0].nodes <= DIRECT
     grids = levels[:1] if direct else levels
-    return GridProblem(problem.fluid, grids, tolerance, times * problem.max_iterations, progress)
+    most = times * problem.max_iterations
+    return GridProblem(problem.fluid, grids, tolerance, most, progress, problem.asperities)
 
 
 def levels_of(problem: FilmProblem) -> list[Level]:

@@ -110,6 +110,20 @@ class Residual:
 
 
 @dataclass(frozen=True)
+class Content:
+    """Oil in the gap of a film that carries it through cavities."""
+
+    # Nodes that oil fills: inside the domain those with a full film, on the inlet edge those where the layer
+    # of oil is thicker than the gap, shape (nx, ny).
+    filled: Mask
+    mass: Array  # mass theta rho H of the oil, shape (nx, ny)
+
+    def fraction(self, full: Array) -> Array:
+        """Part theta of the gap that oil fills, from the mass rho H of the full gap, both (nx, ny)."""
+        return np.where(self.filled, 1.0, np.clip(self.mass / full, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
 class GridSolution:
     """Last iterate of Newton's method on one grid."""
 
@@ -118,13 +132,37 @@ class GridSolution:
     final: Residual
     steps: tuple[NewtonStep, ...]  # Newton steps that led to the last iterate
     status: Status  # "converged", "stalled" or "diverged"
-    # Part of the gap that oil fills; None where the film does not carry its content of oil, shape (nx, ny).
-    fraction: Array | None = None
+    content: Content | None = None  # oil in the gap; None where it is not carried through cavities
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills, shape (nx, ny); None where it is not carried."""
+        if self.content is None:
+            return None
+        return self.content.fraction(self.final.coefficients.density * self.state.thickness)
 
     @property
     def touches(self) -> bool:
         """Whether asperities carry a part of the load at some node."""
         return bool(np.any(self.state.touching))
+
+
+@dataclass(frozen=True)
+class Guess:
+    """Initial guess of a film on one grid that carries its oil."""
+
+    state: State
+    filled: Mask  # nodes that oil fills, shape (nx, ny)
+    # Film of the guess, on the same or a coarser grid: a film with heat begins with its temperature.
+    of: GridSolution | None = None
+
+
+@dataclass(frozen=True)
+class Asperities:
+    """Boundary film and hardness of asperities that touch."""
+
+    boundary_film: float = 0.0  # thickness H_s of the boundary film; 0 where surfaces cannot touch
+    hardness: float = np.inf  # largest pressure P_y of nodes in contact, over p_h
 
 
 @dataclass(frozen=True)
@@ -137,6 +175,7 @@ class GridProblem:
     max_iterations: int  # largest number of Newton steps from each start
     # Function that is called with (nodes, Newton step, residual) before every step.
     progress: Progress | None = None
+    asperities: Asperities = Asperities()  # boundary film and hardness where surfaces touch
 
     @property
     def level(self) -> Level:

@@ -13,7 +13,7 @@ from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.film.touching_film import Asperities
+from ehlectric.film.newton import Asperities
 
 # Function that is called after each grid of a refinement: (grid, discretisation error or None) -> None.
 OnGrid: TypeAlias = Callable[[Mesh, float | None], None]

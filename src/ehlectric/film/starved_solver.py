@@ -3,22 +3,26 @@
 A flooded film may form again behind a cavity, as between the peaks of a rough surface. The wedge term of
 ``ehlectric.film.newton`` counts a cavitated gap as full. That is exact where no oil fills the gap any more
 behind a cavity. Elsewhere it makes the oil that is missing in the cavity. There the content of oil is carried
-through the cavity, as in a starved film (``ehlectric.film.starved_film``) whose inlet is flooded.
+through the cavity, as in a starved film (``ehlectric.film.oil_content``) whose inlet is flooded.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypeAlias
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.flow import Fluid
+from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.newton import GridProblem, GridSolution, State
-from ehlectric.film.starved_film import Content, Supply, assess_content, starved_newton
+from ehlectric.film.newton import Asperities, Content, GridProblem, GridSolution, Guess, State
+from ehlectric.film.oil_content import Carried, Supply, carried_rows
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.touching_film import touching_newton
 
 # Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
 _AGAIN = 15
@@ -45,16 +49,15 @@ def forms_again(full_film: Mask) -> bool:
 
 
 def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int) -> GridSolution:
-    """Last iterate, with its oil fraction, of a film on one grid that conserves its oil.
+    """Last iterate, with its content of oil, of a film on one grid that conserves its oil.
 
-    ``order`` is that of the wedge term where oil fills the gap.
+    ``order`` is that of the wedge term where oil fills the gap. The surfaces are apart.
     """
-    supply = flooded_inlet(problem.level, order)
+    supply, problem = flooded_inlet(problem.level, order), replace(problem, asperities=Asperities())
 
     def solved(posed: GridProblem, state: State, filled: Mask) -> GridSolution:
         state = replace(state, contact_pressure=0.0)
-        solution, content = starved_newton(posed, state, with_inlet(filled), supply)
-        return replace(solution, fraction=content.fraction(solution.state.thickness))
+        return touching_newton(posed, state, first_damping=0.0, carried=Carried(supply, with_inlet(filled)))
 
     return of_full_order(problem, solved(problem, *start), solved)
 
@@ -90,13 +93,16 @@ def with_inlet(filled: Mask) -> Mask:
     return flooded
 
 
-def oil_fraction(fluid: Fluid, solution: GridSolution, order: int) -> Array:
+def oil_fraction(solution: GridSolution, order: int) -> Array:
     """Part of the gap that oil fills, shape (nx, ny), also of a solution that does not carry it."""
     if solution.fraction is not None:
         return solution.fraction
-    level, state = solution.level, solution.state
+    level, at_faces = solution.level, solution.final.flow
+    full = at_faces.coefficients.density * solution.state.thickness
     filled = with_inlet(solution.final.full_film)
-    return assess_content(fluid, level, state, filled, flooded_inlet(level, order)).fraction(state.thickness)
+    carried = Carried(flooded_inlet(level, order), filled)
+    _, mass = carried_rows(level, at_faces, solution.state.thickness, carried)
+    return Content(filled, mass).fraction(full)
 
 
 # Multiple of the layer of oil above which the inlet of an initial guess is not filled.
@@ -115,28 +121,42 @@ _FALL, _LEAST_FALL = 0.6, 0.97
 _MOST_STEPS = 40
 
 
-@dataclass(frozen=True)
-class StarvedFilm:
-    """Starved film on one grid."""
+# Film on one grid from an initial guess and a supply of oil.
+Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 
-    solution: GridSolution  # last iterate, with its status
-    content: Content
-    layer: Array  # thickness H of the layer of oil at the lines of the grid, shape (ny,)
 
-    @property
-    def fraction(self) -> Array:
-        """Part of the gap that oil fills, shape (nx, ny)."""
-        return self.content.fraction(self.solution.state.thickness)
+def isothermal(posed: GridProblem) -> Solver:
+    """Solver of films on one grid without heat."""
+
+    def solved(problem: GridProblem, state: State, filled: Mask, supply: Supply) -> GridSolution:
+        return touching_newton(problem, state, first_damping=0.0, carried=Carried(supply, filled))
+
+    def film(guess: Guess, supply: Supply) -> GridSolution:
+        found = solved(posed, guess.state, guess.filled, supply)
+        return of_full_order(posed, found, partial(solved, supply=supply))
+
+    return film
 
 
 @dataclass(frozen=True)
 class StarvedProblem:
     """Starved film to be solved on one grid, with the flooded film."""
 
-    posed: GridProblem  # lubricant, grids and stopping rule
-    order: int  # order of the wedge term where the film is filled
+    problem: FilmProblem  # problem whose number of nodes is that of the grid
+    posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
-    dry_pressure: Array  # Hertz pressure P, shape (nx, ny)
+    film: Solver
+
+    @property
+    def order(self) -> int:
+        """Order of the wedge term where the film is filled."""
+        return self.problem.wedge_order
+
+    @property
+    def dry_pressure(self) -> Array:
+        """Hertz pressure P, shape (nx, ny)."""
+        mesh = self.level.mesh
+        return np.broadcast_to(self.problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape)
 
     @property
     def level(self) -> Level:
@@ -149,82 +169,99 @@ class StarvedProblem:
         density = self.flooded.final.coefficients.density
         return at_centre(self.level.mesh, density * self.flooded.state.thickness)
 
-    def solved(self, layer: Array, near: tuple[State, Mask] | None = None) -> StarvedFilm:
-        """Starved film under a layer of oil (ny,), from one start after the other until one converges.
+    def solved(self, layer: Array, near: Guess | None = None) -> GridSolution:
+        """Starved film under a layer of oil (ny,), from one guess after the other until one converges.
 
-        ``near`` is a state with its filled nodes that is likely to be close, as that of a coarser grid.
+        ``near`` is a guess that is likely to be close, as the film of a coarser grid.
         """
         best = None
         for film in self._attempts(layer, near):
-            if best is None or film.solution.final.norm < best.solution.final.norm:
+            if best is None or film.final.norm < best.final.norm:
                 best = film
-            if film.solution.status == "converged":
+            if film.status == "converged":
                 return film
         assert best is not None
         return best
 
-    def _attempts(self, layer: Array, near: tuple[State, Mask] | None) -> Iterator[StarvedFilm]:
-        """Films from all starts, the likeliest one first."""
+    def _attempts(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
+        """Films from all guesses, the likeliest one first."""
         if near is not None:
-            yield self._newton(layer, *near)
-        starts = [self._from_flooded, self._from_dry]
+            yield self._under(layer, near)
+        guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
-        for start in reversed(starts) if scarce else starts:
-            yield self._newton(layer, *start(layer))
+        for guess in reversed(guesses) if scarce else guesses:
+            yield self._under(layer, guess(layer))
+        if self.posed.asperities.boundary_film:
+            yield self._under(layer, self._from_contact(layer))
         yield from self._in_steps(layer)
 
-    def _newton(self, layer: Array, state: State, filled: Mask) -> StarvedFilm:
-        supply = Supply(self.flooded.final.coefficients.density[0] * layer, self.order)
-        return StarvedFilm(*starved_newton(self.posed, state, filled, supply), layer)
+    def _under(self, layer: Array, guess: Guess) -> GridSolution:
+        """Film under a layer of oil (ny,), from a guess."""
+        ambient = self.flooded.final.coefficients.density[0]
+        return self.film(guess, Supply(ambient * layer, self.order))
 
-    def _from_flooded(self, layer: Array) -> tuple[State, Mask]:
+    def _from_flooded(self, layer: Array) -> Guess:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""
-        state = self.flooded.state
-        return self._lowered(layer, replace(state, contact_pressure=0.0), self.flooded.final.full_film)
+        state, filled = self.flooded.state, self.flooded.final.full_film
+        if self.flooded.touches:
+            return self._guess(layer, state, filled)
+        return self._lowered(layer, state, filled)
 
-    def _from_dry(self, layer: Array) -> tuple[State, Mask]:
+    def _from_dry(self, layer: Array) -> Guess:
         """Dry contact at a distance as large as the layer."""
         pressure = np.maximum(self.dry_pressure, self.posed.fluid.ambient_pressure)
         state = State.of(self.level, pressure, 0.0)
         return self._lowered(layer, state, self.level.mesh.inner)
 
-    def _lowered(self, layer: Array, state: State, filled: Mask) -> tuple[State, Mask]:
+    def _from_contact(self, layer: Array) -> Guess:
+        """Dry contact of the rough surfaces, whose asperities carry the load."""
+        ambient, least = self.posed.fluid.ambient_pressure, self.posed.asperities.boundary_film
+        state = dry_contact(self.level, self.dry_pressure, least, ambient)
+        return self._guess(layer, state, self.level.mesh.inner)
+
+    def _lowered(self, layer: Array, state: State, filled: Mask) -> Guess:
         """State whose centre is as thick as the layer, or as the flooded film, and its filled nodes."""
         mesh, least = self.level.mesh, at_centre_line(self.level, layer)
         centre = at_centre(mesh, state.thickness)
         density = self.flooded_mass / at_centre(mesh, self.flooded.state.thickness)
         shift = min(least, self.flooded_mass) / density - centre
         state = state.shifted(shift).lifted(_LEAST_GAP * min(least, self.flooded_mass))
-        inlet = mesh.x[:, np.newaxis] < 0.0
-        return state, filled & ~(inlet & (state.thickness > _FILLED * layer))
+        return self._guess(layer, state, filled)
 
-    def _in_steps(self, layer: Array) -> Iterator[StarvedFilm]:
+    def _guess(self, layer: Array, state: State, filled: Mask) -> Guess:
+        """Guess whose wide gap ahead of the contact is not filled."""
+        inlet = self.level.mesh.x[:, np.newaxis] < 0.0
+        return Guess(state, filled & ~(inlet & (state.thickness > _FILLED * layer)), self.flooded)
+
+    def _in_steps(self, layer: Array) -> Iterator[GridSolution]:
         """Films under a layer that falls from that of the flooded film; the last one is that asked for."""
         least = float(np.min(layer))
         part = max(1.0, 0.9 * self.flooded_mass / max(least, 1e-300))
-        fall, last = _FALL, None
+        fall: float = _FALL
+        last: tuple[float, GridSolution] | None = None  # part of the layer, and its film
         for _ in range(_MOST_STEPS):
             here = part * layer
-            start = self._from_flooded(here) if last is None else self._follow(last, here)
-            film = self._newton(here, *start)
-            if film.solution.status == "converged":
+            guess = self._from_flooded(here) if last is None else self._follow(last[1], part / last[0])
+            film = self._under(here, guess)
+            if film.status == "converged":
                 if part == 1.0:
                     yield film
                     return
-                last, fall = film, fall**1.5
+                last, fall = (part, film), fall**1.5
             else:
                 part, fall = part / fall, fall**0.5
                 if fall > _LEAST_FALL or last is None:
                     return
             part = max(1.0, fall * part)
 
-    def _follow(self, last: StarvedFilm, layer: Array) -> tuple[State, Mask]:
-        """Start for a slightly thinner layer from a converged film."""
-        state = last.solution.state
-        fall = at_centre_line(self.level, layer) / at_centre_line(self.level, last.layer)
-        shift = (fall - 1.0) * at_centre(self.level.mesh, state.thickness)
-        lowered = state.shifted(shift).lifted(_LEAST_GAP * fall * float(np.min(state.thickness)))
-        return lowered, last.content.filled
+    def _follow(self, last: GridSolution, fall: float) -> Guess:
+        """Guess for a slightly thinner layer, ``fall`` times that of a converged film."""
+        assert last.content is not None
+        state = last.state
+        if not last.touches:
+            shift = (fall - 1.0) * at_centre(self.level.mesh, state.thickness)
+            state = state.shifted(shift).lifted(_LEAST_GAP * fall * float(np.min(state.thickness)))
+        return Guess(state, last.content.filled, last)
 
 
 def at_centre_line(level: Level, layer: Array) -> float:
@@ -244,14 +281,14 @@ _MOST_FACTOR, _FLOODED = 4.0, 1.0 - 1e-9
 
 
 def film_of_ratio(
-    starved: StarvedProblem, ratio: float, near: tuple[State, Mask] | None, last: StarvedFilm | None
-) -> tuple[Array | None, StarvedFilm | None]:
+    starved: StarvedProblem, ratio: float, near: Guess | None, last: Array | None
+) -> tuple[Array | None, GridSolution | None]:
     """Uniform layer of oil (ny,) for a ratio of central films, and its starved film.
 
     Returns ``layer``, thickness H of the layer, shape (ny,); None where it is not known: for a flooded film
     that did not converge, and for that of a point contact, the least layer of which depends on the domain;
     ``film``, its film; None for the flooded film, also where that did not converge and has no parts; the
-    ratio may be missed where a film did not converge.
+    ratio may be missed where a film did not converge. ``last`` (m,) is the layer of the coarser grid.
 
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
@@ -264,23 +301,24 @@ def film_of_ratio(
     flooded = at_centre(mesh, starved.flooded.state.thickness)
     layer = first_layer(ratio, line=mesh.dy is None) * starved.flooded_mass / ambient
     if last is not None:
-        layer = at_centre_line(last.solution.level, last.layer)
+        layer = float(last[0])
     found: list[tuple[float, float]] = []
-    best: tuple[float, StarvedFilm] | None = None
+    best: tuple[float, Array, GridSolution] | None = None
     for _ in range(_MOST_FILMS):
-        film = starved.solved(layer * lines, near)
-        if film.solution.status != "converged":
+        here = layer * lines
+        film = starved.solved(here, near)
+        if film.status != "converged":
             break
-        missed = float(np.log(at_centre(mesh, film.solution.state.thickness) / (ratio * flooded)))
+        missed = float(np.log(at_centre(mesh, film.state.thickness) / (ratio * flooded)))
         if best is None or abs(missed) < best[0]:
-            best = abs(missed), film
+            best = abs(missed), here, film
         if abs(missed) < _CLOSE:
             break
         found.append((float(np.log(layer)), missed))
-        near = film.solution.state, film.content.filled
+        assert film.content is not None
+        near = Guess(film.state, film.content.filled, film)
         layer = float(np.exp(_next(found)))
-    chosen = film if best is None else best[1]
-    return chosen.layer, chosen
+    return (here, film) if best is None else best[1:]
 
 
 def taken_layer(starved: StarvedProblem) -> Array:

@@ -41,6 +41,8 @@ from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
+    Asperities,
+    Content,
     GridProblem,
     GridSolution,
     NewtonStep,
@@ -50,6 +52,14 @@ from ehlectric.film.newton import (
     flexible_gmres,
     linear_tolerance,
 )
+from ehlectric.film.oil_content import (
+    Carried,
+    MaskMemory,
+    behind_cavities,
+    filled_anew,
+    of_filled,
+    with_row_before,
+)
 from ehlectric.film.reynolds import (
     Stencil,
     linearise,
@@ -57,18 +67,6 @@ from ehlectric.film.reynolds import (
     residual,
     stencil_matrix,
     without_columns,
-)
-from ehlectric.film.starved_film import (
-    OVERFLOW,
-    TENSION,
-    MaskMemory,
-    Runs,
-    Supply,
-    behind_cavities,
-    content,
-    of_filled,
-    unreduced,
-    with_row_before,
 )
 
 
@@ -92,46 +90,11 @@ class Touching(Residual):
     carried: Carried | None = None
     settled: bool = True  # whether the nodes that oil fills are those at which its mass was carried
 
-    @property
-    def fraction(self) -> Array | None:
-        """Part of the gap that oil fills, shape (nx, ny); None where it is not carried."""
-        if self.carried is None:
-            return None
-        full = self.flow.coefficients.density * self.thickness
-        return np.where(self.carried.filled, 1.0, np.clip(self.carried.mass / full, 0.0, 1.0))
-
-
-@dataclass(frozen=True)
-class Carried:
-    """Oil that is carried through cavities of a stationary film."""
-
-    supply: Supply  # oil at the inlet edge and order of the wedge term
-    filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
-    mass: Array | float = 0.0  # mass of oil at the nodes, shape (nx, ny)
-
-    @property
-    def hollow(self) -> Mask:
-        """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
-        ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
-        return ~self.filled & ahead
-
-    def on(self, level: Level) -> Carried:
-        """Filled nodes and supply on the next coarser grid, for its equations only."""
-        return Carried(self.supply.injected(level), level.inside(self.filled))
-
 
 def node_compliance(level: Level) -> float:
     """Deflection at a node by a unit pressure there and the opposite pressure at its neighbour along x."""
     influence = level.deflection.influence
     return float(influence[0, 0] - influence[1, 0])
-
-
-@dataclass(frozen=True)
-class Asperities:
-    """Boundary film and hardness of asperities that touch."""
-
-    boundary_film: float  # thickness H_s of the boundary film, dimensionless, > 0
-    hardness: float = np.inf  # largest pressure P_y of nodes in contact, over p_h
 
 
 def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
@@ -140,6 +103,8 @@ def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
     They are those where P_c - (H - H_s)/c > 0, with the compliance c of a node, as in a primal-dual active
     set method; the edges of the domain are never among them.
     """
+    if not boundary_film:
+        return np.zeros(state.thickness.shape, dtype=bool)
     excess = state.contact_pressure - (state.thickness - boundary_film) / node_compliance(level)
     return (excess > 0.0) & level.mesh.inner
 
@@ -178,7 +143,9 @@ def assess_touching(
             full_film |= with_refilled_nodes(full_film, r) & contact
     else:
         before = carried.filled
-        carried, r = _filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
+        if contact.any():
+            carried = replace(carried, supply=carried.supply.bounded(k.density * thickness))
+        carried, r = filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
         full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
     compliance = node_compliance(level)
     moving = np.where(contact, k.density_p * thickness, k.density * compliance)
@@ -206,38 +173,6 @@ def assess_touching(
         carried=carried,
         settled=settled,
     )
-
-
-def _filled_anew(
-    level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
-) -> tuple[Carried, Array]:
-    """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
-    full = at_faces.coefficients.density * thickness
-    carried = replace(carried, supply=carried.supply.bounded(full))
-    r, mass = carried_rows(level, at_faces, thickness, carried)
-    surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
-    moved = full_film_nodes(
-        excess + TENSION * carried.filled,
-        np.where(carried.filled, r, surplus),
-        poiseuille=poiseuille,
-        rate=level.rate,
-        thickness=thickness,
-        inner=level.mesh.inner,
-    )
-    moved[0] = True
-    if not np.array_equal(moved, carried.filled):
-        carried = replace(carried, filled=moved)
-        r, mass = carried_rows(level, at_faces, thickness, carried)
-    return replace(carried, mass=mass), r
-
-
-def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carried) -> tuple[Array, Array]:
-    """Rows of the filled nodes, zero elsewhere, and the mass of the carried oil, both (nx, ny)."""
-    runs, filled = Runs.of(carried.filled), carried.filled
-    rows = unreduced(level, at_faces, thickness, filled, carried.supply)
-    full = at_faces.coefficients.density * thickness
-    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
-    return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass
 
 
 def projected(fluid: Fluid, state: State, contact: Mask) -> State:
@@ -307,7 +242,8 @@ class TouchingJacobian:
             stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
             jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks, carried))
         opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
-        opened_factors = _factored(oil_by_p, opened) if opened.any() and contact.any() else None
+        helps = contact.any() or (carried is not None and level.mesh.dy is not None)
+        opened_factors = _factored(oil_by_p, opened) if opened.any() and helps else None
         return cls(
             levels=jacobians,
             finest=finest,
@@ -483,7 +419,6 @@ _NEAR = 1e-3
 def touching_newton(
     problem: GridProblem,
     state: State,
-    asperities: Asperities,
     *,
     first_damping: float = 1.0,
     carried: Carried | None = None,
@@ -494,6 +429,7 @@ def touching_newton(
     guess. The state of the result has the contact pressure.
     """
     fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
+    asperities = problem.asperities
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory()
     before, damping = np.inf, first_damping
@@ -518,7 +454,7 @@ def touching_newton(
             assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
-        damping = damping if assessed.norm > _NEAR else 0.0
+        damping = damping if assessed.norm > _NEAR and assessed.contact.any() else 0.0
         now = assessed
     if is_solved(now, tolerance):
         status = "converged"
@@ -592,7 +528,8 @@ def grid_solution(
     of_flow = now.plastic | level.mesh.edge | (status != "converged")
     state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
     final = Residual(**{each.name: getattr(now, each.name) for each in fields(Residual)})
-    return GridSolution(level, state, final, tuple(steps), status, now.fraction)
+    content = None if now.carried is None else Content(now.carried.filled, np.asarray(now.carried.mass))
+    return GridSolution(level, state, final, tuple(steps), status, content)
 
 
 def _direction(

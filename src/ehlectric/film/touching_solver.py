@@ -29,120 +29,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.flow import Fluid
-from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.newton import GridProblem, GridSolution, NewtonStep, State
+from ehlectric.film.newton import Asperities, GridProblem, GridSolution, NewtonStep, State
+from ehlectric.film.oil_content import Carried, carried_rows
 from ehlectric.film.reynolds import Stencil
 from ehlectric.film.starved_solver import flooded_inlet, of_full_order, with_inlet
 from ehlectric.film.touching_film import (
     OIL_TOLERANCE,
-    Asperities,
-    Carried,
     Stepped,
     Touching,
     assess_touching,
-    carried_rows,
     grid_solution,
     is_solved,
     newton_step,
-    node_compliance,
     projected,
     touching_newton,
 )
-
-# Change of the pressure from step to step, relative to its mean, at which the iteration ends: it is a first
-# guess.
-_TOLERANCE = 1e-5
-_MOST_STEPS = 400
-
-# Root mean square of the gap of nodes in contact over H_s at which asperities count as relieved, and the
-# largest number of steps.
-_RELIEVED = 1e-4
-_RELIEVING_STEPS = 200
-
-# Curvature along a direction, over that of a single node, that is only rounding.
-_ROUNDING = 1e-9
-
-
-def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pressure: float) -> State:
-    """Contact without oil: Q >= P_amb, H >= H_s, (Q - P_amb)(H - H_s) = 0, and the balance of load.
-
-    ``pressure`` (nx, ny) is an initial guess, such as the Hertz pressure. All of the resulting pressure above
-    ambient is contact pressure.
-
-    Conjugate gradients on the nodes in contact, after I. A. Polonsky and L. M. Keer, Wear 231 (1999) 206,
-    doi:10.1016/S0043-1648(99)00113-1.
-    """
-    weights, inner = level.weights, level.mesh.inner
-    base = level.dry_gap + level.deflection(np.full(level.mesh.shape, ambient_pressure))
-    load = level.load - float(np.sum(weights)) * ambient_pressure
-    q = np.where(inner, np.maximum(pressure - ambient_pressure, 0.0), 0.0)
-    q *= load / float(np.vdot(weights, q))
-    direction, last, h00 = np.zeros_like(q), 1.0, 0.0
-    opened, compliance = level.deflection(q), node_compliance(level)
-    for _ in range(_MOST_STEPS):
-        touching = q > 0.0
-        gap = base + opened
-        h00 = -float(np.average(gap, weights=weights * touching))
-        slack = np.where(touching, gap + h00, 0.0)
-        square = float(np.vdot(weights, slack**2))
-        direction = np.where(touching, slack + square / last * direction, 0.0)
-        image = level.deflection(direction)
-        image -= float(np.average(image, weights=weights * touching))
-        curvature = float(np.vdot(weights * direction, image))
-        # With a single node in contact the rest of the gap and the direction are rounding errors.
-        if not curvature > _ROUNDING * compliance * float(np.vdot(weights, direction**2)):
-            break
-        step = float(np.vdot(weights * slack, direction)) / curvature
-        after = np.maximum(q - step * direction, 0.0)
-        pressed = inner & (after == 0.0) & (gap + h00 < 0.0)
-        last = square
-        if pressed.any():
-            after[pressed] -= step * (gap + h00)[pressed]
-            direction, last = np.zeros_like(q), 1.0
-        after *= load / float(np.vdot(weights, after))
-        change = float(np.max(np.abs(after - q)))
-        q, opened = after, level.deflection(after)
-        if change < _TOLERANCE:
-            break
-    touching = q > 0.0
-    h00 = boundary_film - float(np.average(base + opened, weights=weights * touching))
-    total = q + ambient_pressure
-    return State(total, h00, Gap.of(level, total, h00).thickness, q)
-
-
-def relieved(level: Level, state: State, boundary_film: float) -> State:
-    """Film with the pressure of its oil and its H00, and the contact pressure that leaves no node pierced.
-
-    On a finer grid a rough surface has waves that the film of the coarser grid does not know. Asperities that
-    they push through the other surface are flattened here before the oil answers.
-
-    The result has H >= H_s and P_c >= 0 within the domain, P_c about zero where H > H_s; it carries more
-    load.
-
-    Conjugate gradients on the nodes in contact, as in ``dry_contact``, without the balance of load.
-    """
-    weights, inner, oil = level.weights, level.mesh.inner, state.oil_pressure
-    base = Gap.of(level, oil, state.h00).thickness - boundary_film
-    contact = np.where(inner, state.contact_pressure, 0.0)
-    gap, direction, last = base + level.deflection(contact), np.zeros_like(oil), 1.0
-    for _ in range(_RELIEVING_STEPS):
-        free = inner & ((contact > 0.0) | (gap < 0.0))
-        slack = np.where(free, gap, 0.0)
-        square = float(np.vdot(weights, slack**2))
-        if square <= (_RELIEVED * boundary_film) ** 2 * float(np.sum(weights * free)):
-            break
-        direction = np.where(free, slack + square / last * direction, 0.0)
-        image = level.deflection(direction)
-        step = float(np.vdot(weights * slack, direction)) / float(np.vdot(weights * direction, image))
-        after, last = contact - step * direction, square
-        if np.any(after < 0.0):
-            direction, last = np.zeros_like(oil), 1.0
-        contact = np.maximum(after, 0.0)
-        gap = base + level.deflection(contact)
-    return State.of(level, oil + contact, state.h00, contact)
-
 
 # Part of the source that is taken away in the first step, the least one, the factors after a step that
 # converged and one that did not, and the largest number of Newton steps of each.
@@ -156,8 +60,7 @@ _INTERMEDIATE = 1e-6
 class Conserving:
     """Film that carries its oil through cavities, to be solved on one grid."""
 
-    problem: GridProblem  # lubricant, grids and stopping rule
-    asperities: Asperities  # boundary film and hardness
+    problem: GridProblem  # lubricant, grids, asperities and stopping rule
     order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
@@ -199,7 +102,7 @@ class Conserving:
     def _made(self, solution: GridSolution) -> Array:
         """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
         level = self.problem.level
-        thickness = np.maximum(solution.state.thickness, self.asperities.boundary_film)
+        thickness = np.maximum(solution.state.thickness, self.problem.asperities.boundary_film)
         carried = self._carried(level, solution.final.full_film)
         rows, _ = carried_rows(level, solution.final.flow, thickness, carried)
         return rows
@@ -211,9 +114,7 @@ class Conserving:
             posed: GridProblem, state: State, filled: Mask, first_damping: float = 0.0
         ) -> GridSolution:
             carried = self._carried(posed.level, filled)
-            return touching_newton(
-                posed, state, self.asperities, first_damping=first_damping, carried=carried
-            )
+            return touching_newton(posed, state, first_damping=first_damping, carried=carried)
 
         return of_full_order(problem, solved(problem, state, filled, damping), solved)
 
@@ -239,7 +140,7 @@ _LOOSE, _PART = 1e-2, 0.3
 _CLOSE = 1e-2
 
 
-def pseudo_transient_film(problem: GridProblem, state: State, asperities: Asperities) -> GridSolution:
+def pseudo_transient_film(problem: GridProblem, state: State) -> GridSolution:
     """Stationary film on one grid, from a film that is followed in time.
 
     It has converged if its stationary residual is small after an infinite time step.
@@ -248,7 +149,7 @@ def pseudo_transient_film(problem: GridProblem, state: State, asperities: Asperi
     doi:10.1137/S0036142996304796. A small residual alone does not make a film stationary: oil creeps through
     a boundary film so slowly that the film may change for a long time.
     """
-    fluid, levels, level = problem.fluid, problem.levels, problem.level
+    fluid, levels, level, asperities = problem.fluid, problem.levels, problem.level, problem.asperities
     tolerance = problem.reachable_tolerance
     steps: list[NewtonStep] = []
     now = assess_touching(fluid, level, state, asperities)
@@ -334,7 +235,6 @@ _IN_TIME = 8
 def touching_films(
     problem: GridProblem,
     dry_pressure: Array,
-    asperities: Asperities,
     *,
     film_guess: float,
     near: State | None = None,
@@ -345,22 +245,23 @@ def touching_films(
     ``dry_pressure`` (nx, ny) is the Hertz pressure P, and ``film_guess`` the film thickness H of smooth
     surfaces by a formula. Unless ``thorough``, as on coarser grids, only the first initial guess is tried.
     """
+    boundary_film = problem.asperities.boundary_film
     if near is not None:
         close = [near]
         if problem.level.mesh.y.size > 1:
-            close.insert(0, relieved(problem.level, near, asperities.boundary_film))
+            close.insert(0, relieved(problem.level, near, boundary_film))
         for start in close:
-            yield (found := touching_newton(problem, start, asperities, first_damping=NEAR_DAMPING))
+            yield (found := touching_newton(problem, start, first_damping=NEAR_DAMPING))
             if found.status == "converged":
                 return
         if not thorough:
             return
     ambient = problem.fluid.ambient_pressure
-    dry = dry_contact(problem.level, dry_pressure, asperities.boundary_film, ambient)
+    dry = dry_contact(problem.level, dry_pressure, boundary_film, ambient)
     starts = [replace(dry, contact_pressure=0.0), dry]
-    for start in starts if film_guess > asperities.boundary_film else starts[::-1]:
-        yield (found := touching_newton(problem, start, asperities))
+    for start in starts if film_guess > boundary_film else starts[::-1]:
+        yield (found := touching_newton(problem, start))
         if found.status == "converged" or not thorough:
             return
     in_time = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
-    yield pseudo_transient_film(in_time, dry, asperities)
+    yield pseudo_transient_film(in_time, dry)

@@ -28,7 +28,7 @@ Here r is the step over the last step. At the first filled node behind a meniscu
 times the slope of the mass to the next node at the last instant. With equal steps, r = 1, the sum of W over
 the nodes changes by what crosses the ends of the domain alone. Between steps of different lengths the weight
 of the differences in D changes, and the sum of W with it. A film that does not change fulfils the equations
-of ``ehlectric.film.starved_film``.
+of ``ehlectric.film.oil_content``.
 """
 
 from __future__ import annotations
@@ -46,7 +46,6 @@ from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, Stencil
-from ehlectric.film.starved_solver import StarvedFilm
 from ehlectric.film.touching_film import touching_newton
 
 # Distance in grid spacings within which the foot of a line counts as a node.
@@ -310,12 +309,6 @@ _MOST_CHANGE = 0.1
 # Largest distance that oil travels in a time step, in grid spacings.
 MOST_COURANT = 8.0
 
-# Why a film with a layer of oil at the inlet is not solved where it is thinner than the boundary film: the
-# solver of films that touch has no part of the gap without oil, and would make oil.
-TOUCHING = (
-    "it is thinner than contact.boundary_film in places, and surfaces that touch are not solved with [inlet]"
-)
-
 # Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny).
 MovingGap: TypeAlias = Callable[[float, Array, Array], Array]
 
@@ -386,12 +379,11 @@ class UnsteadyFilm:
         """Finest grid, with the operators of the stationary film."""
         return self._levels[0]
 
-    def start(self, steady: GridSolution | StarvedFilm, step: float) -> History:
+    def start(self, steady: GridSolution, step: float) -> History:
         """History with a stationary film, flooded or with a layer of oil, at T = 0 and at T = -``step``."""
-        solution = steady if isinstance(steady, GridSolution) else steady.solution
-        state, density = solution.state, solution.final.coefficients.density
-        if isinstance(steady, GridSolution):
-            mass, filled = stationary_mass(steady), solution.final.full_film
+        state, density = steady.state, steady.final.coefficients.density
+        if self.layer is None or steady.content is None:
+            mass, filled = stationary_mass(steady), steady.final.full_film
         else:
             mass = np.clip(steady.content.mass, 0.0, density * state.thickness)
             filled = steady.content.filled
@@ -403,8 +395,7 @@ class UnsteadyFilm:
 
         ``step``, length of the step in T, at most ``MOST_COURANT`` grid spacings. Returns last two instants
         after the step, with the work of the step. Raises ConvergenceError if the film equations do not
-        converge after six halvings, or a film with a layer of oil is thinner than the boundary film
-        somewhere.
+        converge after six halvings.
         """
         return self._advance(replace(history, effort=Effort()), step, _MOST_HALVINGS)
 
@@ -428,7 +419,8 @@ class UnsteadyFilm:
         time = history.now.time + step
         tolerance = max(self.problem.tolerance, STEP_TOLERANCE)
         levels = self._levels_at(history, step)
-        posed = GridProblem(self.problem.fluid, levels, tolerance, _MANY_ITERATIONS)
+        asperities = self.problem.asperities
+        posed = GridProblem(self.problem.fluid, levels, tolerance, _MANY_ITERATIONS, None, asperities)
         effort = Effort()
         starts = self._starts(levels, history, step)
         limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
@@ -440,15 +432,13 @@ class UnsteadyFilm:
             effort += Effort.of(solution)
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
-                    if self.layer is not None:
-                        raise ConvergenceError(f"film at T = {time:.6g}: {TOUCHING}")
                     break
                 return self._instant(time, solution), effort
-        if self.problem.boundary_film > 0.0 and self.layer is None:
+        if self.problem.boundary_film > 0.0:
             # The surfaces touch or part in this step: it starts from the last film.
             last = history.now.state
             start = State.of(levels[0], last.pressure, last.h00, last.contact_pressure)
-            solution = touching_newton(posed, start, self.problem.asperities, first_damping=0.0)
+            solution = touching_newton(posed, start, first_damping=0.0)
             effort += Effort.of(solution)
             if solution.status == "converged":
                 return self._instant(time, solution), effort

@@ -112,7 +112,7 @@ class TransientSolver:
         """Film at an instant, SI units."""
         moving = self._moving
         whole = moving.whole(instant)
-        fraction = None if moving.starved is None else instant.oil_fraction
+        fraction = None if moving.layer is None else instant.oil_fraction
         level, contact = moving.steady.level, self.contact
         scales, state, mesh = contact.problem.scales, whole.state, level.mesh
 
@@ -140,7 +140,7 @@ class TransientSolver:
 
     def meniscus(self, instant: Instant) -> float:
         """Position on the line y = 0 from which oil fills the gap [m]; NaN if the inlet is flooded."""
-        if self._moving.starved is None:
+        if self._moving.layer is None:
             return math.nan
         found = meniscus_of(self._moving.film.level.mesh, instant.full_film)
         return math.nan if found is None else self.contact.problem.scales.length * found

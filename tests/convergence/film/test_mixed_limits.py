@@ -158,8 +158,8 @@ def test_solver_of_touching_surfaces_finds_a_thick_film(case):
     levels = levels_of(problem)
     exact = mixed_film(problem, boundary_film=0.0)
     raised = State.of(levels[0], without.pressure, without.last.state.h00 + 0.2 * float(without.gap.min()))
-    on_grid = GridProblem(problem.fluid, levels, tolerance=1e-11, max_iterations=60)
-    found = touching_newton(on_grid, raised, problem.asperities)
+    on_grid = GridProblem(problem.fluid, levels, 1e-11, 60, asperities=problem.asperities)
+    found = touching_newton(on_grid, raised)
     assert found.status == "converged"
     assert len(found.steps) > 1
     assert not found.touches

@@ -110,8 +110,8 @@ def test_mass_is_conserved_in_a_point_contact():
     problem = posed(CIRCLE)
     mass, _ = flooded_flow(problem)
     found = supplied(problem, 0.8 * mass)
-    level, content = found.last.level, found.film.content
-    mesh, flow = level.mesh, content.residual.flow
+    level, content = found.last.level, found.last.content
+    mesh, flow = level.mesh, found.last.final.flow
     lines = mesh.inner[1]
     # The layer enters; no pressure drives oil through the first face, whose nodes are cavitated.
     entering = np.sum((mesh.weights_across * 0.8 * mass)[lines])
@@ -152,7 +152,7 @@ def test_rough_line_takes_what_it_is_given():
     mass, _ = flooded_flow(posed(LINE))
     found = supplied(problem, 0.5 * mass)
     assert found.last.status == "converged"
-    content, mesh = found.film.content, found.last.level.mesh
+    content, mesh = found.last.content, found.last.level.mesh
     behind = content.mass[-2, 0]
     assert behind == pytest.approx(0.5 * mass, rel=1e-7)
     zone = np.abs(mesh.x) < 0.7

@@ -53,7 +53,7 @@ def test_a_thick_layer_gives_the_flooded_motion():
     gap = ridge(0.3 * layer_of(problem) / 1000.0, 0.15, -3.0)
     *_, (moving, supplied) = motion(problem, gap, 60)
     *_, (_, flooded) = motion(replace(problem, supply=None), gap, 60)
-    assert moving.starved is None
+    assert moving.layer is None
     np.testing.assert_array_equal(supplied.now.state.pressure, flooded.now.state.pressure)
     np.testing.assert_array_equal(supplied.now.state.thickness, flooded.now.state.thickness)
     np.testing.assert_array_equal(supplied.now.mass, flooded.now.mass)
@@ -192,7 +192,7 @@ def test_a_layer_that_changes_leads_to_its_own_stationary_film():
             history = then.advance(history, step)
     found, steady = history.now.state.thickness, expected.steady.state.thickness
     assert np.max(np.abs(start.steady.state.thickness - steady)) > 1e-3
-    mesh, filled = expected.steady.level.mesh, (history.now.full_film, expected.starved.content.filled)
+    mesh, filled = expected.steady.level.mesh, (history.now.full_film, expected.steady.content.filled)
     assert at_centre(mesh, found) == pytest.approx(at_centre(mesh, steady), rel=1e-5)
     # Both films may be stationary with menisci that are a node apart.
     assert abs(np.diff([np.argmax(each[:, 0]) for each in filled])[0]) <= 1

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, save, solve
+from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, State
 from ehlectric.film.touching_film import touching_newton
-from ehlectric.film.touching_solver import dry_contact, relieved
 from tests.helpers.mixed_films import gaussian, posed, rough_point
 
 # Half-width 13 um, and waves higher than the indentation.
@@ -68,8 +68,8 @@ def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundar
     )
     pierced = State.of(levels[0], np.broadcast_to(pressure, levels[0].mesh.shape).copy(), -1.0)
     hs = problem.boundary_film
-    on_grid = GridProblem(problem.fluid, levels, tolerance=1e-6, max_iterations=steps)
-    solution = touching_newton(on_grid, pierced, problem.asperities)
+    on_grid = GridProblem(problem.fluid, levels, 1e-6, steps, asperities=problem.asperities)
+    solution = touching_newton(on_grid, pierced)
     assert solution.status == "stalled"
     sunk = State.of(levels[0], solution.state.pressure, solution.state.h00).thickness
     assert sunk.min() < 0.0

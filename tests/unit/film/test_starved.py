@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.film.flow import flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, nested_iteration
-from ehlectric.film.newton import State
-from ehlectric.film.starved_film import Runs, StarvedJacobian, Supply, assess_content, next_filled
+from ehlectric.film.newton import Asperities, State
+from ehlectric.film.oil_content import Carried, Runs, Supply, carried_rows, filled_anew
+from ehlectric.film.reynolds import poiseuille_weight
 from ehlectric.film.starved_solver import first_layer
+from ehlectric.film.touching_film import TouchingJacobian, assess_touching
 from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.starved_films import posed, supplied
 
@@ -52,19 +55,22 @@ def test_jacobian_is_the_derivative_of_the_rows(case):
     """Central differences of the rows after the elimination, with the masses that change along."""
     problem, levels, state, filled = state_of(case)
     level, fluid = levels[0], problem.fluid
-    supply = Supply(np.full(level.mesh.y.shape, 0.3), problem.wedge_order)
-    now = assess_content(fluid, level, state, filled, supply)
+    carried = Carried(Supply(np.full(level.mesh.y.shape, 0.3), problem.wedge_order), filled)
+    now = assess_touching(fluid, level, state, Asperities())
+    now = replace(now, carried=carried, full_film=filled & level.mesh.inner)
     with quiet_solution():
-        jacobian = StarvedJacobian.of(fluid, levels, state, now.residual, now.filled, supply)
-    change = np.where(now.residual.full_film, np.random.default_rng(1).normal(size=filled.shape), 0.0)
+        jacobian = TouchingJacobian.of(fluid, levels, state.pressure, now, damping=0.0)
+    change = np.where(now.full_film, np.random.default_rng(1).normal(size=filled.shape), 0.0)
     step, dh00 = 1e-7, 0.3
 
     def rows(sign):
         moved = State.of(level, state.pressure + sign * step * change, state.h00 + sign * step * dh00)
-        return assess_content(fluid, level, moved, filled, supply).residual.reynolds
+        at_faces = flow(fluid, moved.pressure, moved.thickness, level.mesh)
+        return carried_rows(level, at_faces, moved.thickness, carried)[0]
 
     expected = (rows(1.0) - rows(-1.0)) / (2.0 * step)
-    found, load = jacobian(change, dh00)
+    image = jacobian.image(np.append(change, dh00))
+    found, load = jacobian.finest.unscale * image[:-1].reshape(filled.shape), float(image[-1])
     np.testing.assert_allclose(found, expected, atol=1e-5 * np.abs(expected).max())
     assert load == pytest.approx(float(np.vdot(level.weights, change)), rel=1e-12)
 
@@ -73,11 +79,12 @@ def test_content_conserves_mass_at_any_state():
     """The sum of all rows of a line is the flow through its ends, whatever the pressure is."""
     problem, levels, state, filled = state_of(LINE)
     level = levels[0]
-    supply = Supply(np.array([0.3]), problem.wedge_order)
-    now = assess_content(problem.fluid, level, state, filled, supply)
-    assert not now.filled[-3:].any()
-    balance = level.mesh.dx * float(now.residual.reynolds.sum())
-    assert now.mass[-2, 0] - 0.3 == pytest.approx(balance, rel=1e-9)
+    carried = Carried(Supply(np.array([0.3]), problem.wedge_order), filled)
+    at_faces = flow(problem.fluid, state.pressure, state.thickness, level.mesh)
+    rows, mass = carried_rows(level, at_faces, state.thickness, carried)
+    assert not filled[-3:].any()
+    balance = level.mesh.dx * float(rows.sum())
+    assert mass[-2, 0] - 0.3 == pytest.approx(balance, rel=1e-9)
 
 
 def test_nodes_that_overflow_or_are_under_tension_change():
@@ -85,15 +92,20 @@ def test_nodes_that_overflow_or_are_under_tension_change():
     level = levels[0]
     # A layer thicker than the gap at the meniscus overflows there; none is left at the inlet edge.
     thick = float(state.thickness[int(np.argmax(filled[:, 0])) - 1, 0]) * 1.01
-    supply = Supply(np.array([thick]), problem.wedge_order)
-    now = assess_content(problem.fluid, level, state, filled, supply)
-    moved = next_filled(problem.fluid, level, state, now)
+    carried = Carried(Supply(np.array([thick]), problem.wedge_order), filled)
+
+    at_faces = flow(problem.fluid, state.pressure, state.thickness, level.mesh)
+    poiseuille = poiseuille_weight(at_faces, level.mesh)
+
+    def moved(excess):
+        return filled_anew(level, at_faces, state.thickness, poiseuille, excess, carried)[0].filled
+
     first = int(np.argmax(filled[:, 0]))
-    assert moved[first - 1, 0]
-    pressure = state.pressure.copy()
-    pressure[first + 3] = -1.0
-    under = State(pressure, state.h00, state.thickness)
-    assert not next_filled(problem.fluid, level, under, now)[first + 3, 0]
+    excess = state.pressure - problem.fluid.ambient_pressure
+    assert moved(excess)[first - 1, 0]
+    assert moved(excess)[first + 3, 0]
+    excess[first + 3] = -1.0
+    assert not moved(excess)[first + 3, 0]
 
 
 @pytest.mark.parametrize("part", [1.0, 0.025], ids=["uniform", "little beside the middle"])
@@ -102,7 +114,7 @@ def test_a_layer_that_fills_the_gap_at_the_inlet_edge_on_some_lines(part):
     problem = posed(POINT)
     problem = replace(problem, nodes=49, width=replace(problem.width, nodes=33))
     found = supplied(problem, lambda y: np.where(np.abs(y) < 0.3, 12.0, 12.0 * part))
-    filled = found.film.content.filled[0]
+    filled = found.last.content.filled[0]
     assert filled.any()
     assert not filled.all()
     assert found.last.status == "converged"

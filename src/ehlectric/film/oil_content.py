@@ -1,0 +1,327 @@
+"""Content of oil in the gap, of films with a supply of oil and of films that form again behind a cavity.
+
+Oil that fills only a part of the gap is carried along by the surfaces. Every node fulfils the complementarity
+condition of Elrod and Adams in the whole domain:
+
+    P >= P_amb,   theta <= 1,   (P - P_amb) (1 - theta) = 0,
+    d(theta rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
+
+A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H is
+carried along entrainment by an upstream difference of first order, which conserves it whatever the grid. It
+begins as the layer of oil at the inlet edge. The masses of a run of cavitated nodes follow from the rows of
+the Reynolds equation one after the other. They are eliminated: the row of the first filled node behind a run
+is the sum of the rows of the run and its own.
+
+H. G. Elrod, J. Lubr. Technol. 103 (1981) 350, doi:10.1115/1.3251669; F. Chevalier, A. A. Lubrecht,
+P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175 (both second-hand).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.cavitation import full_film_nodes
+from ehlectric.film.flow import Flow
+from ehlectric.film.levels import Level
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.reynolds import ALONG, Stencil, residual
+
+# Ratio of the full gaps of two nodes above which the gap closes too steeply to be extrapolated.
+_STEEP = 1.8
+
+
+@dataclass(frozen=True)
+class Supply:
+    """Oil that is supplied at the inlet edge, and the order of the wedge term."""
+
+    mass: Array  # mass rho H of the layer of oil at ambient pressure, dimensionless, shape (ny,)
+    order: int  # order of the wedge term where the film is filled: 1, 2 or 3
+    # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
+    upwind: Mask | bool = False
+    # Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes. None until a gap
+    # is met, shape (nx, ny).
+    steep: Mask | None = None
+    first_order: bool = False  # whether steep nodes have an upwind difference in place of this mean
+
+    @property
+    def low(self) -> Mask:
+        """Nodes whose mass is extrapolated nowhere."""
+        return np.asarray(self.upwind) | (False if self.steep is None else self.steep)
+
+    def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
+        """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
+        steep = None
+        if self.steep is not None and not self.first_order:
+            steep = filled & self.steep & ~np.asarray(self.upwind)
+        return content_wedge(mesh, filled & ~self.low, self.order, steep)
+
+    def bounded(self, full: Array) -> Supply:
+        """Supply with no extrapolation where the full gap closes steeply, as at the edge of a spot.
+
+        The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where
+        the gap falls steeply, and negative where it falls to less than a third from node to node: no oil
+        would enter the spot. The nodes are those of the first gap that is met, and stay while Newton's method
+        moves the gap: chosen anew in each step they would depend on the way to the solution.
+        """
+        if self.steep is not None:
+            return self
+        steep = np.zeros(full.shape, dtype=bool)
+        steep[1:] = full[:-1] > _STEEP * full[1:]
+        return replace(self, steep=steep)
+
+    def at_rupture(self, filled: Mask, mass: Array) -> Array:
+        """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
+
+        Behind a filled node the flow is 3/2 m of the node minus 1/2 m of the node before, as if oil filled
+        the node. One whose content is below the full gap thus would be under tension as a filled one, and the
+        iteration cannot go round in circles there.
+        """
+        if self.order == 1:
+            return mass
+        high = ~filled & ~self.low
+        high[:2] = False
+        high[1:] &= (filled & ~self.low)[:-1]
+        before = np.concatenate([mass[:1], mass[:-1]])
+        return np.where(high, (2.0 * mass + before) / 3.0, mass)
+
+    def injected(self, level: Level) -> Supply:
+        """Supply on the next coarser grid, for its wedge term only."""
+        upwind, steep = self.upwind, self.steep
+        if not isinstance(upwind, bool):
+            upwind = level.inject(upwind.astype(float)) > 0.0
+        if steep is not None:
+            steep = level.inject(steep.astype(float)) > 0.0
+        return replace(self, upwind=upwind, steep=steep)
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Runs of successive cavitated nodes along entrainment."""
+
+    cavitated: Mask  # nodes of the runs, shape (nx, ny)
+    # Index along x of the last filled node up to each node, or -1 where there is none, shape (nx, ny).
+    before: Array
+
+    @classmethod
+    def of(cls, filled: Mask) -> Runs:
+        """Runs of the nodes that are not filled, a mask (nx, ny)."""
+        number = np.arange(len(filled))[:, np.newaxis]
+        return cls(~filled, np.maximum.accumulate(np.where(filled, number, -1), axis=0))
+
+    def summed(self, values: Array) -> Array:
+        """Sum of values (nx, ny) over the run of each cavitated node up to the node, zero at filled nodes.
+
+        Examples
+        --------
+        >>> filled = np.array([[False], [False], [True], [False], [False]])
+        >>> Runs.of(filled).summed(np.array([[1.0], [2.0], [4.0], [8.0], [16.0]]))[:, 0].tolist()
+        [1.0, 3.0, 0.0, 8.0, 24.0]
+        """
+        total = np.cumsum(np.where(self.cavitated, values, 0.0), axis=0)
+        first = np.take_along_axis(total, np.maximum(self.before, 0), axis=0)
+        return np.where(self.cavitated, total - np.where(self.before < 0, 0.0, first), 0.0)
+
+    def reduced(self, rows: Array) -> Array:
+        """Rows (nx, ny) with the rows of the run before each node added; only those of filled nodes count.
+
+        Examples
+        --------
+        >>> filled = np.array([[False], [False], [True], [True]])
+        >>> Runs.of(filled).reduced(np.array([[1.0], [2.0], [4.0], [8.0]]))[2:, 0].tolist()
+        [7.0, 8.0]
+        """
+        reduced = rows.copy()
+        reduced[1:] += self.summed(rows)[:-1]
+        return reduced
+
+
+def content_wedge(mesh: Mesh, filled: Mask, order: int, steep: Mask | None = None) -> Stencil:
+    """Upstream difference d/dX of the mass whose order falls to one where the film is not filled.
+
+    The mass at a face is that of the formula of highest order whose nodes are all filled. Behind the first
+    filled node and behind a steep one it is the mean of the two nodes, and behind a cavitated node that of
+    this node. The end rows are zero.
+
+    ``filled``, nodes where oil fills the gap, shape (nx, ny); ``order``, order of the wedge term where the
+    film is filled: 1, 2 or 3; ``steep``, further nodes, which are filled too, from which nothing is
+    extrapolated, shape (nx, ny). Returns operator on the mass (nx, ny).
+
+    Examples
+    --------
+    The mass at the two last faces is extrapolated from the two nodes before:
+
+    >>> filled = np.array([[False], [True], [True], [True], [True]])
+    >>> content_wedge(Mesh.over(5, 0.0, 4.0), filled, 2).coefficients[:, 3, 0].tolist()
+    [0.5, -2.0, 1.5, 0.0]
+    """
+    far = np.zeros((mesh.x.size - 1, mesh.y.size))
+    near, ahead = np.ones_like(far), np.zeros_like(far)
+    if order > 1:
+        # A face behind a meniscus has no second filled node before it, and takes the mean of its two nodes.
+        first = filled[:-1] & filled[1:]
+        first[1:] &= ~filled[:-2]
+        near[first] = ahead[first] = 0.5
+        second = filled[1:-1] & filled[:-2]
+        far[1:][second], near[1:][second] = -0.5, 1.5
+        if order == 3:
+            third = second & filled[2:]
+            far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
+        if steep is not None:
+            behind = steep[:-1] & (filled | steep)[1:]
+            far[behind], near[behind], ahead[behind] = 0.0, 0.5, 0.5
+    c = np.zeros((ALONG, *mesh.shape))
+    c[0, 1:-1] = -far[:-1]
+    c[1, 1:-1] = far[1:] - near[:-1]
+    c[2, 1:-1] = near[1:] - ahead[:-1]
+    c[3, 1:-1] = ahead[1:]
+    return Stencil(c / mesh.dx)
+
+
+def of_filled(flow: Flow, filled: Mask) -> Flow:
+    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes."""
+    k = flow.coefficients
+    density, density_p = (np.where(filled, values, 0.0) for values in (k.density, k.density_p))
+    return replace(flow, coefficients=replace(k, density=density, density_p=density_p))
+
+
+def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: Supply) -> Array:
+    """Rows of the Reynolds equation without the masses of cavitated nodes, shape (nx, ny).
+
+    The row of a cavitated node at the inlet edge is the layer of oil that enters there, over -dX.
+    """
+    wedge = supply.wedge(level.mesh, filled)
+    rows = residual(of_filled(flow, filled), wedge, thickness, level.mesh) - level.source
+    rows[0] = np.where(filled[0], 0.0, -supply.mass / level.mesh.dx)
+    return rows
+
+
+def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
+    """Mass of oil (nx, ny): rho H at filled nodes, theta rho H at cavitated nodes.
+
+    ``rows`` (nx, ny) are those of the Reynolds equation without the masses of cavitated nodes, as
+    ``unreduced`` returns them; ``full`` (nx, ny) is the mass rho H of the full gap.
+
+    Examples
+    --------
+    A layer is carried to the first filled node, to which no pressure drives oil:
+
+    >>> runs = Runs.of(np.array([[False], [False], [True]]))
+    >>> content(runs, np.array([[-0.2], [0.0], [0.0]]), np.ones((3, 1)), 0.5)[:, 0].tolist()
+    [0.1, 0.1, 1.0]
+    """
+    return np.where(runs.cavitated, -dx * runs.summed(rows), full)
+
+
+def behind_cavities(filled: Mask) -> Mask:
+    """Mask of the filled nodes (nx, ny) whose node before is not filled."""
+    behind = filled.copy()
+    behind[1:] &= ~filled[:-1]
+    behind[0] = False
+    return behind
+
+
+def with_row_before(stencil: Stencil, rows: Mask) -> Stencil:
+    """Stencil to whose ``rows`` (nx, ny) the row of the node before is added.
+
+    A neighbour of the node before is one step further upstream; the one three steps upstream and those across
+    entrainment are left out.
+    """
+    c = stencil.coefficients.copy()
+    for row in range(3):
+        c[row, 1:] += np.where(rows[1:], stencil.coefficients[row + 1, :-1], 0.0)
+    return Stencil(c)
+
+
+# Excess of the content over the full gap, relative, and pressure below ambient over p_h, that are rounding.
+OVERFLOW, TENSION = 1e-10, 1e-13
+
+
+class MaskMemory:
+    """Masks of filled nodes that an iteration has had, to detect cycles.
+
+    The order of the wedge term depends on the nodes that are filled. It may happen that a node overflows as a
+    cavitated node and is under tension as a filled one. With the upwind difference on both sides this is
+    impossible, so that the nodes that change in a circle get it for the rest of the iteration.
+    """
+
+    def __init__(self) -> None:
+        self._masks: set[bytes] = set()
+
+    def supply_after(self, supply: Supply, filled: Mask, moved: Mask) -> Supply:
+        """Supply with an upwind difference at nodes that change, if this change leads to a known mask."""
+        key = np.packbits(moved).tobytes()
+        if key in self._masks:
+            supply = replace(supply, upwind=supply.upwind | (filled != moved))
+        self._masks.add(key)
+        return supply
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Oil that is carried through cavities of a stationary film."""
+
+    supply: Supply  # oil at the inlet edge and order of the wedge term
+    filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
+    mass: Array | float = 0.0  # mass of oil at the nodes, shape (nx, ny)
+
+    @property
+    def hollow(self) -> Mask:
+        """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
+        ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
+        return ~self.filled & ahead
+
+    def on(self, level: Level) -> Carried:
+        """Filled nodes and supply on the next coarser grid, for its equations only."""
+        return Carried(self.supply.injected(level), level.inside(self.filled))
+
+
+def filled_anew(
+    level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
+) -> tuple[Carried, Array]:
+    """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
+    full = at_faces.coefficients.density * thickness
+    r, mass = carried_rows(level, at_faces, thickness, carried)
+    surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
+    moved = full_film_nodes(
+        excess + TENSION * carried.filled,
+        np.where(carried.filled, r, surplus),
+        poiseuille=poiseuille,
+        rate=level.rate,
+        thickness=thickness,
+        inner=level.mesh.inner,
+    )
+    moved |= _backed_up(carried.filled, mass, full) & level.mesh.inner
+    moved[0] = carried.supply.mass >= full[0]
+    if not np.array_equal(moved, carried.filled):
+        carried = replace(carried, filled=moved)
+        r, mass = carried_rows(level, at_faces, thickness, carried)
+    return replace(carried, mass=mass), r
+
+
+def _backed_up(filled: Mask, mass: Array, full: Array) -> Mask:
+    """Cavitated nodes upstream of an overflow whose gap is smaller than the mass that overflows.
+
+    The backflow from a filled node overflows the node before it only. The nodes before that one would be
+    filled one by one. Those that the overflowing mass would fill are filled at once.
+    """
+    over = ~filled & (mass > full)
+    backed = np.zeros_like(over)
+    if not over.any():
+        return backed
+    level = np.zeros(over.shape[1])
+    for i in range(len(over) - 1, 0, -1):
+        level = np.where(over[i], mass[i], np.where(filled[i] | (full[i] > level), 0.0, level))
+        backed[i] = level > 0.0
+    return backed
+
+
+def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carried) -> tuple[Array, Array]:
+    """Rows of the filled nodes, zero elsewhere, and the mass of the carried oil, both (nx, ny)."""
+    runs, filled = Runs.of(carried.filled), carried.filled
+    rows = unreduced(level, at_faces, thickness, filled, carried.supply)
+    full = at_faces.coefficients.density * thickness
+    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
+    return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass
