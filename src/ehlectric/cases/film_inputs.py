@@ -65,9 +65,8 @@ class Inlet(Table, book="inlet"):
                 got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
                 takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
             )
-        for table in ("meter", "film"):
-            if table in beside:
-                raise InputError("inlet", got=f"[inlet] beside [{table}]", takes="a flooded contact there")
+        if "meter" in beside:
+            raise InputError("inlet", got="[inlet] beside [meter]", takes="a flooded contact there")
 
 
 # Constants of the lubricant that each rheology needs.

@@ -48,6 +48,7 @@ def physics_of(case: Case | Setup, conditions: Conditions | PointConditions) -> 
         speeds=(first, second),
         viscosity=conditions.viscosity,
         thermal=_thermal(case, conditions, (first, second)) if case.film.thermal else None,
+        boundary_friction=case.contact.boundary_friction,
     )
 
 

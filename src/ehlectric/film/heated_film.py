@@ -29,7 +29,7 @@ from ehlectric.film.energy_equation import (
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method, starved_on_grids
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
-from ehlectric.film.mesh import at_centre
+from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import grid_problem, interpolated_state, levels_of
 from ehlectric.film.newton import (
     GridProblem,
@@ -41,7 +41,7 @@ from ehlectric.film.newton import (
     Status,
     newton,
 )
-from ehlectric.film.oil_content import Supply
+from ehlectric.film.oil_content import Carried, Supply
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
 from ehlectric.film.shear_laws import UNBOUNDED
@@ -74,11 +74,14 @@ _MULTIPLES = (1.0, 5.0, 25.0)
 # the cold, each brings the viscosity down by a factor of e at most; later turns begin hot.
 _HELD, _HELD_TURNS = 60, 15
 
+# Least part of a gap that counts as filled in the energy equation, which has no solution without oil.
+_LEAST_FILLED = 1e-6
+
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class HeatedGrid(GridSolution):
     """Film with heat or shear on one grid; its status is that of film and temperature together."""
 
@@ -174,17 +177,18 @@ class OuterIteration:
         steps: int,
         tolerance: float,
         spike: bool,
-        filled: Mask | None = None,
+        carried: Carried | None = None,
     ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
         """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
 
-        ``filled`` (nx, ny) marks the nodes that oil fills at first, of a film that carries its oil.
+        ``carried`` has the nodes that oil fills at first, of a film that carries its oil.
         """
         law = self.flow(state, heat)
         fluid = replace(self.problem.fluid, flow=law)
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
-        if self.supply is not None and filled is not None:
-            solution = isothermal(posed)(Guess(state, filled), self.supply)
+        if carried is not None:
+            last = tolerance <= self.posed.tolerance
+            solution = isothermal(posed, full_order=last)(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, spike=spike)
         if isinstance(law.profile, FrozenTemperature):
@@ -207,7 +211,7 @@ class OuterIteration:
         state, mesh = solution.state, self.level.mesh
         found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
         if solution.fraction is not None:
-            return found, solution.fraction
+            return found, _beside_edges(solution.fraction, mesh)
         mass = solution.final.coefficients.density * state.thickness
         return found, filled_part(solution.final.full_film, mass)
 
@@ -268,19 +272,23 @@ class OuterIteration:
         full = found.final.full_film
         if self.supply is not None or found.status != "converged" or not forms_again(full):
             return found
-        carrying = replace(self, supply=flooded_inlet(self.level, self.problem.wedge_order))
-        again = carrying._turns(found.state, found.heat, with_inlet(full), spike=False)
-        if again.status != "converged":
-            return found
-        return replace(again, steps=found.steps + again.steps, loops=found.loops + again.loops)
+        for first_order in (False, True):
+            supply = flooded_inlet(self.level, self.problem.wedge_order, first_order=first_order)
+            carrying = replace(self, supply=supply)
+            again = carrying._turns(found.state, found.heat, with_inlet(full), spike=False)
+            if again.status == "converged":
+                return replace(again, steps=found.steps + again.steps, loops=found.loops + again.loops)
+        # A film that makes oil is better than none, and a warning says so.
+        return found
 
     def _turns(self, state: State, heat: Heat | None, filled: Mask | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature in turns, from an initial guess of both."""
         thermal, most = self.physics.thermal, self.problem.max_iterations
-        times = 1 if self.supply is None else _CARRYING
+        carried = None if self.supply is None or filled is None else Carried(self.supply, filled)
+        times = 1 if carried is None else _CARRYING
         if thermal is None:
             solution, law, _ = self.film(
-                state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, filled=filled
+                state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, carried=carried
             )
             return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
@@ -298,10 +306,10 @@ class OuterIteration:
                 steps=times * steps,
                 tolerance=tolerance,
                 spike=spike and loop == 0,
-                filled=filled,
+                carried=carried,
             )
             assert heat is not None
-            filled = filled if solution.content is None else solution.content.filled
+            carried = solution.content
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * central))
@@ -413,6 +421,16 @@ def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:
         mixing.forget()
         mixed = mixed.with_vector(heat.vector + _MOST_CHANGE / step * (mixed.vector - heat.vector))
     return mixed
+
+
+def _beside_edges(fraction: Array, mesh: Mesh) -> Array:
+    """Part of the gap that oil fills, nowhere zero, shape (nx, ny); it is not known on the sides."""
+    part = np.maximum(fraction, _LEAST_FILLED)
+    if mesh.dy is not None:
+        part[:, -1] = part[:, -2]
+        if not mesh.symmetric:
+            part[:, 0] = part[:, 1]
+    return part
 
 
 # Variation of the solution for comparison: iteration and temperature -> iteration and initial temperature.

@@ -19,6 +19,7 @@ from ehlectric.film.flow import Coefficients, Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.multigrid import Linearised, cycled, linearise_levels, with_kept_preconditioner
+from ehlectric.film.oil_content import Carried
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike, step_length
 from ehlectric.runtime.stored import stored
@@ -109,21 +110,7 @@ class Residual:
         return np.divide(self.reynolds, self.diagonal, out=zeros, where=self.diagonal > 0.0)
 
 
-@dataclass(frozen=True)
-class Content:
-    """Oil in the gap of a film that carries it through cavities."""
-
-    # Nodes that oil fills: inside the domain those with a full film, on the inlet edge those where the layer
-    # of oil is thicker than the gap, shape (nx, ny).
-    filled: Mask
-    mass: Array  # mass theta rho H of the oil, shape (nx, ny)
-
-    def fraction(self, full: Array) -> Array:
-        """Part theta of the gap that oil fills, from the mass rho H of the full gap, both (nx, ny)."""
-        return np.where(self.filled, 1.0, np.clip(self.mass / full, 0.0, 1.0))
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GridSolution:
     """Last iterate of Newton's method on one grid."""
 
@@ -132,7 +119,7 @@ class GridSolution:
     final: Residual
     steps: tuple[NewtonStep, ...]  # Newton steps that led to the last iterate
     status: Status  # "converged", "stalled" or "diverged"
-    content: Content | None = None  # oil in the gap; None where it is not carried through cavities
+    content: Carried | None = None  # oil in the gap; None where it is not carried through cavities
 
     @property
     def fraction(self) -> Array | None:

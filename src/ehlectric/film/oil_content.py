@@ -18,7 +18,7 @@ P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -57,6 +57,11 @@ class Supply:
         if self.steep is not None and not self.first_order:
             steep = filled & self.steep & ~np.asarray(self.upwind)
         return content_wedge(mesh, filled & ~self.low, self.order, steep)
+
+    @property
+    def of_full_order(self) -> Supply:
+        """Supply whose nodes all enter formulas of a higher order."""
+        return replace(self, upwind=False, steep=None)
 
     def bounded(self, full: Array) -> Supply:
         """Supply with no extrapolation where the full gap closes steeply, as at the edge of a spot.
@@ -265,13 +270,17 @@ class Carried:
 
     supply: Supply  # oil at the inlet edge and order of the wedge term
     filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
-    mass: Array | float = 0.0  # mass of oil at the nodes, shape (nx, ny)
+    mass: Array = field(default_factory=lambda: np.zeros((1, 1)))  # mass theta rho H of oil, shape (nx, ny)
 
     @property
     def hollow(self) -> Mask:
         """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
         ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
         return ~self.filled & ahead
+
+    def fraction(self, full: Array) -> Array:
+        """Part theta of the gap that oil fills, from the mass rho H of the full gap, both (nx, ny)."""
+        return np.where(self.filled, 1.0, np.clip(self.mass / full, 0.0, 1.0))
 
     def on(self, level: Level) -> Carried:
         """Filled nodes and supply on the next coarser grid, for its equations only."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from typing import TypeAlias
 
 import numpy as np
@@ -19,7 +20,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.dry_contact import dry_contact
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.newton import Asperities, Content, GridProblem, GridSolution, Guess, State
+from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, State
 from ehlectric.film.oil_content import Carried, Supply, carried_rows
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.touching_film import touching_newton
@@ -102,7 +103,7 @@ def oil_fraction(solution: GridSolution, order: int) -> Array:
     filled = with_inlet(solution.final.full_film)
     carried = Carried(flooded_inlet(level, order), filled)
     _, mass = carried_rows(level, at_faces, solution.state.thickness, carried)
-    return Content(filled, mass).fraction(full)
+    return replace(carried, mass=mass).fraction(full)
 
 
 # Multiple of the layer of oil above which the inlet of an initial guess is not filled.
@@ -125,15 +126,17 @@ _MOST_STEPS = 40
 Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 
 
-def isothermal(posed: GridProblem) -> Solver:
-    """Solver of films on one grid without heat."""
+def isothermal(posed: GridProblem, *, full_order: bool = True) -> Solver:
+    """Solver of films on one grid without heat; ``full_order`` as in ``of_full_order``."""
 
     def solved(problem: GridProblem, state: State, filled: Mask, supply: Supply) -> GridSolution:
         return touching_newton(problem, state, first_damping=0.0, carried=Carried(supply, filled))
 
     def film(guess: Guess, supply: Supply) -> GridSolution:
         found = solved(posed, guess.state, guess.filled, supply)
-        return of_full_order(posed, found, partial(solved, supply=supply))
+        return (
+            of_full_order(posed, found, partial(solved, supply=supply.of_full_order)) if full_order else found
+        )
 
     return film
 
@@ -146,6 +149,8 @@ class StarvedProblem:
     posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
     film: Solver
+    # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
+    first_order: bool = False
 
     @property
     def order(self) -> int:
@@ -175,7 +180,10 @@ class StarvedProblem:
         ``near`` is a guess that is likely to be close, as the film of a coarser grid.
         """
         best = None
-        for film in self._attempts(layer, near):
+        attempts = self._attempts(layer, near)
+        if self.posed.asperities.boundary_film:
+            attempts = chain(attempts, replace(self, first_order=True)._attempts(layer, near))
+        for film in attempts:
             if best is None or film.final.norm < best.final.norm:
                 best = film
             if film.status == "converged":
@@ -198,7 +206,7 @@ class StarvedProblem:
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""
         ambient = self.flooded.final.coefficients.density[0]
-        return self.film(guess, Supply(ambient * layer, self.order))
+        return self.film(guess, Supply(ambient * layer, self.order, first_order=self.first_order))
 
     def _from_flooded(self, layer: Array) -> Guess:
         """Flooded film whose surfaces are brought together until its centre is as thick as the layer."""

@@ -42,7 +42,6 @@ from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
     Asperities,
-    Content,
     GridProblem,
     GridSolution,
     NewtonStep,
@@ -528,8 +527,7 @@ def grid_solution(
     of_flow = now.plastic | level.mesh.edge | (status != "converged")
     state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
     final = Residual(**{each.name: getattr(now, each.name) for each in fields(Residual)})
-    content = None if now.carried is None else Content(now.carried.filled, np.asarray(now.carried.mass))
-    return GridSolution(level, state, final, tuple(steps), status, content)
+    return GridSolution(level, state, final, tuple(steps), status, now.carried)
 
 
 def _direction(
