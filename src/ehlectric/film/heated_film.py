@@ -292,7 +292,7 @@ class OuterIteration:
             )
             return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
-        surfaces, weight = self.surfaces(thermal), _weight(self.level, state)
+        surfaces, weight = self.surfaces(thermal), node_weight(self.level, state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
@@ -324,7 +324,7 @@ class OuterIteration:
             if new is None:
                 solution = replace(solution, status="diverged")
                 break
-            rises.append(_change_between(weight, heat, new, thermal))
+            rises.append(change_between(weight, heat, new, thermal))
             # Film and temperature that are close enough end with a film at the last temperature.
             ends = max(self._distance(rises), self._distance(films)) < allowed
             state = solution.state
@@ -352,7 +352,7 @@ class OuterIteration:
         assert self.physics.thermal is not None
         first = new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
         for _ in range(_HELD):
-            if new is None or _change_between(weight, heat, new, self.physics.thermal) < allowed:
+            if new is None or change_between(weight, heat, new, self.physics.thermal) < allowed:
                 return new
             if np.max(np.abs(new.temperature - heat.temperature)) > _MOST_CHANGE:
                 break
@@ -387,7 +387,7 @@ class OuterIteration:
         return changes[-1] * ratio / (1.0 - ratio)
 
 
-def _change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
+def change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
     """Change of the temperature over that at which it stands."""
     rise = float(np.max(new.temperature)) - thermal.inlet_temperature
     change = np.max(weight * np.abs(new.temperature - heat.temperature))
@@ -399,7 +399,7 @@ def close_enough(rise: float) -> float:
     return _KELVIN + _RISE * abs(rise)
 
 
-def _weight(level: Level, state: State) -> Array:
+def node_weight(level: Level, state: State) -> Array:
     """Weight of a change of temperature, shape (nx, ny): its effect on the pressure goes with 1/h^2.
 
     The reverse flow far upstream would otherwise decide when the temperature stands.
@@ -574,11 +574,21 @@ def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) ->
 
 
 def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
-    """Both films, with heat on all grids from coarse to fine: flooded first, then with the supply of oil."""
-    assert problem.physics is not None
+    """Both films, with heat on all grids from coarse to fine."""
+    simple, refined = heated_solution(problem, progress, order=3)
+    return _solution(simple, refined)
+
+
+def heated_solution(
+    problem: FilmProblem, progress: Progress | None, *, order: int
+) -> tuple[RefinedSolution, RefinedSolution]:
+    """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
+
+    The film is flooded first, and then has its supply of oil. ``order`` is that of its wedge term.
+    """
     cold = replace(problem, physics=None)
     simple = film_method(cold)(cold, progress)
-    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem)
+    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem, order)
     starts = simple.solutions if simple.patch is None else [simple.whole]
     if isinstance(simple, StarvedSolution) and simple.flooded is not None:
         starts = [simple.flooded]
@@ -586,10 +596,9 @@ def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
     if not all(grid.status == "converged" for grid in found):
         # Very hot films take more grids and more exact loops.
         found = _on_grids(finest, starts, progress, careful=True)
-    refined = RefinedSolution(finest, list(found))
-    if problem.supply is not None:
-        refined = starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
-    return _solution(simple, refined)
+    if problem.supply is None:
+        return simple, RefinedSolution(finest, list(found))
+    return simple, starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
 
 
 def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
@@ -651,13 +660,13 @@ def _careful(
     return tried[0]
 
 
-def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
+def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem, order: int) -> FilmProblem:
     """Problem with heat on the grid of the isothermal film over the whole domain."""
     mesh, width = whole.level.mesh, posed.width
     if width is not None:
         across = mesh.whole_y.size if mesh.symmetric else mesh.y.size
         width = replace(width, nodes=across)
-    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
+    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=order)
 
 
 def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
