@@ -76,8 +76,8 @@ def case_of(kind: str, at: dict[str, float]) -> Case:
         "surface": 1,
         "generator": "gaussian",
         "rq": film / at["lambda_ratio"],
-        "correlation_length": 0.15 * width,
-        "cutoff_short": 0.3 * width,
+        "correlation_length": 0.06 * width,
+        "cutoff_short": 0.12 * width,
         "seed": 3,
     }
     return Case.from_dict(

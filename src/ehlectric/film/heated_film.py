@@ -188,7 +188,8 @@ class OuterIteration:
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if carried is not None:
             last = tolerance <= self.posed.tolerance
-            solution = isothermal(posed, full_order=last)(Guess(state, carried.filled), carried.supply)
+            solver = isothermal(posed, full_order=last, min_iterations=1)
+            solution = solver(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, spike=spike)
         if isinstance(law.profile, FrozenTemperature):
@@ -204,7 +205,8 @@ class OuterIteration:
             if float(np.min(solution.state.thickness)) >= boundary_film:
                 return solution
         most = _TOUCHING * posed.max_iterations
-        return touching_newton(replace(posed, max_iterations=most), state, first_damping=NEAR_DAMPING)
+        posed = replace(posed, max_iterations=most)
+        return touching_newton(posed, state, first_damping=NEAR_DAMPING, min_iterations=1)
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
@@ -608,7 +610,17 @@ def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
         heat = None if before.heat is None else _finer(before.heat, before.level, iteration.level)
-        return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
+        careful = replace(iteration, careful=True)
+        variants = [
+            iteration,
+            replace(careful, held=iteration.held),
+            replace(careful, held=not iteration.held),
+        ]
+        for variant in variants if iteration.physics.thermal is not None else variants[:1]:
+            found = replace(variant, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
+            if found.status == "converged":
+                break
+        return found
 
     return StarvedProblem(iteration.problem, iteration.posed, flooded, film)
 

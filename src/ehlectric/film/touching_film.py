@@ -421,6 +421,7 @@ def touching_newton(
     *,
     first_damping: float = 1.0,
     carried: Carried | None = None,
+    min_iterations: int = 0,
 ) -> GridSolution:
     """Last iterate of Newton's method on one grid, where the surfaces may touch.
 
@@ -434,7 +435,9 @@ def touching_newton(
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
-    while len(steps) < min(problem.max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
+    while len(steps) < min(problem.max_iterations, found + _PATIENCE):
+        if len(steps) >= min_iterations and is_solved(now, tolerance):
+            break
         problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
