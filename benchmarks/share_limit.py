@@ -218,7 +218,7 @@ SURFACES: dict[str, Callable[..., Case]] = {
 }
 
 LINE_NODES = (201, 401, 801, 1601, 3201, 6401)
-ROUGH_NODES = (801, 1601, 3201, 6401)
+ROUGH_NODES = (801, 1601, 3201, 6401, 12_801)
 POINT_NODES = (65, 129, 257)
 
 
@@ -431,6 +431,7 @@ def parts() -> dict[str, list[Series]]:
     apart: dict[str, Any] = {"nodes": LINE_NODES, "onward": False}
     rough: dict[str, Any] = {"nodes": ROUGH_NODES}
     point: dict[str, Any] = {"nodes": POINT_NODES}
+    coarse: dict[str, Any] = {"nodes": POINT_NODES[:2]}
     line, ball = "line, Gaussian 200 nm", "ball, Gaussian 100 nm"
     return {
         "smooth": [
@@ -453,12 +454,13 @@ def parts() -> dict[str, list[Series]]:
         ],
         "ball": [
             *(Series(ball, 3.2 * NANO, part * NANO, **point) for part in (1, 2, 5)),
-            *_laws(ball, 3.2 * NANO, 1 * NANO, ROUGH_LAWS, **point),
-            *(Series(ball, 11 * NANO, part * NANO, **point) for part in (0.5, 1, 2, 5, 10)),
-            *_laws(ball, 11 * NANO, 1 * NANO, ROUGH_LAWS, **point),
+            *_laws(ball, 3.2 * NANO, 1 * NANO, ROUGH_LAWS, **coarse),
+            *(Series(ball, 11 * NANO, part * NANO, **coarse) for part in (1, 2)),
+            *(Series(ball, 11 * NANO, part * NANO, **point) for part in (10, 5)),
         ],
         "line": [
-            *(Series(line, 13 * NANO, part * NANO, **rough) for part in (1, 5)),
+            *(Series(line, 38 * NANO, part * NANO, **rough) for part in (1, 5)),
+            *(Series(line, 13 * NANO, part * NANO, **rough) for part in (1, 2, 5)),
             *(Series(line, 3.8 * NANO, part * NANO, **rough) for part in (0.5, 1, 2)),
             *_laws(line, 3.8 * NANO, 1 * NANO, ROUGH_LAWS, **rough),
             Series("line, sinusoid 140 nm", 3.8 * NANO, 1 * NANO, **rough),
@@ -546,12 +548,14 @@ def draw(records: list[Record]) -> None:
 
     mpl.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter, ScalarFormatter
 
-    figure, axes = plt.subplots(1, 2, figsize=(7.4, 5.0), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(7.4, 5.2), sharey=True)
+    figure.subplots_adjust(left=0.1, right=0.98, top=0.94, bottom=0.34, wspace=0.08)
     smooth, ball = parts()["smooth"], parts()["ball"]
-    for axis, chosen, surface, film in (
-        (axes[0], smooth, "line, smooth", 2 * NANO),
-        (axes[1], ball, "ball, Gaussian 100 nm", 3.2 * NANO),
+    for axis, chosen, surface, film, ticks in (
+        (axes[0], smooth, "line, smooth", 2 * NANO, (0.2, 0.5, 1, 2, 5)),
+        (axes[1], ball, "ball, Gaussian 100 nm", 3.2 * NANO, (2, 4, 6)),
     ):
         for series in chosen:
             if (series.surface, series.film) != (surface, film):
@@ -561,10 +565,21 @@ def draw(records: list[Record]) -> None:
                 _drawn(axis, series, records, label=style[0], style=style[1])
         axis.set(xlabel="spacing of the nodes, µm", ylim=(_LEAST, 1.3))
         axis.invert_xaxis()
-        axis.legend(fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, frameon=False)
+        axis.set_xticks(ticks)
+        axis.xaxis.set_major_formatter(ScalarFormatter())
+        axis.xaxis.set_minor_formatter(NullFormatter())
     axes[0].set_ylabel("share of the load on asperities")
     axes[0].set_title("Smooth line, film of 2 nm", fontsize=11)
     axes[1].set_title("Rough ball, smooth film of 3.2 nm", fontsize=11)
+    entries: dict[str, Any] = {}
+    for axis in axes:
+        handles, labels = axis.get_legend_handles_labels()
+        entries |= dict(zip(labels, handles, strict=True))
+    names = [name for name, _ in CURVES.values() if name in entries]
+    lines = [entries[name] for name in names]
+    figure.legend(
+        lines, names, title="boundary film, and law of the oil", loc="lower center", ncols=3, fontsize=9
+    )
     figure.savefig(FIGURE, dpi=150)
 
 
