@@ -121,8 +121,8 @@ def test_another_geometry_of_a_contact_drops_keys_of_this_one():
 @each(
     "start, change, dropped",
     [
-        ("hot_contact", {"inlet.oil_layer": "0.2 um"}, "film"),
-        ("starved_contact", {"film.rheology": "newtonian"}, "inlet"),
+        ("hot_contact", {"inlet.oil_layer": "0.2 um"}, None),
+        ("starved_contact", {"film.rheology": "newtonian"}, None),
         ("starved_contact", {"meter.fill": "oil"}, "inlet"),
         ("moving_roughness", {"inlet.oil_layer": "0.2 um"}, None),
         ("moving_roughness", {"inlet.film_ratio": 0.5}, "motion"),

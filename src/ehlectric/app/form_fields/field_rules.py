@@ -102,7 +102,7 @@ ALTERNATIVES: tuple[Rows, ...] = (
     (("lubricant.density",), ("lubricant.temperature",)),
     (("lubricant.relative_permittivity",), ("lubricant.permittivity_table",)),
     (("lubricant.conductivity", "lubricant.conductivity_law"), ("lubricant.conductivity_table",)),
-    (("inlet",), ("film", "meter")),
+    (("inlet",), ("meter",)),
     (("inlet.film_ratio",), ("motion",)),
     (("grid.error", "grid.refine", "grid.most_nodes"), ("motion",)),
     *DRIVE_ALTERNATIVES,
