@@ -32,6 +32,7 @@ from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import grid_problem, interpolated_state, levels_of
 from ehlectric.film.newton import (
+    SMALLEST_GAP,
     GridProblem,
     GridSolution,
     Guess,
@@ -61,7 +62,7 @@ _MOST_CHANGE = 40.0
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
-# least number of steps of one whose surfaces may touch: fewer would leave its spots in the middle of a change.
+# least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
 _CARRYING, _TOUCHING = 3, 40
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
@@ -330,7 +331,7 @@ class OuterIteration:
             carried = solution.content
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
-            films.append(abs(central - before) / (_FILM * central))
+            films.append(abs(central - before) / (_FILM * max(central, SMALLEST_GAP)))
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":
                 break

@@ -41,6 +41,7 @@ from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
+    SMALLEST_GAP,
     Asperities,
     GridProblem,
     GridSolution,
@@ -450,7 +451,8 @@ def touching_newton(
         step = newton_step(fluid, problem.levels, state, now, asperities, close, damping)
         steps.append(step.record)
         assessed = step.now
-        if not np.isfinite(assessed.norm):
+        thinnest = max(float(np.min(step.state.thickness)), asperities.boundary_film)
+        if not (np.isfinite(assessed.norm) and thinnest > SMALLEST_GAP):
             status = "diverged"
             break
         state = step.state
