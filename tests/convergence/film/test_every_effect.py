@@ -140,7 +140,6 @@ def test_oil_that_conducts_all_heat_leaves_a_starved_film_isothermal(part):
 def moving(geometry, **effects):
     """Moving film of a case whose wave passes through the contact."""
     found = table(geometry, **effects) | {"motion": {"passes": 1.0}}
-    found["contact"]["entrainment_speed"] = "0.1 m/s" if effects.get("touching") else "1 m/s"
     found["grid"] = {"nodes": 101} if geometry == "line" else {"nodes": 65, "nodes_y": 65}
     case = Case.from_dict(found)
     contact = TransientContact.of(case, check_case(case).rough)
