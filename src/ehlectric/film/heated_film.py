@@ -312,6 +312,10 @@ class OuterIteration:
             carried = solution.content
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
+            if central <= 0.0:
+                # An iterate of a starved film may leave no gap: another initial guess has to follow.
+                solution = replace(solution, status="diverged")
+                break
             films.append(abs(central - before) / (_FILM * central))
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":

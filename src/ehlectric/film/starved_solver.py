@@ -280,8 +280,10 @@ def at_centre_line(level: Level, layer: Array) -> float:
 # Relative difference from the ratio asked for at which the search ends, and its largest number of films.
 _CLOSE, _MOST_FILMS = 1e-4, 8
 
-# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma): between those of light and heavy circles.
-# Lines, whose layer is the film, start with the ratio itself.
+# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between those of light and heavy
+# ones. From ellipses that are wide across entrainment hardly any oil flows to the sides, so that their exponent
+# grows with their width: a start with too thick a layer is a film that is starved at its ends alone, which
+# hardly converges. Lines, whose layer is the film, start with the ratio itself.
 _EXPONENT = 3.0
 
 # Largest factor between two layers of the search, and the ratio above which a film is flooded.
@@ -307,7 +309,8 @@ def film_of_ratio(
     if ratio >= _FLOODED:
         return (taken_layer(starved) if mesh.dy is None else None), None
     flooded = at_centre(mesh, starved.flooded.state.thickness)
-    layer = first_layer(ratio, line=mesh.dy is None) * starved.flooded_mass / ambient
+    wide = None if mesh.dy is None else 1.5 * starved.problem.geometry.load / np.pi
+    layer = first_layer(ratio, wide) * starved.flooded_mass / ambient
     if last is not None:
         layer = float(last[0])
     found: list[tuple[float, float]] = []
@@ -340,15 +343,19 @@ def taken_layer(starved: StarvedProblem) -> Array:
     return taken
 
 
-def first_layer(ratio: float, *, line: bool) -> float:
-    """Mass of the first layer of a search over that of the flooded film at the centre.
+def first_layer(ratio: float, width: float | None) -> float:
+    """Mass of the first layer of a search over that of the flooded film at the centre. ``width``, semi-axis
+    of the dry contact across entrainment over that along it; None of a line.
 
     Examples
     --------
-    >>> first_layer(0.5, line=True), round(first_layer(0.5, line=False), 3)
-    (0.5, 0.523)
+    >>> first_layer(0.5, None), round(first_layer(0.5, 1.0), 3), round(first_layer(0.5, 4.0), 3)
+    (0.5, 0.523, 0.5)
     """
-    return ratio if line else float((ratio**-_EXPONENT - 1.0) ** (-1.0 / _EXPONENT))
+    if width is None:
+        return ratio
+    exponent = _EXPONENT * max(1.0, width)
+    return float((ratio**-exponent - 1.0) ** (-1.0 / exponent))
 
 
 def _next(found: list[tuple[float, float]]) -> float:
