@@ -130,7 +130,7 @@ class Case(CaseFile, book="case_file"):
         self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
-        check_film(self.film, self.contact, self.lubricant, moves=moves)
+        check_film(self.film, self.contact, self.lubricant)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
         if self.meter is not None:

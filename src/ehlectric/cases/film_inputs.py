@@ -93,14 +93,10 @@ class FilmPhysics(Table, book="film"):
     thermal: bool = False
     rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
 
-    def check(self, contact: Contact, lubricant: Lubricant, *, moves: bool) -> None:
+    def check(self, contact: Contact, lubricant: Lubricant) -> None:
         """Check that a case has all that a film with heat or shear needs. Raises InputError if a property of
-        the oil, of a body or a temperature is missing, or the contact is transient.
+        the oil, of a body or a temperature is missing.
         """
-        if moves:
-            raise InputError.worded(
-                "film", "is not used with [motion], whose films are isothermal and Newtonian; leave it out"
-            )
         for key in CONSTANTS[self.rheology]:
             if getattr(lubricant, key) is None:
                 raise InputError.missing(
@@ -120,15 +116,12 @@ class FilmPhysics(Table, book="film"):
         return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
 
 
-def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant, *, moves: bool) -> None:
-    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case.
-
-    ``moves`` tells whether the case has the table ``motion``.
-    """
+def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant) -> None:
+    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case."""
     if film is None or not film.thermal:
         _refuse_unused(contact)
     if film is not None:
-        film.check(contact, oil, moves=moves)
+        film.check(contact, oil)
 
 
 def _refuse_unused(contact: Contact) -> None:

@@ -123,9 +123,6 @@ _OUTLET, _NEAR = 0.3, 0.05
 # Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
 _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
 
-# Minimum film over the boundary film below which surfaces touch.
-_TOUCHING = 1.01
-
 # Temperatures at which the slope of the viscosity is looked at.
 _SAMPLES = 50
 
@@ -141,11 +138,7 @@ def heat_warnings(
     if heated is None or physics is None:
         return
     if not film.converged:
-        simple = heated.isothermal_minimum_thickness
-        thinnest = film.minimum_thickness if simple is None else min(simple, film.minimum_thickness)
-        if film.status == "film collapsed" or thinnest < _TOUCHING * conditions.boundary_film:
-            yield ResultWarning.of("surfaces-touch", "heated")
-        elif physics.thermal is not None:
+        if physics.thermal is not None:
             thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
             if thicker is not None:
                 told = _thicker(thicker, conditions.max_pressure)
@@ -153,6 +146,9 @@ def heat_warnings(
         return
     if heated.isothermal_minimum_thickness is None:
         yield ResultWarning.of("isothermal-unsolved")
+    slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
+    if heated.thermal and slides and film.contact.any() and physics.boundary_friction is None:
+        yield ResultWarning.of("spot-heat-unknown")
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
         yield from _temperatures(case, heated, physics.thermal.oil, conditions.max_pressure)

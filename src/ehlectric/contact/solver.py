@@ -217,7 +217,7 @@ def solve_prepared(
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(contact.case, film),
-            *starvation_warnings(films.setup, contact.conditions, film),
+            *starvation_warnings(films.setup, film),
             *heat_warnings(contact.case, contact.conditions, film, contact.physics),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(contact.case, film, field),

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.film_inputs import Inlet
-from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.problems import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.film_solver import Starvation
@@ -29,9 +28,7 @@ _AT_HERTZ = 0.01
 _AT_EDGE = 0.05
 
 
-def starvation_warnings(
-    setup: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
-) -> Iterator[ResultWarning]:
+def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings about the supply of oil of a film; none for a film without ``[inlet]``."""
     found, inlet = film.starvation, setup.inlet
     if found is None or inlet is None:
@@ -39,13 +36,6 @@ def starvation_warnings(
     yield from _of_flooded(film, found, inlet)
     if not film.converged:
         return
-    if film.minimum_thickness < conditions.boundary_film:
-        yield ResultWarning.of(
-            "surfaces-touch",
-            "starved",
-            thinnest=1e9 * film.minimum_thickness,
-            boundary=1e9 * conditions.boundary_film,
-        )
     table = inlet.layer_table
     if table is not None and isinstance(film, PointFilm):
         side = film.semi_axis_y

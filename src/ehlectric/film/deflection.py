@@ -180,16 +180,24 @@ class Deflection:
         return self._beside[steps]
 
     @cached_property
+    def _single(self) -> Array:
+        """Spectrum of single precision."""
+        return self.spectrum.astype(np.float32)
+
+    @cached_property
     def _beside(self) -> dict[tuple[int, ...], Array]:
         """Coefficients of ``beside`` by their steps."""
         return {}
 
     def __call__(self, pressure: Array) -> Array:
-        """Deflection under ``pressure`` (nx, ny), by which the gap opens; dimensionless, shape (nx, ny)."""
+        """Deflection under ``pressure`` (nx, ny), by which the gap opens; dimensionless, shape (nx, ny).
+
+        It is of single precision if the pressure is.
+        """
         nx, ny = pressure.shape
         mx, my = self.padded
         product = _transform(pressure, self.padded, symmetric=self.symmetric)
-        product *= self.spectrum
+        product *= self._single if pressure.dtype == np.float32 else self.spectrum
         if my > 1 and not self.symmetric:
             product = fft.ifft(product, my, axis=1, overwrite_x=True)
         opened: Array = fft.irfft(product, mx, axis=0)[:nx]

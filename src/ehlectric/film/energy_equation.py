@@ -71,7 +71,9 @@ _SLOW = 0.02
 class Surface:
     """Surface of a moving half-space on a uniform grid along its motion."""
 
-    bulk: float  # temperature of the body far from the contact [K]
+    # Temperature of the surface without its fluxes: that of the body far from the contact [K], or, in a time
+    # step, what the past has left at each node, shape (nx, ny).
+    bulk: Array | float
     # Temperature rise at 0, 1, ... cells behind a cell with unit flux [K m^2/W], shape (nx,).
     downstream: Array
     # Temperature rise at 0, 1, ... cells before a cell with unit flux; the first is zero, as the cell itself
@@ -206,6 +208,16 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
+class Earlier:
+    """Oil at the instant before a time step."""
+
+    temperature: Array  # [K], shape (nz, nx, ny)
+    mass: Array  # mass theta rho h at the nodes across the film [kg/m^2], shape (nz, nx, ny)
+    pressure: Array  # [Pa], shape (nx, ny)
+    step: float  # time since then [s]
+
+
+@dataclass(frozen=True, eq=False)
 class Stream:
     """Flow and properties of the oil in all columns, SI units.
 
@@ -236,6 +248,19 @@ class Stream:
     # -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
     compression: Array
     compression_p: Array  # derivative of ``compression`` by the pressure at the same node [1/(s K)]
+    expansion: Array  # -(1/rho) (d rho/dT) [1/K], zero where oil does not fill the gap
+    earlier: Earlier | None = None  # oil at the instant before; None of a stationary film
+
+    @property
+    def mass(self) -> Array:
+        """Mass theta rho h of the oil at the nodes across the film [kg/m^2]."""
+        return self.filling * self.thickness * self.density
+
+    def in_time(self, earlier: Earlier, pressure: Array) -> Stream:
+        """Flow of a time step with a pressure (nx, ny) [Pa] at its end: compression in time heats, too."""
+        rate = self.expansion * (pressure - earlier.pressure) / earlier.step
+        by_pressure = self.compression_p + self.expansion / earlier.step
+        return replace(self, compression=self.compression + rate, compression_p=by_pressure, earlier=earlier)
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,7 +297,13 @@ class HeatColumns:
         neighbours = [carried * part for part in flow.neighbours]
         diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
-        upward = specific * np.tensordot(across.cumulative, flow.divergence, axes=1)
+        if stream.earlier is not None:
+            held = carried * stream.mass / stream.earlier.step
+            diagonal, source = diagonal + held, source + held * stream.earlier.temperature
+        gained = flow.divergence
+        if stream.earlier is not None:
+            gained = gained + (stream.mass - stream.earlier.mass) / stream.earlier.step
+        upward = specific * np.tensordot(across.cumulative, gained, axes=1)
         # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
         # Conduction that brings the Peclet number of a cell down to two keeps the temperature there bounded.
         # The flow in it is the larger one of the sums from both surfaces.
@@ -304,7 +335,7 @@ class _Convection:
     @classmethod
     def of(cls, stream: Stream) -> _Convection:
         """Convection of a stream."""
-        mass = stream.filling * stream.thickness * stream.density
+        mass = stream.mass
         forward, back = _parts(mass * stream.u / stream.dx)
         # The columns upstream of the first one have the inlet temperature, and the flow of the first column.
         one = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
@@ -368,7 +399,7 @@ def stream_of(
         softening = np.where(rubbing[0], 0.0, softening)
     along = upstream_slope(pressure, u, mesh.dx * length)
     across = columns.gradient[1] * (pressure_scale / length)
-    expansion = -density.by_temperature / density.value
+    expansion = np.where(filled < 1.0, 0.0, -density.by_temperature / density.value)
     return Stream(
         across=columns.across,
         dx=mesh.dx * length,
@@ -383,8 +414,9 @@ def stream_of(
         conductivity=oil.thermal_conductivity(pressure, temperature).value,
         heating=heating,
         heating_slope=np.minimum(0.0, heating * softening * viscosity.by_temperature),
-        compression=np.where(filled < 1.0, 0.0, expansion * (u * along + v * across)),
-        compression_p=np.where(filled < 1.0, 0.0, expansion * np.abs(u) / (mesh.dx * length)),
+        compression=expansion * (u * along + v * across),
+        compression_p=expansion * np.abs(u) / (mesh.dx * length),
+        expansion=expansion,
     )
 
 

@@ -188,7 +188,8 @@ class OuterIteration:
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if carried is not None:
             last = tolerance <= self.posed.tolerance
-            solution = isothermal(posed, full_order=last)(Guess(state, carried.filled), carried.supply)
+            solver = isothermal(posed, full_order=last, min_iterations=1)
+            solution = solver(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, spike=spike)
         if isinstance(law.profile, FrozenTemperature):
@@ -204,7 +205,8 @@ class OuterIteration:
             if float(np.min(solution.state.thickness)) >= boundary_film:
                 return solution
         most = _TOUCHING * posed.max_iterations
-        return touching_newton(replace(posed, max_iterations=most), state, first_damping=NEAR_DAMPING)
+        posed = replace(posed, max_iterations=most)
+        return touching_newton(posed, state, first_damping=NEAR_DAMPING, min_iterations=1)
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
@@ -292,7 +294,7 @@ class OuterIteration:
             )
             return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
-        surfaces, weight = self.surfaces(thermal), _weight(self.level, state)
+        surfaces, weight = self.surfaces(thermal), node_weight(self.level, state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
@@ -328,7 +330,7 @@ class OuterIteration:
             if new is None:
                 solution = replace(solution, status="diverged")
                 break
-            rises.append(_change_between(weight, heat, new, thermal))
+            rises.append(change_between(weight, heat, new, thermal))
             # Film and temperature that are close enough end with a film at the last temperature.
             ends = max(self._distance(rises), self._distance(films)) < allowed
             state = solution.state
@@ -356,7 +358,7 @@ class OuterIteration:
         assert self.physics.thermal is not None
         first = new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
         for _ in range(_HELD):
-            if new is None or _change_between(weight, heat, new, self.physics.thermal) < allowed:
+            if new is None or change_between(weight, heat, new, self.physics.thermal) < allowed:
                 return new
             if np.max(np.abs(new.temperature - heat.temperature)) > _MOST_CHANGE:
                 break
@@ -391,7 +393,7 @@ class OuterIteration:
         return changes[-1] * ratio / (1.0 - ratio)
 
 
-def _change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
+def change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
     """Change of the temperature over that at which it stands."""
     rise = float(np.max(new.temperature)) - thermal.inlet_temperature
     change = np.max(weight * np.abs(new.temperature - heat.temperature))
@@ -403,7 +405,7 @@ def close_enough(rise: float) -> float:
     return _KELVIN + _RISE * abs(rise)
 
 
-def _weight(level: Level, state: State) -> Array:
+def node_weight(level: Level, state: State) -> Array:
     """Weight of a change of temperature, shape (nx, ny): its effect on the pressure goes with 1/h^2.
 
     The reverse flow far upstream would otherwise decide when the temperature stands.
@@ -578,11 +580,21 @@ def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) ->
 
 
 def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
-    """Both films, with heat on all grids from coarse to fine: flooded first, then with the supply of oil."""
-    assert problem.physics is not None
+    """Both films, with heat on all grids from coarse to fine."""
+    simple, refined = heated_solution(problem, progress, order=3)
+    return _solution(simple, refined)
+
+
+def heated_solution(
+    problem: FilmProblem, progress: Progress | None, *, order: int
+) -> tuple[RefinedSolution, RefinedSolution]:
+    """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
+
+    The film is flooded first, and then has its supply of oil. ``order`` is that of its wedge term.
+    """
     cold = replace(problem, physics=None)
     simple = film_method(cold)(cold, progress)
-    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem)
+    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem, order)
     starts = simple.solutions if simple.patch is None else [simple.whole]
     if isinstance(simple, StarvedSolution) and simple.flooded is not None:
         starts = [simple.flooded]
@@ -590,10 +602,9 @@ def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
     if not all(grid.status == "converged" for grid in found):
         # Very hot films take more grids and more exact loops.
         found = _on_grids(finest, starts, progress, careful=True)
-    refined = RefinedSolution(finest, list(found))
-    if problem.supply is not None:
-        refined = starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
-    return _solution(simple, refined)
+    if problem.supply is None:
+        return simple, RefinedSolution(finest, list(found))
+    return simple, starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
 
 
 def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
@@ -603,7 +614,17 @@ def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
         heat = None if before.heat is None else _finer(before.heat, before.level, iteration.level)
-        return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
+        careful = replace(iteration, careful=True)
+        variants = [
+            iteration,
+            replace(careful, held=iteration.held),
+            replace(careful, held=not iteration.held),
+        ]
+        for variant in variants if iteration.physics.thermal is not None else variants[:1]:
+            found = replace(variant, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
+            if found.status == "converged":
+                break
+        return found
 
     return StarvedProblem(iteration.problem, iteration.posed, flooded, film)
 
@@ -655,13 +676,13 @@ def _careful(
     return tried[0]
 
 
-def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
+def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem, order: int) -> FilmProblem:
     """Problem with heat on the grid of the isothermal film over the whole domain."""
     mesh, width = whole.level.mesh, posed.width
     if width is not None:
         across = mesh.whole_y.size if mesh.symmetric else mesh.y.size
         width = replace(width, nodes=across)
-    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
+    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=order)
 
 
 def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.film_solver import starved_solution
+from ehlectric.film.film_solver import StarvedSolution, film_method
+from ehlectric.film.heated_film import HeatedGrid, heated_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import Patch
@@ -55,13 +56,15 @@ class MovingFilm:
     @cached_property
     def _found(self) -> tuple[GridSolution, Array | None]:
         """Stationary film, and its layer of oil where it is starved."""
-        layer = None
+        problem, layer = replace(self.problem, target_error=None), None
         with quiet_solution():
-            if self.problem.supply is None:
-                steady = nested_iteration(self.problem, None)[-1]
+            if problem.physics is not None:
+                found = heated_solution(problem, None, order=problem.wedge_order)[1]
             else:
-                found = starved_solution(replace(self.problem, target_error=None), None)
-                steady, layer = found.last, found.layer if found.starved else None
+                found = film_method(problem)(problem, None)
+        steady = found.last
+        if isinstance(found, StarvedSolution) and found.starved:
+            layer = found.layer
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")
         return steady, layer
@@ -70,9 +73,10 @@ class MovingFilm:
     def patch(self) -> Patch | None:
         """Patch on which the film is solved; None for the whole domain.
 
-        The meniscus of a starved film moves, and oil flows to and from the sides ahead of a patch.
+        The meniscus of a starved film moves, and oil flows to and from the sides ahead of a patch. A film
+        with heat has a temperature everywhere.
         """
-        if self.layer is not None:
+        if self.layer is not None or self.problem.physics is not None:
             return None
         return Patch.around(self.problem, self.steady, ahead=AHEAD)
 
@@ -80,7 +84,8 @@ class MovingFilm:
     def film(self) -> UnsteadyFilm:
         """Solver of the time steps, on the patch or on the whole domain."""
         problem = self.problem if self.patch is None else self.patch.refined(1)
-        return UnsteadyFilm(problem, self._moving_gap, self.layer)
+        hot = self.steady if isinstance(self.steady, HeatedGrid) else None
+        return UnsteadyFilm(problem, self._moving_gap, self.layer, hot)
 
     def start(self, step: float) -> History:
         """History that starts from the stationary film, with a time T between its two instants."""

@@ -101,8 +101,10 @@ def _full_film(
         best = _from_coarser(problem, levels, coarse, progress)
     # A solution that nearly converged does not start again.
     if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
-        *warm_up, restarted = _from_hertz(problem, levels, progress)
+        *warm_up, restarted = _from_hertz(problem, levels, progress, rough=rough)
         found.extend(warm_up)
+        if rough and restarted.status == "diverged" and not warm_up:
+            return [*found, restarted]
         attempts = [restarted] if best is None else [restarted, best]
         *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
         found.extend(others)
@@ -393,12 +395,13 @@ def halved(values: Array) -> Array:
 
 
 def _from_hertz(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None
+    problem: FilmProblem, levels: list[Level], progress: Progress | None, *, rough: bool
 ) -> Iterator[GridSolution]:
     """Solutions with the Hertz pressure as initial guess.
 
     The first solution has the wedge term of first order, which is monotone and converges from a worse initial
-    guess. It is the initial guess of the second solution, which has the wedge term of the problem.
+    guess. It is the initial guess of the second solution, which has the wedge term of the problem. Where the
+    first one of ``rough`` surfaces that may touch diverges they do touch, and it is the only one.
     """
     level = levels[0]
     hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)
@@ -415,5 +418,7 @@ def _from_hertz(
             loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
         start = _newton_on(loosely, monotone, progress, spike=False)(state)
         yield start
+        if rough and start.status == "diverged":
+            return
         state = start.state if start.status == "converged" else state
     yield _newton_on(problem, levels, progress, spike=False)(state)

@@ -323,7 +323,7 @@ def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
     from the solution the linear model is not worth a close solution. Close to it, a tenth of ``tolerance``
     is enough.
     """
-    predicted = _FIRST_TOLERANCE if np.isinf(before) else _FORCING * (norm / before) ** 2
+    predicted = _FIRST_TOLERANCE if np.isinf(before) else _FORCING * min(1.0, norm / before) ** 2
     return min(_LOOSEST, max(LINEAR_TOLERANCE, predicted, 0.1 * tolerance / norm))
 
 

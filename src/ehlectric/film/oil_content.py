@@ -249,17 +249,24 @@ class MaskMemory:
 
     The order of the wedge term depends on the nodes that are filled. It may happen that a node overflows as a
     cavitated node and is under tension as a filled one. With the upwind difference on both sides this is
-    impossible, so that the nodes that change in a circle get it for the rest of the iteration.
+    impossible, so that the nodes that change in a circle get it for the rest of the iteration. Circles of
+    several nodes may take long to meet in a known mask: a node that changes more than ``most_changes`` times
+    counts as one that goes in a circle.
     """
 
-    def __init__(self) -> None:
-        self._masks: set[bytes] = set()
+    def __init__(self, most_changes: float = np.inf) -> None:
+        self._most_changes, self._masks = most_changes, set[bytes]()
+        self._changes: Array | int = 0  # number of changes of each node, shape (nx, ny)
 
     def supply_after(self, supply: Supply, filled: Mask, moved: Mask) -> Supply:
-        """Supply with an upwind difference at nodes that change, if this change leads to a known mask."""
-        key = np.packbits(moved).tobytes()
-        if key in self._masks:
-            supply = replace(supply, upwind=supply.upwind | (filled != moved))
+        """Supply with an upwind difference at the nodes that go in circles, the last change included."""
+        key, changed = np.packbits(moved).tobytes(), filled != moved
+        self._changes = self._changes + changed
+        circling = changed
+        if key not in self._masks:
+            circling = changed & (self._changes > self._most_changes)
+        if circling.any():
+            supply = replace(supply, upwind=supply.upwind | circling)
         self._masks.add(key)
         return supply
 

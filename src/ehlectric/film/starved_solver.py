@@ -79,6 +79,9 @@ def of_full_order(
         again = solved(posed, found.state, found.final.full_film)
         if again.status == "converged":
             return replace(again, steps=found.steps + again.steps)
+        if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
+            # The steps to the larger residual are the same.
+            break
     return found
 
 
@@ -126,17 +129,20 @@ _MOST_STEPS = 40
 Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 
 
-def isothermal(posed: GridProblem, *, full_order: bool = True) -> Solver:
+def isothermal(posed: GridProblem, *, full_order: bool = True, min_iterations: int = 0) -> Solver:
     """Solver of films on one grid without heat; ``full_order`` as in ``of_full_order``."""
 
-    def solved(problem: GridProblem, state: State, filled: Mask, supply: Supply) -> GridSolution:
-        return touching_newton(problem, state, first_damping=0.0, carried=Carried(supply, filled))
+    def solved(
+        problem: GridProblem, state: State, filled: Mask, supply: Supply, least: int = 0
+    ) -> GridSolution:
+        carried = Carried(supply, filled)
+        return touching_newton(problem, state, first_damping=0.0, carried=carried, min_iterations=least)
 
     def film(guess: Guess, supply: Supply) -> GridSolution:
-        found = solved(posed, guess.state, guess.filled, supply)
-        return (
-            of_full_order(posed, found, partial(solved, supply=supply.of_full_order)) if full_order else found
-        )
+        found = solved(posed, guess.state, guess.filled, supply, min_iterations)
+        if not full_order:
+            return found
+        return of_full_order(posed, found, partial(solved, supply=supply.of_full_order))
 
     return film
 

@@ -391,8 +391,9 @@ def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
 _PRESSURE_STEP = 0.5
 
 # Part of the gap above the boundary film that a step may close, in addition to half of the boundary film;
-# and the smallest part of a step.
-_CLOSING, _LEAST_STEP = 0.5, 0.05
+# part of the closing nodes that may close further, as single nodes that come into contact; and the smallest
+# part of a step.
+_CLOSING, _FURTHER, _LEAST_STEP = 0.9, 0.002, 0.05
 
 # Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the
 # gap.
@@ -411,6 +412,9 @@ _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
 # converged took up to 60.
 _PATIENCE = 70
 
+# Changes of a node, from filled to cavitated or back, above which it goes in a circle.
+_MOST_CHANGES = 4
+
 # Residual below which there is no damping.
 _NEAR = 1e-3
 
@@ -421,6 +425,7 @@ def touching_newton(
     *,
     first_damping: float = 1.0,
     carried: Carried | None = None,
+    min_iterations: int = 0,
 ) -> GridSolution:
     """Last iterate of Newton's method on one grid, where the surfaces may touch.
 
@@ -430,11 +435,13 @@ def touching_newton(
     fluid, level, tolerance = problem.fluid, problem.level, problem.reachable_tolerance
     asperities = problem.asperities
     steps: list[NewtonStep] = []
-    now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory()
+    now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory(_MOST_CHANGES)
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
-    while len(steps) < min(problem.max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
+    while len(steps) < min(problem.max_iterations, found + _PATIENCE):
+        if len(steps) >= min_iterations and is_solved(now, tolerance):
+            break
         problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
@@ -488,7 +495,8 @@ def newton_step(
         return Stepped(state, replace(now, norm=np.inf), 0.0, NewtonStep(level.nodes, now.norm, 0))
     step = _direction(fluid, jacobian, state, now, close)
     length = _length(level, now, step, asperities.boundary_film)
-    state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
+    moved = _moved(level, state, now.contact, step, length)
+    state = _released(level, moved, projected(fluid, moved, now.contact), asperities.boundary_film)
     record = NewtonStep(level.nodes, now.norm, step.krylov)
     assessed = assess_touching(fluid, level, state, asperities, now.carried)
     return Stepped(state, assessed, length, record)
@@ -511,6 +519,17 @@ def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float
     oil = np.where(contact, state.oil_pressure + length * step.oil, pressure)
     pressure = np.maximum(pressure, 0.0)
     return State.of(level, pressure, state.h00 + length * step.h00, pressure - oil)
+
+
+def _released(level: Level, moved: State, state: State, boundary_film: float) -> State:
+    """Projected state of a Newton step, whose nodes with negative contact pressure in the step open.
+
+    The gap of a node in contact is the boundary film up to the error of the linear solution. Without contact
+    pressure, this error alone would decide whether the surfaces still touch.
+    """
+    least = np.minimum((state.thickness - boundary_film) / node_compliance(level), 0.0)
+    opens = (moved.contact_pressure < 0.0) & (moved.contact_pressure <= least)
+    return replace(state, contact_pressure=np.where(opens, least, state.contact_pressure))
 
 
 def is_solved(now: Touching, tolerance: float) -> bool:
@@ -561,5 +580,5 @@ def _length(level: Level, now: Touching, step: _Step, boundary_film: float) -> f
     closing = (dh < 0.0) & ~now.contact
     if closing.any():
         room = _CLOSING * (now.thickness - boundary_film) + 0.5 * boundary_film
-        length = min(length, float(np.min(room[closing] / -dh[closing])))
+        length = min(length, float(np.quantile(room[closing] / -dh[closing], _FURTHER)))
     return max(length, _LEAST_STEP)

@@ -41,7 +41,10 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
+from ehlectric.film.energy_equation import Heat, Mixing
+from ehlectric.film.heated_film import HeatedGrid
 from ehlectric.film.levels import SECOND_DIFFERENCE, Level
+from ehlectric.film.moving_heat import MOST_TURNS, MovingHeat, Warmth
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
@@ -324,6 +327,7 @@ class Instant:
     density: Array  # density ratio rho/rho_0, shape (nx, ny)
     # Nodes with a full film; on the inlet edge, those that a given layer of oil fills, shape (nx, ny).
     full_film: Mask
+    warmth: Warmth | None = None  # heat of the film and of its past; None of an isothermal film
 
     @property
     def oil(self) -> Oil:
@@ -366,12 +370,20 @@ class History:
 class UnsteadyFilm:
     """Solver for the transient film of a contact with moving roughness. ``moving_gap``, gap that moving
     roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny); ``layer``, thickness H of the layer of oil
-    at the inlet edge; None for a flooded inlet, shape (ny,).
+    at the inlet edge; None for a flooded inlet, shape (ny,); ``hot``, stationary film with the rheology or
+    the heat of the moving one; None for an isothermal Newtonian film.
     """
 
-    def __init__(self, problem: FilmProblem, moving_gap: MovingGap, layer: Array | None = None) -> None:
+    def __init__(
+        self,
+        problem: FilmProblem,
+        moving_gap: MovingGap,
+        layer: Array | None = None,
+        hot: HeatedGrid | None = None,
+    ) -> None:
         self.problem, self.layer = problem, layer
-        self._moving_gap = moving_gap
+        self._moving_gap, self._hot = moving_gap, hot
+        self._heat = None if hot is None else MovingHeat.of(hot)
         self._levels = levels_of(replace(problem, wedge_order=2))
 
     @property
@@ -388,6 +400,8 @@ class UnsteadyFilm:
             mass = np.clip(steady.content.mass, 0.0, density * state.thickness)
             filled = steady.content.filled
         now = Instant(0.0, state, mass, density, filled)
+        if self._heat is not None and self._hot is not None:
+            now = replace(now, warmth=self._heat.start(self._hot, now.oil_fraction))
         return History(now, replace(now, time=-step))
 
     def advance(self, history: History, step: float) -> History:
@@ -415,36 +429,67 @@ class UnsteadyFilm:
         return halved
 
     def _stepped(self, history: History, step: float) -> tuple[Instant | None, Effort]:
-        """Instant one step later, or None if Newton's method does not converge, with the work."""
-        time = history.now.time + step
-        tolerance = max(self.problem.tolerance, STEP_TOLERANCE)
+        """Instant one step later, or None if the film or its temperature does not converge, with the work."""
+        time, before = history.now.time + step, history.now.warmth
         levels = self._levels_at(history, step)
-        asperities = self.problem.asperities
-        posed = GridProblem(self.problem.fluid, levels, tolerance, _MANY_ITERATIONS, None, asperities)
-        effort = Effort()
-        starts = self._starts(levels, history, step)
+        heat = None if before is None else before.heat
+        effort, mixing, solution = Effort(), Mixing(), None
+        for _ in range(MOST_TURNS):
+            last = history.now.state if solution is None else solution.state
+            solution, work = self._solved(self._posed(levels, last, heat), history, step, solution)
+            effort += work
+            if solution is None:
+                break
+            instant = self._instant(time, solution)
+            if before is None or heat is None or self._heat is None:
+                return instant, effort
+            new = self._heat.after(solution, heat, instant.oil_fraction, before, step)
+            if new is None:
+                break
+            if self._heat.stands(solution, heat, new.heat):
+                return replace(instant, warmth=new), effort
+            heat = new.heat.with_vector(mixing(heat.vector, new.heat.vector))
+        return None, effort
+
+    def _posed(self, levels: list[Level], last: State, heat: Heat | None) -> GridProblem:
+        """Equations of a time step, with the flow law of the temperature of a film at the state ``last``."""
+        fluid, tolerance = self.problem.fluid, max(self.problem.tolerance, STEP_TOLERANCE)
+        if self._hot is not None:
+            fluid = replace(fluid, flow=self._hot.iteration.flow(last, heat))
+        return GridProblem(fluid, levels, tolerance, _MANY_ITERATIONS, None, self.problem.asperities)
+
+    def _solved(
+        self, posed: GridProblem, history: History, step: float, near: GridSolution | None
+    ) -> tuple[GridSolution | None, Effort]:
+        """Film after a time step, or None if Newton's method does not converge, with the work.
+
+        ``near`` is the film of the same step at another temperature.
+        """
+        effort, boundary_film = Effort(), self.problem.boundary_film
+        last = history.now.state if near is None else near.state
+        line = self.problem.width is None
+        starts = [(last, line)] if near is not None else self._starts(posed, history, step)
         limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
         for (start, spike), iterations in zip(starts, limits, strict=True):
-            if history.now.state.touching.any():
+            if last.touching.any():
                 break
             limited = replace(posed, max_iterations=iterations)
             solution = newton(limited, start, min_iterations=1, eliminate_spike=spike, transient=True)
             effort += Effort.of(solution)
             if solution.status == "converged":
-                if float(solution.state.thickness.min()) < self.problem.boundary_film:
+                if float(solution.state.thickness.min()) < boundary_film:
                     break
-                return self._instant(time, solution), effort
-        if self.problem.boundary_film > 0.0:
+                return solution, effort
+        if boundary_film > 0.0:
             # The surfaces touch or part in this step: it starts from the last film.
-            last = history.now.state
-            start = State.of(levels[0], last.pressure, last.h00, last.contact_pressure)
+            start = State.of(posed.level, last.pressure, last.h00, last.contact_pressure)
             solution = touching_newton(posed, start, first_damping=0.0)
             effort += Effort.of(solution)
             if solution.status == "converged":
-                return self._instant(time, solution), effort
+                return solution, effort
         return None, effort
 
-    def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
+    def _starts(self, posed: GridProblem, history: History, step: float) -> list[tuple[State, bool]]:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
 
         Each comes with a flag whether to solve the pressure spike separately. The guess with the smaller
@@ -458,12 +503,12 @@ class UnsteadyFilm:
         pressure = np.maximum(now.pressure + change, ambient)
         h00 = now.h00 + ratio * (now.h00 - before.h00)
         least = _LEAST_START * float(now.thickness.min())
-        last = State.of(levels[0], now.pressure, now.h00).lifted(least)
+        last = State.of(posed.level, now.pressure, now.h00).lifted(least)
         starts = [(last, self.problem.width is None)]
-        extrapolated = State.of(levels[0], pressure, h00)
+        extrapolated = State.of(posed.level, pressure, h00)
         if float(extrapolated.thickness.min()) >= least:
             starts.append((extrapolated, False))
-        return sorted(starts, key=lambda start: assess(self.problem.fluid, levels[0], start[0]).norm)
+        return sorted(starts, key=lambda start: assess(posed.fluid, posed.level, start[0]).norm)
 
     def _levels_at(self, history: History, step: float) -> list[Level]:
         """All grids with the Reynolds equation of the next time step."""

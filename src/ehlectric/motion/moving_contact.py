@@ -26,6 +26,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact import contact_kinds
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
+from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.problems import domain_of
 from ehlectric.errors import InputError
 from ehlectric.field.line_field import Field
@@ -357,7 +358,8 @@ class TransientContact:
         # Half of a point contact suffices only if all roughness that passes is symmetric about y = 0.
         whole = film_problem(self.travelled, self.conditions, self.roughness.surfaces)
         # The scheme in time is of second order, and the film that it starts from must agree with it.
-        return replace(problem, width=whole.width, wedge_order=2)
+        physics = physics_of(self.case, self.conditions)
+        return replace(problem, width=whole.width, wedge_order=2, physics=physics)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
         """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.

@@ -43,7 +43,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     yield from case_warnings(contact.case, conditions)
     yield from surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
-    yield from starvation_warnings(contact.case, conditions, still.film)
+    yield from starvation_warnings(contact.case, still.film)
     yield from _unlike(contact, still)
     if not still.converged:
         yield ResultWarning.of("stationary-not-converged", status=still.film.status)

@@ -15,6 +15,7 @@ from ehlectric.contact.warnings import film_warnings
 from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact_figure_files import figure
+from ehlectric.film import touching_film
 from ehlectric.film.across_film import Across
 from ehlectric.paper.paper_contacts import PAPER
 from ehlectric.runtime.netcdf import read_dataset
@@ -245,21 +246,35 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
         solve(case, solvers=PAPER)
 
 
-def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
-    """The film does not converge, and one warning says why; another advice would contradict it."""
+def test_a_sheared_film_whose_surfaces_touch_is_solved():
+    """The boundary film of 2 nm carries what the oil does not: together they carry the load."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
     table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
     result = solve(Case.from_dict(table))
-    assert result.film.collapsed_positions.size
-    (told,) = (each.text for each in result.warnings if each.code == "surfaces-touch")
-    assert "solved without the table [film] only" in told
+    assert result.converged
+    assert result.film.contact.any()
+    assert result.film.minimum_thickness == pytest.approx(result.conditions.boundary_film, rel=1e-6)
+    assert result.film.load_residual < 1e-9
 
 
-def test_a_film_that_did_not_converge_has_no_friction(tmp_path):
+@pytest.mark.parametrize("friction", [None, 0.1])
+def test_the_heat_of_sliding_spots_needs_their_friction(friction):
+    """Without the coefficient a warning says what is missing; with it the film is hotter."""
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003, "slide_to_roll_ratio": 1.0}
+    contact |= {"boundary_friction": friction} if friction else {}
+    result = solve(Case.from_dict(HOT_LINE | {"contact": contact, "grid": {"nodes": 101}}))
+    assert result.converged
+    assert result.film.contact.any()
+    assert ("spot-heat-unknown" in [each.code for each in result.warnings]) == (friction is None)
+
+
+def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
     """Neither in Python, summary.json and the table of command and report, nor in the app and in figures."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
     table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
-    result = solve(Case.from_dict(table))
+    with monkeypatch.context() as patch:
+        patch.setattr(touching_film, "_PATIENCE", 1)
+        result = solve(Case.from_dict(table))
     assert not result.converged
     save(result, tmp_path)
     for each in (result, load(tmp_path / "result.nc")):
