@@ -140,9 +140,9 @@ def duty_of(
     ``film_scale`` is a factor on all film thicknesses, for those of quick contacts that are scaled to solved
     ones. ``ring_scales`` are further factors on the central films of the contacts with each ring; by default
     those by which its most loaded contact has the film that was solved with heat and supply, where there is
-    one. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which pressure
-    flattens. An element conducts while both its contacts do, and one element shorts the bearing. All contacts
-    are taken as independent.
+    one. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which
+    pressure flattens. An element conducts while both its contacts do, and one element shorts the bearing. All
+    contacts are taken as independent.
     """
     inner, outer = solved_scales(solution) if ring_scales is None else ring_scales
     rings = tuple(

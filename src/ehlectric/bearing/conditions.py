@@ -58,8 +58,8 @@ class Solid:
 
 @dataclass(frozen=True)
 class ContactFriction:
-    """Friction and temperature of the most loaded contact with a ring, solved in pure rolling with its heat and
-    with its supply of oil.
+    """Friction and temperature of the most loaded contact with a ring, solved in pure rolling with its heat
+    and with its supply of oil.
     """
 
     load: float = field(metadata=stored(rule="positive"))  # [N]

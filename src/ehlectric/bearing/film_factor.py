@@ -150,8 +150,8 @@ def solved_contact(
     """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
 
     ``load`` [N]. Returns ``factor``, central film thickness with heat over that of the isothermal Newtonian
-    film, both flooded, dimensionless; ``friction``, rolling friction and temperature of the film with its heat
-    and its supply of oil, None where the film with both does not converge; those of the same contact are
+    film, both flooded, dimensionless; ``friction``, rolling friction and temperature of the film with its
+    heat and its supply of oil, None where the film with both does not converge; those of the same contact are
     kept. Raises InputError where the contact is beyond the model, or the oil has no values at its
     temperatures; ConvergenceError where one of both flooded films does not converge.
 
@@ -258,7 +258,8 @@ def _solved(hot: _HotContact) -> _FloodedFilm:
 
 @lru_cache(maxsize=256)
 def _starved(hot: _HotContact, grid: Grid, ratio: float) -> ContactFriction | None:
-    """Friction of the film with heat under the layer of oil that leaves a ratio of the flooded film with heat;
+    """Friction of the film with heat under the layer of oil that leaves a ratio of the flooded film.
+
     None where this film does not converge, as some do that are hardly starved. Seconds for a roller, and a
     minute for a ball.
     """
@@ -370,9 +371,9 @@ def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Arra
     forces at both loads by formula, shape (...).
 
     The formulas are those of Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
-    a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat and
-    a short supply of oil reduce the force of all contacts as that of the solved one, and heat that of lightly
-    loaded ones too much.
+    a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat
+    and a short supply of oil reduce the force of all contacts as that of the solved one, and heat that of
+    lightly loaded ones too much.
     """
     # The formulas take the speed of the surfaces, which a film factor would reduce.
     conditions = replace(kind_of(ring).contact(ring, friction.load).conditions, film_factor=1.0)

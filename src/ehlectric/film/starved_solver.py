@@ -286,10 +286,10 @@ def at_centre_line(level: Level, layer: Array) -> float:
 # Relative difference from the ratio asked for at which the search ends, and its largest number of films.
 _CLOSE, _MOST_FILMS = 1e-4, 8
 
-# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between those of light and heavy
-# ones. From ellipses that are wide across entrainment hardly any oil flows to the sides, so that their exponent
-# grows with their width: a start with too thick a layer is a film that is starved at its ends alone, which
-# hardly converges. Lines, whose layer is the film, start with the ratio itself.
+# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between those of light and
+# heavy ones. From ellipses that are wide across entrainment hardly any oil flows to the sides, so that their
+# exponent grows with their width: a start with too thick a layer is a film that is starved at its ends alone,
+# which hardly converges. Lines, whose layer is the film, start with the ratio itself.
 _EXPONENT = 3.0
 
 # Largest factor between two layers of the search, and the ratio above which a film is flooded.

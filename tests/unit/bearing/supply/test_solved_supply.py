@@ -165,7 +165,7 @@ def test_films_without_solved_heat_are_not_scaled():
     assert solved_scales(solution) == (1.0, 1.0)
 
 
-def test_speed_of_the_capacitive_regime_follows_the_solved_film(starved):
+def test_speed_of_the_capacitive_regime_follows_the_solved_film():
     """At this speed the share of time is 1 %, or surfaces part: of the same scaled films."""
     rough = solve_bearing(case(supply=0.5, bearing__composite_rq="0.06 um", bearing__summit_height=0.0))
     duty, speed = duty_of(rough.solution), capacitive_speed(rough.solution)
