@@ -749,7 +749,7 @@ def spot_warnings(
 
 def unknown_share(what: str, grid: str) -> ResultWarning:
     """Warning that a load share is not known on a coarser grid."""
-    return ResultWarning.of("load-share-unresolved", what=what, before=f"is not known on {grid}")
+    return ResultWarning.of("load-share-unresolved", "unknown", what=what, before=f"is not known on {grid}")
 
 
 def changed_share(
@@ -759,7 +759,8 @@ def changed_share(
     change = share - coarser if change is None else change
     if abs(change) > max(_UNRESOLVED_SHARE * share, _UNRESOLVED_LOAD):
         before = f"was {about_share(coarser, share)} on {grid}"
-        yield ResultWarning.of("load-share-unresolved", what=what, before=before)
+        turn = "falls" if change < 0.0 else "rises"
+        yield ResultWarning.of("load-share-unresolved", turn, what=what, before=before)
 
 
 def _edge_gap(film: Film | PointFilm) -> float:

@@ -60,9 +60,9 @@ _MOST_CHANGE = 40.0
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
-# Multiples of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
-# of one whose surfaces touch, as its spots do.
-_CARRYING, _TOUCHING = 3, 3
+# Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
+# least number of steps of one whose surfaces may touch: fewer would leave its spots in the middle of a change.
+_CARRYING, _TOUCHING = 3, 40
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
@@ -187,8 +187,7 @@ class OuterIteration:
         fluid = replace(self.problem.fluid, flow=law)
         posed = replace(self.posed, fluid=fluid, tolerance=tolerance, max_iterations=steps)
         if carried is not None:
-            last = tolerance <= self.posed.tolerance
-            solver = isothermal(posed, full_order=last, min_iterations=1)
+            solver = isothermal(self._with_steps(posed), full_order=False, min_iterations=1)
             solution = solver(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, spike=spike)
@@ -204,9 +203,25 @@ class OuterIteration:
             solution = newton(posed, state, min_iterations=1, eliminate_spike=spike and line)
             if float(np.min(solution.state.thickness)) >= boundary_film:
                 return solution
-        most = _TOUCHING * posed.max_iterations
-        posed = replace(posed, max_iterations=most)
+        posed = self._with_steps(posed)
         return touching_newton(posed, state, first_damping=NEAR_DAMPING, min_iterations=1)
+
+    @staticmethod
+    def _with_steps(posed: GridProblem) -> GridProblem:
+        """Equations with enough Newton steps for spots to settle, where surfaces may touch."""
+        if not posed.asperities.boundary_film:
+            return posed
+        return replace(posed, max_iterations=max(posed.max_iterations, _TOUCHING))
+
+    def _of_full_order(self, solution: GridSolution, law: ShearedFlow) -> GridSolution:
+        """Film of the same temperature whose nodes have no upwind difference that it does not need."""
+        if solution.content is None or solution.status != "converged":
+            return solution
+        most = _CARRYING * self.problem.max_iterations
+        posed = replace(self.posed, fluid=replace(self.problem.fluid, flow=law), max_iterations=most)
+        guess = Guess(solution.state, solution.content.filled)
+        again = isothermal(posed)(guess, solution.content.supply)
+        return again if again.status == "converged" else solution
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
@@ -292,6 +307,7 @@ class OuterIteration:
             solution, law, _ = self.film(
                 state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, carried=carried
             )
+            solution = self._of_full_order(solution, law)
             return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
         surfaces, weight = self.surfaces(thermal), node_weight(self.level, state)
@@ -337,7 +353,7 @@ class OuterIteration:
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        solution = replace(solution, steps=tuple(taken))
+        solution = replace(self._of_full_order(solution, law), steps=tuple(taken))
         return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
 
     def _temperature_of_held(

@@ -24,7 +24,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.energy_equation import Earlier, Heat, HeatColumns, Stream, Surface, solve_energy
-from ehlectric.film.heated_film import HeatedGrid, OuterIteration, change_between, node_weight
+from ehlectric.film.heated_film import HeatedGrid, OuterIteration, change_between, mid_film, node_weight
 from ehlectric.film.hot_oil import Thermal
 from ehlectric.film.newton import GridSolution
 
@@ -41,6 +41,7 @@ class Warmth:
     pressure: Array  # pressure [Pa], shape (nx, ny)
     # Ends of the time steps so far [s], the first of which is that of the stationary film, shape (n + 1,).
     times: Array
+    middle: Array  # temperature at mid-film [K], shape (nx, ny)
     # Flux into both surfaces in each step above that of the stationary film [W/m^2], shape (n, 2, nx, ny).
     excess: Array
 
@@ -76,7 +77,14 @@ class MovingHeat:
         """Heat of the stationary film, whose gap oil fills to the part ``filled`` (nx, ny)."""
         stream = self._stream(steady, self.stationary, filled)
         shape = (0, *self.stationary.flux.shape)
-        return Warmth(self.stationary, stream.mass, self._pressure(steady), np.zeros(1), np.zeros(shape))
+        return Warmth(
+            heat=self.stationary,
+            mass=stream.mass,
+            pressure=self._pressure(steady),
+            times=np.zeros(1),
+            middle=mid_film(self.stationary.temperature),
+            excess=np.zeros(shape),
+        )
 
     def after(
         self, solution: GridSolution, heat: Heat, filled: Array, before: Warmth, step: float
@@ -104,7 +112,8 @@ class MovingHeat:
         if not np.all(np.isfinite(new.temperature)):
             return None
         excess = np.concatenate([before.excess, (new.flux - self.stationary.flux)[np.newaxis]])
-        return Warmth(new, stream.mass, pressure, np.append(before.times, now), excess)
+        middle = mid_film(new.temperature)
+        return Warmth(new, stream.mass, pressure, np.append(before.times, now), middle, excess)
 
     def stands(self, solution: GridSolution, heat: Heat, new: Heat) -> bool:
         """Whether a new temperature of a film is close enough to that with which the film was solved."""

@@ -13,6 +13,7 @@ from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, warnings_of
+from ehlectric.film.unsteady import History
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
@@ -109,9 +110,7 @@ def _solve(
     if resumed is None:
         path.unlink(missing_ok=True)
         progress(0, contact.schedule.steps, "film before the motion")
-        _begin(file, solver, companion, prepared)
-        resumed = file.resumed()
-        assert resumed is not None
+        resumed = 0, *_begin(file, solver, companion, prepared)
     done, history, coarse = resumed
     coarse = companion.resumed(coarse, done)
     progress(done, contact.schedule.steps, "time steps")
@@ -131,8 +130,11 @@ def _solve(
 
 def _begin(
     file: MotionFile, solver: TransientSolver, companion: Companion, prepared: PreparedContact
-) -> None:
-    """Write the film before the motion as the first instant, with the film of stationary roughness."""
+) -> tuple[History, History | None]:
+    """Write the film before the motion as the first instant, with the film of stationary roughness.
+
+    Returns the films before the motion of the run and of its companion, None where that did not converge.
+    """
     contact, started = solver.contact, time.perf_counter()
     at_rest = contact.case.replace(motion=None)
     still = solve(at_rest, prepared=prepared, beside_smooth=False)
@@ -153,6 +155,7 @@ def _begin(
     rows = [time_step(solver, history, companion.films(0, coarse))]
     record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
     file.create(record, attributes | contact.schedule.moments(), maps)
+    return history, coarse
 
 
 def _stationary(

@@ -38,6 +38,7 @@ class Snapshot:
     roughness: Array
     # Electric field, computed for the gap at this instant as in a stationary contact.
     field: Field | PointField
+    temperature: Array | None = None  # temperature at mid-film [K], at the nodes; None without heat
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,10 @@ class TransientSolver:
         axes = [position / contact.half_width for position in film.axes]
         roughness = contact.roughness.heights(instant.time, *axes)
         field = kind.solve_field(kind.field_problem(contact.case, contact.conditions, film, roughness))
-        return Snapshot(instant.time * contact.schedule.time, film, roughness, field)
+        warmth = instant.warmth
+        mesh = self._moving.film.level.mesh
+        temperature = None if warmth is None else contact.kind.shaped(mesh, warmth.middle)
+        return Snapshot(instant.time * contact.schedule.time, film, roughness, field, temperature)
 
     def extremes(self, instant: Instant) -> Extremes:
         """Minimum film thickness and largest pressure; unlike ``film``, no deflection is computed."""
@@ -137,6 +141,13 @@ class TransientSolver:
         )
         film: Film | PointFilm = contact.kind.film(solution, contact.problem, mesh)
         return film
+
+    def temperature_rise(self, instant: Instant) -> float | None:
+        """Largest temperature at mid-film above that of the oil in the inlet [K]; None without heat."""
+        physics, warmth = self.contact.problem.physics, instant.warmth
+        if warmth is None or physics is None or physics.thermal is None:
+            return None
+        return float(np.max(warmth.middle)) - physics.thermal.inlet_temperature
 
     def meniscus(self, instant: Instant) -> float:
         """Position on the line y = 0 from which oil fills the gap [m]; NaN if the inlet is flooded."""

@@ -59,6 +59,7 @@ def time_step(solver: TransientSolver, history: History, coarse: KeyFilms) -> Ti
         spots=touch.spots,
         coarse_asperity_load_share=coarse.load_share,
         meniscus=None if contact.case.inlet is None else solver.meniscus(instant),
+        temperature_rise=solver.temperature_rise(instant),
     )
 
 
@@ -153,6 +154,7 @@ class MotionFile:
             roughness_2=record.snapshot.roughness[1],
             cavitated=film.cavitated,
             film_fraction=film.film_fraction,
+            temperature=record.snapshot.temperature,
             frame_time=record.snapshot.time,
             frame_step=record.step,
             max_strength=field.max_strength,
@@ -176,7 +178,9 @@ class MotionFile:
         None if the file does not exist, or does not contain such a run. A damaged file raises a DamagedError:
         it may have a run of hours, which is not replaced without a word.
         """
-        if not self._path.is_file():
+        film = self._contact.case.film
+        if not self._path.is_file() or (film is not None and film.thermal):
+            # The file does not have the heat that the surfaces have met: such a run is solved from its start.
             return None
         try:
             with opened(self._path) as file:

@@ -53,6 +53,7 @@ _TOUCHED = "part of the Hertz zone in which the surfaces touch"
 _SPOTS = "number of spots in which the surfaces touch"
 _MENISCUS = "position on the centre line from which oil fills the gap, NaN if flooded"
 _FILLED = "part of the gap that oil fills"
+_WARM = "largest temperature at mid-film above that of the oil in the inlet"
 _ERROR = "estimated relative error of the maximum field strength, NaN if unknown"
 _HEIGHTS = "roughness of surface {}, out of the body"
 
@@ -87,6 +88,7 @@ class TimeStep:
         metadata=stored("", "1", "not negative or NaN", f"{_CARRIED} {_IN_COMPANION}", needed=False)
     )
     meniscus: float | None = field(metadata=stored("", "m", "finite or NaN", _MENISCUS, needed=False))
+    temperature_rise: float | None = field(metadata=stored("", "K", "finite", _WARM, needed=False))
 
 
 @dataclass(frozen=True)
@@ -108,6 +110,9 @@ class Frame(Maps):
     roughness_2: Array = field(metadata=stored("nodes", "m", "finite", _HEIGHTS.format(2)))
     cavitated: Mask = field(metadata=stored("nodes", "1", "0 or 1", "cavitated: pressure at ambient"))
     film_fraction: Array | None = field(metadata=stored("nodes", "1", "not negative", _FILLED, needed=False))
+    temperature: Array | None = field(
+        metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
+    )
     frame_time: float = field(metadata=stored("", "s", "increasing", _SINCE))
     frame_step: int = field(metadata=stored("", "1", "increasing", "number of the time step"))
     max_strength: float = field(metadata=stored("", "V/m", "positive", "maximum field strength"))

@@ -236,17 +236,21 @@ def _film(run: MotionRun) -> dict[str, Any]:
     thickness, pressure = dataset["minimum_thickness"].values, dataset["max_pressure"].values
     thinnest, highest = int(np.argmin(thickness)), int(np.argmax(pressure))
     time, errors = dataset["time"].values, run_errors(run)
-    return {
-        "before": thickness[0],
-        "minimum_thickness": thickness[thinnest],
-        "minimum_time": time[thinnest],
-        "minimum_position": _position(run, "minimum", thinnest),
-        "max_pressure": pressure[highest],
-        "max_pressure_time": time[highest],
-        "discretisation_error": errors and errors.largest,
-        "minimum_thickness_error": errors and errors.minimum,
-        "central_thickness_error": errors and errors.central,
-    } | _supplied(run)
+    return (
+        {
+            "before": thickness[0],
+            "minimum_thickness": thickness[thinnest],
+            "minimum_time": time[thinnest],
+            "minimum_position": _position(run, "minimum", thinnest),
+            "max_pressure": pressure[highest],
+            "max_pressure_time": time[highest],
+            "discretisation_error": errors and errors.largest,
+            "minimum_thickness_error": errors and errors.minimum,
+            "central_thickness_error": errors and errors.central,
+        }
+        | _supplied(run)
+        | _warm(run)
+    )
 
 
 def _supplied(run: MotionRun) -> dict[str, Any]:
@@ -263,6 +267,14 @@ def _supplied(run: MotionRun) -> dict[str, Any]:
         "meniscus_least": np.min(known) if known.size else None,
         "meniscus_largest": np.max(known) if known.size else None,
     }
+
+
+def _warm(run: MotionRun) -> dict[str, Any]:
+    """Rise of the temperature at mid-film [K]; empty for a run without heat."""
+    if run.case.film is None or not run.case.film.thermal:
+        return {}
+    rise = run.values("temperature_rise")
+    return {"temperature_rise_before": rise[0], "max_temperature_rise": np.max(rise)}
 
 
 def _field(run: MotionRun) -> dict[str, Any]:
