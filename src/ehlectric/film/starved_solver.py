@@ -155,6 +155,8 @@ class StarvedProblem:
     posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
     film: Solver
+    # Film without heat with the same supply on this grid, from which that with heat starts; None without one.
+    cold: GridSolution | None = None
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
 
@@ -201,6 +203,8 @@ class StarvedProblem:
         """Films from all guesses, the likeliest one first."""
         if near is not None:
             yield self._under(layer, near)
+        elif self.cold is not None and self.cold.status == "converged" and self.cold.content is not None:
+            yield self._under(layer, Guess(self.cold.state, self.cold.content.filled, self.flooded))
         guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
         for guess in reversed(guesses) if scarce else guesses:
