@@ -260,8 +260,7 @@ def _solved(hot: _HotContact) -> _FloodedFilm:
 def _starved(hot: _HotContact, grid: Grid, ratio: float) -> ContactFriction | None:
     """Friction of the film with heat under the layer of oil that leaves a ratio of the flooded film.
 
-    None where this film does not converge, as some do that are hardly starved. Seconds for a roller, and a
-    minute for a ball.
+    None where this film does not converge, as some do that are hardly starved. It takes seconds.
     """
     film = hot.film(grid, OilSupply(film_ratio=ratio))
     if not film.converged or film.starvation is None:

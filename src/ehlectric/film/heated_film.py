@@ -633,7 +633,9 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
 
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
-        heat = None if before.heat is None else _finer(before.heat, before.level, iteration.level)
+        # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
+        from_cold = before.heat is None or (cold is not None and guess.of is cold)
+        heat = None if from_cold else _finer(before.heat, before.level, iteration.level)
         careful = replace(iteration, careful=True)
         variants = [
             iteration,

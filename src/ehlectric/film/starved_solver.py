@@ -204,10 +204,15 @@ class StarvedProblem:
         if near is not None:
             yield self._under(layer, near)
         elif self.cold is not None and self.cold.status == "converged" and self.cold.content is not None:
-            yield self._under(layer, Guess(self.cold.state, self.cold.content.filled, self.flooded))
+            # Both films pass nearly the same part of their layer.
+            supplied = at_centre_line(self.level, self.cold.content.supply.mass)
+            ambient = self.flooded.final.coefficients.density[0, 0]
+            fall = float(ambient * at_centre_line(self.level, layer) / supplied)
+            yield self._under(layer, self._follow(self.cold, fall))
         guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
-        for guess in reversed(guesses) if scarce else guesses:
+        # A film with heat whose guess is wrong takes long to fail; that from the dry contact fails rarely.
+        for guess in reversed(guesses) if scarce or self.cold is not None else guesses:
             yield self._under(layer, guess(layer))
         if self.posed.asperities.boundary_film:
             yield self._under(layer, self._from_contact(layer))
