@@ -634,8 +634,9 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
         # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
-        from_cold = before.heat is None or (cold is not None and guess.of is cold)
-        heat = None if from_cold else _finer(before.heat, before.level, iteration.level)
+        heat = None
+        if before.heat is not None and (cold is None or guess.of is not cold):
+            heat = _finer(before.heat, before.level, iteration.level)
         careful = replace(iteration, careful=True)
         variants = [
             iteration,
