@@ -54,6 +54,7 @@ def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity
         "heating_slope": zeros,
         "compression": zeros,
         "compression_p": zeros,
+        "expansion": zeros,
     }
     return Stream(
         across=across,

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers, labels, where
+from ehlectric.bearing.film_factor import solved_scales
 from ehlectric.bearing.solution import (
     BearingSolution,
     RingState,
@@ -131,16 +132,24 @@ class BearingDuty:
         return np.where(share > 0.0, mean / np.where(share > 0.0, share, 1.0), 0.0)[()]
 
 
-def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
+def duty_of(
+    solution: BearingSolution, *, film_scale: float = 1.0, ring_scales: tuple[float, float] | None = None
+) -> BearingDuty:
     """Load shares of asperities, and shares of time with contact, in a solved bearing.
 
     ``film_scale`` is a factor on all film thicknesses, for those of quick contacts that are scaled to solved
-    ones. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which
+    ones. ``ring_scales`` are further factors on the central films of the contacts with each ring; by default
+    those by which its most loaded contact has the film that was solved with heat and supply, where there is
+    one. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which
     pressure flattens. An element conducts while both its contacts do, and one element shorts the bearing. All
     contacts are taken as independent.
     """
+    inner, outer = solved_scales(solution) if ring_scales is None else ring_scales
     rings = tuple(
-        (_ring(solution, position.inner, film_scale), _ring(solution, position.outer, film_scale))
+        (
+            _ring(solution, position.inner, film_scale, inner),
+            _ring(solution, position.outer, film_scale, outer),
+        )
         for position in solution.positions
     )
     coated = solution.case.bearing.coating is not None
@@ -179,10 +188,14 @@ def _mean_share(pairs: list[tuple[Array, Array]]) -> Numbers:
     return np.mean(bearing_time_share(inner, outer), axis=0)
 
 
-def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> RingDuty:
-    """Asperities in the contacts with one ring; elements without load have none."""
+def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: float) -> RingDuty:
+    """Asperities in the contacts with one ring; elements without load have none.
+
+    ``own`` is the factor on the films from which shares and spots follow.
+    """
     bearing, loaded = solution.case.bearing, ring.solved
-    film = film_scale * ring.values.central_thickness[loaded]
+    central = film_scale * ring.values.central_thickness[loaded]
+    film = own * central
     rq = _of_contacts(bearing.composite_rq, loaded)
 
     def whole(values: Array, otherwise: float = 0.0) -> Array:
@@ -203,7 +216,7 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
         time_share = contact_time_share(number)
         spots, real = whole(number), whole(area_while_touching(touching, area))
     return RingDuty(
-        central_lambda_ratio=whole(ratio, np.inf),
+        central_lambda_ratio=whole(central / rq, np.inf),
         asperity_share=whole(shares[DEFAULT_SHARE]),
         asperity_share_low=whole(low),
         asperity_share_high=whole(np.max(list(shares.values()), axis=0)),

@@ -58,7 +58,9 @@ class Solid:
 
 @dataclass(frozen=True)
 class ContactFriction:
-    """Friction and temperature of the most loaded contact with a ring, solved with heat in pure rolling."""
+    """Friction and temperature of the most loaded contact with a ring, solved in pure rolling with its heat
+    and with its supply of oil.
+    """
 
     load: float = field(metadata=stored(rule="positive"))  # [N]
     # Hydrodynamic rolling force on each surface, the integral of h/2 dp/dx, over the load; dimensionless.
@@ -71,6 +73,15 @@ class ContactFriction:
     max_temperature_rise: float = field(metadata=stored())
     # Estimated error of ``max_temperature_rise`` [K]; None if unknown.
     temperature_rise_error: float | None = field(metadata=stored(rule="finite or NaN", unknown=True))
+    # Central thickness of the film [m]; None in results of versions whose contacts were flooded.
+    solved_thickness: float | None = field(
+        default=None,
+        metadata=stored(name="solved_thickness", rule="not negative or NaN", needed=False, unknown=True),
+    )
+    # Layer of oil on both surfaces together that leads to the film of a given supply [m]; None without one.
+    oil_layer: float | None = field(
+        default=None, metadata=stored(rule="not negative or NaN", needed=False, unknown=True)
+    )
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.errors import ConvergenceError, Flag, InputError
 from ehlectric.film.hot_oil import Body, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.problem import OilSupply
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.formulas.inlet_supply import (
     LOADING_EXPONENT,
@@ -124,31 +125,63 @@ class _HotContact:
     lubricant: Lubricant = field(compare=False, repr=False)
     setup: Setup = field(compare=False, repr=False)
 
+    @property
+    def physics(self) -> Physics:
+        """Heat and shear of the film, whose surfaces have one speed."""
+        conditions, stress = self.conditions, self.lubricant.eyring_stress
+        rheology = Rheology() if stress is None else Rheology("eyring", {"eyring_stress": stress})
+        temperatures = (self.temperature, *(body.temperature for body in self.bodies))
+        oil = hot_oil(self.lubricant, temperatures, conditions.max_pressure)
+        speeds = (conditions.entrainment_speed, conditions.entrainment_speed)
+        thermal = Thermal(self.bodies, self.temperature, oil)
+        return Physics(rheology, speeds, conditions.viscosity, thermal)
 
-def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tuple[float, ContactFriction]:
+    def film(self, grid: Grid, supply: OilSupply | None = None) -> Film | PointFilm:
+        """Film with heat on a grid, flooded or with a supply of oil."""
+        kind, setup = KINDS[self.conditions.geometry], replace(self.setup, grid=grid)
+        problem = kind.film_problem(setup, self.conditions, ())
+        found: Film | PointFilm = kind.solve_film(replace(problem, physics=self.physics, supply=supply))
+        return found
+
+
+def solved_contact(
+    case: BearingCase, ring: RingContacts[Any], load: float
+) -> tuple[float, ContactFriction | None]:
     """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
 
     ``load`` [N]. Returns ``factor``, central film thickness with heat over that of the isothermal Newtonian
-    film, dimensionless; ``friction``, rolling friction and temperature of the film with heat; those of the
-    same contact are kept. Raises InputError where the contact is beyond the model, or the oil has no values
-    at its temperatures; ConvergenceError where one of both films does not converge.
+    film, both flooded, dimensionless; ``friction``, rolling friction and temperature of the film with its
+    heat and its supply of oil, None where the film with both does not converge; those of the same contact are
+    kept. Raises InputError where the contact is beyond the model, or the oil has no values at its
+    temperatures; ConvergenceError where one of both flooded films does not converge.
+
+    A share of the flooded film as supply is solved together with the heat. A rule for the supply has no film
+    of its own: it is a factor on the film, and as published one on the force of rolling.
 
     Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
     The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
     """
     contact: Contact = kind_of(ring).contact(_flooded(ring), load)
     check_contact(contact)
+    hot = _hot(case, contact)
     try:
-        factor, found = _solved(_hot(case, contact))
+        flooded = _solved(hot)
     except InputError as error:
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
         where = f"{ring.name} contact at {load:.4g} N"
         text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
         raise ConvergenceError(text) from None
+    found: ContactFriction | None = flooded.friction
+    if case.bearing.by_supply_rule:
+        found = _by_rule(flooded.friction, float(ring.supply_factor))
+    elif ring.supply_factor < 1.0:
+        found = _starved(hot, flooded.grid, float(ring.supply_factor))
+    if found is None:
+        return flooded.factor, None
     # Load and power of a line contact are those of a metre of it.
     length = case.bearing.roller_length or 1.0
-    return factor, replace(found, load=load, power_loss=length * found.power_loss)
+    return flooded.factor, replace(found, load=load, power_loss=length * found.power_loss)
 
 
 def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
@@ -195,41 +228,69 @@ def _with_nodes(grid: Grid, parts: int) -> Grid:
     return grid.model_copy(update={"nodes": parts + 1, "refine": None, **across})
 
 
+@dataclass(frozen=True)
+class _FloodedFilm:
+    """Flooded film with heat of a contact."""
+
+    factor: float  # central film with heat over that without it, dimensionless
+    friction: ContactFriction
+    grid: Grid  # grid on which it converged
+
+
 @lru_cache(maxsize=256)
-def _solved(hot: _HotContact) -> tuple[float, ContactFriction]:
-    """Central film with heat over that without it, and friction; seconds for a roller, more for a ball."""
-    conditions, lubricant = hot.conditions, hot.lubricant
-    stress = lubricant.eyring_stress
-    rheology = Rheology() if stress is None else Rheology("eyring", {"eyring_stress": stress})
-    temperatures = (hot.temperature, *(body.temperature for body in hot.bodies))
-    oil = hot_oil(lubricant, temperatures, conditions.max_pressure)
-    speeds = (conditions.entrainment_speed, conditions.entrainment_speed)
-    physics = Physics(rheology, speeds, conditions.viscosity, Thermal(hot.bodies, hot.temperature, oil))
-    kind, setup = KINDS[conditions.geometry], hot.setup
+def _solved(hot: _HotContact) -> _FloodedFilm:
+    """Flooded film with heat and without it; seconds for a roller, more for a ball."""
+    grid = hot.setup.grid
     for _ in range(_GRIDS):
-        film = kind.solve_film(replace(kind.film_problem(setup, conditions, ()), physics=physics))
+        film = hot.film(grid)
+        assert film.heated is not None
         isothermal = film.heated.isothermal_central_thickness
         if film.converged and isothermal is not None:
             factor = float(film.central_thickness / isothermal)
             nodes = " x ".join(map(str, film.thickness.shape))
             LOGGER.info("film factor of the heat: %.4g on %s nodes", factor, nodes)
-            return factor, _friction(film, conditions, hot.temperature)
-        setup = replace(setup, grid=_with_nodes(setup.grid, 2 * (setup.grid.nodes_along - 1)))
+            return _FloodedFilm(factor, _friction(film, hot), grid)
+        grid = _with_nodes(grid, 2 * (grid.nodes_along - 1))
     if film.converged:
         raise ConvergenceError("the isothermal film did not converge; raise solver.max_iterations")
     raise ConvergenceError(f"film with heat, {film.status} at a residual of {film.residual:.1e}")
 
 
-def _friction(
-    film: Film | PointFilm, conditions: Conditions | PointConditions, temperature: float
-) -> ContactFriction:
-    """Friction and temperature of a film with heat whose oil enters with a temperature [K]."""
-    heated = film.heated
+@lru_cache(maxsize=256)
+def _starved(hot: _HotContact, grid: Grid, ratio: float) -> ContactFriction | None:
+    """Friction of the film with heat under the layer of oil that leaves a ratio of the flooded film.
+
+    None where this film does not converge, as some do that are hardly starved. It takes seconds.
+    """
+    film = hot.film(grid, OilSupply(film_ratio=ratio))
+    if not film.converged or film.starvation is None:
+        LOGGER.info("film with heat at %.4g of the flooded one: %s", ratio, film.status)
+        return None
+    return replace(_friction(film, hot), oil_layer=film.starvation.oil_layer)
+
+
+def _by_rule(flooded: ContactFriction, factor: float) -> ContactFriction:
+    """Friction by a rule for the supply, a factor on the film and on the force of rolling; the temperatures
+    are those of the flooded film.
+    """
+    assert flooded.solved_thickness is not None
+    return replace(
+        flooded,
+        rolling_coefficient=factor * flooded.rolling_coefficient,
+        power_loss=factor * flooded.power_loss,
+        solved_thickness=factor * flooded.solved_thickness,
+    )
+
+
+def _friction(film: Film | PointFilm, hot: _HotContact) -> ContactFriction:
+    """Friction and temperature of a film with heat."""
+    heated, conditions = film.heated, hot.conditions
     assert heated is not None and heated.mid_temperature is not None
     same = ("rolling_coefficient", "power_loss", "max_temperature_rise", "temperature_rise_error")
     return ContactFriction(
         load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
-        inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - temperature,
+        inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - hot.temperature,
+        solved_thickness=film.central_thickness,
         **{name: getattr(heated, name) for name in same},
     )
 
@@ -310,7 +371,8 @@ def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Arra
 
     The formulas are those of Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
     a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat
-    reduces the force of all contacts as that of the solved one, and lightly loaded ones too much.
+    and a short supply of oil reduce the force of all contacts as that of the solved one, and heat that of
+    lightly loaded ones too much.
     """
     # The formulas take the speed of the surfaces, which a film factor would reduce.
     conditions = replace(kind_of(ring).contact(ring, friction.load).conditions, film_factor=1.0)
@@ -326,7 +388,7 @@ def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Arra
 
 def rolling_power_loss(solution: BearingSolution) -> float | None:
     """Power that the hydrodynamic rolling resistance of all contacts takes, mean over the positions. Returns
-    power [W] with flooded contacts, 2 F u for each of them; None where no heat is solved.
+    power [W], 2 F u for each of them; None where no heat is solved, or not the film with heat and supply.
     """
     power = 0.0
     for k, (ring, own) in enumerate(
@@ -353,6 +415,22 @@ def friction_summary(solution: BearingSolution) -> dict[str, float | None]:
             key = "contact_power_loss" if each.name == "power_loss" else each.name
             numbers[f"{name}_{key}"] = getattr(own.friction, each.name, None)
     return numbers
+
+
+def solved_scales(solution: BearingSolution) -> tuple[float, float]:
+    """Film of the most loaded contact with each ring, solved with heat and supply, over that of the solution.
+
+    The films of a solution are those of a slower bearing, by the exponent of a formula, and may be by formula
+    themselves. 1 where no film with heat and supply is known.
+    """
+    inner, outer = (
+        1.0
+        if own.friction is None or own.friction.solved_thickness is None
+        else own.friction.solved_thickness
+        / float(curve.at(np.array([own.friction.load])).central_thickness[0])
+        for own, curve in zip(solution.conditions.rings, solution.curves, strict=True)
+    )
+    return inner, outer
 
 
 # Supply factor below which the layer of oil on the tracks sets the film rather than speed and viscosity: the
@@ -458,6 +536,8 @@ def supply_flags(solution: BearingSolution) -> Iterator[Flag]:
     rule = solution.case.bearing.by_supply_rule
     yield Flag.of(rule, "supply-rule", supply=supply, share=found)
     yield Flag.of(found < _LOW, "supply-low", share=found)
+    solved = solution.case.bearing.film_factor == "solved"
+    yield Flag.of(solved and solution.conditions.inner.friction is None, "starved-film-unsolved", share=found)
     time = half_time(solution) if isinstance(supply, str) and supply in _SPARSE else None
     if time is not None:
         yield Flag.of(time < _SOON, "film-decays", seconds=time, supply=supply)

@@ -14,7 +14,7 @@ from scipy.constants import g as gravity
 from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
-from ehlectric.bearing.film_factor import factors_of, solved_heat
+from ehlectric.bearing.film_factor import factors_of, solved_contact
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, check_balance, check_operation, mirrored
@@ -310,9 +310,13 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
-        found = (solved_heat(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
+        found = [solved_contact(case, ring, largest_load(prepared, ring)) for ring in prepared.rings]
+        # The friction of a bearing is that of both rings, or it is not known.
+        known = all(friction is not None for _, friction in found)
         rings = zip(conditions.rings, found, strict=True)
-        return _with_rings(prepared, *(own.heated(*heat) for own, heat in rings))
+        return _with_rings(
+            prepared, *(own.heated(factor, friction if known else None) for own, (factor, friction) in rings)
+        )
     _check_films(prepared)
     return prepared
 

@@ -130,6 +130,11 @@ class RingContacts(Generic[G_co]):
         """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
         return self._own.film_factor
 
+    @property
+    def supply_factor(self) -> Numbers:
+        """Part of the film factor by the supply of oil, dimensionless; 1 where it is not known."""
+        return 1.0 if self._own.supply_factor is None else self._own.supply_factor
+
     @cached_property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""

@@ -22,6 +22,7 @@ from ehlectric.bearing.changed_bearings import (
     at_speeds,
     over_parts,
 )
+from ehlectric.bearing.film_factor import solved_scales
 from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import (
@@ -324,7 +325,8 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     oil that no quick contact describes; and where a film of the solution is not converged.
 
     Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
-    scaled to the least lambda ratio of the solution at its own speed. The temperature is that of the case at
+    scaled to the least lambda ratio of the solution at its own speed, and their central films to those that
+    were solved with heat and supply. The temperature is that of the case at
     all speeds.
     """
     case = solution.case
@@ -337,13 +339,15 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     if OWN in several.reasons:
         return None
     scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+    scales = solved_scales(solution)
 
     def excess(at: BearingSolution) -> tuple[Numbers]:
         """How far a bearing is beyond both limits; negative where it is not capacitive.
 
         The logarithm of a share of time is nearly a power of the speed.
         """
-        share = np.clip(duty_of(at, film_scale=scale).contact_time_share, _SHARE, 1.0 - _SHARE)
+        duty = duty_of(at, film_scale=scale, ring_scales=scales)
+        share = np.clip(duty.contact_time_share, _SHARE, 1.0 - _SHARE)
         room = np.log(scale * lambda_ratio(at) / touching_ratio(at.case.bearing.summit_height))
         return (np.minimum(np.log(np.log(share) / math.log(CAPACITIVE)), room),)
 

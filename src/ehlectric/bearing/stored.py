@@ -224,7 +224,7 @@ def _heated(
     factors = _pair(attributes, _HEAT, "positive")
     frictions: list[ContactFriction | None] = [None, None]
     if _FRICTIONS.fields["load"].name in attributes:
-        entries = _FRICTIONS.fields.values()
+        entries = [each for each in _FRICTIONS.fields.values() if each.needed or each.name in attributes]
         pairs = {entry.name: np.array(_pair(attributes, entry.name, entry.rule)) for entry in entries}
         frictions = [ContactFriction(**_FRICTIONS.read(pairs, k)) for k in range(len(RINGS))]
     solved = zip(conditions.rings, factors, frictions, strict=True)

@@ -617,16 +617,23 @@ def heated_solution(
         found = _on_grids(finest, starts, progress, careful=True)
     if problem.supply is None:
         return simple, RefinedSolution(finest, list(found))
-    return simple, starved_on_grids([_with_supply(grid) for grid in found], problem.supply)
+    cold_films = {film.level.mesh.shape: film for film in simple.solutions}
+    grids = [_with_supply(grid, cold_films.get(grid.level.mesh.shape)) for grid in found]
+    return simple, starved_on_grids(grids, problem.supply)
 
 
-def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
-    """Starved film with heat to be solved on the grid of a flooded film."""
+def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProblem:
+    """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
+    heat on this grid: guesses that are further away may take minutes to fail.
+    """
     iteration = flooded.iteration
 
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
-        heat = None if before.heat is None else _finer(before.heat, before.level, iteration.level)
+        # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
+        heat = None
+        if before.heat is not None and (cold is None or guess.of is not cold):
+            heat = _finer(before.heat, before.level, iteration.level)
         careful = replace(iteration, careful=True)
         variants = [
             iteration,
@@ -639,7 +646,7 @@ def _with_supply(flooded: HeatedGrid) -> StarvedProblem:
                 break
         return found
 
-    return StarvedProblem(iteration.problem, iteration.posed, flooded, film)
+    return StarvedProblem(iteration.problem, iteration.posed, flooded, film, cold)
 
 
 def _on_grids(

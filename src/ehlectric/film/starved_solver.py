@@ -155,6 +155,8 @@ class StarvedProblem:
     posed: GridProblem  # lubricant, grids, asperities and stopping rule
     flooded: GridSolution
     film: Solver
+    # Film without heat with the same supply on this grid, from which that with heat starts; None without one.
+    cold: GridSolution | None = None
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
 
@@ -201,9 +203,16 @@ class StarvedProblem:
         """Films from all guesses, the likeliest one first."""
         if near is not None:
             yield self._under(layer, near)
+        elif self.cold is not None and self.cold.status == "converged" and self.cold.content is not None:
+            # Both films pass nearly the same part of their layer.
+            supplied = at_centre_line(self.level, self.cold.content.supply.mass)
+            ambient = self.flooded.final.coefficients.density[0, 0]
+            fall = float(ambient * at_centre_line(self.level, layer) / supplied)
+            yield self._under(layer, self._follow(self.cold, fall))
         guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
-        for guess in reversed(guesses) if scarce else guesses:
+        # A film with heat whose guess is wrong takes long to fail; that from the dry contact fails rarely.
+        for guess in reversed(guesses) if scarce or self.cold is not None else guesses:
             yield self._under(layer, guess(layer))
         if self.posed.asperities.boundary_film:
             yield self._under(layer, self._from_contact(layer))
@@ -286,8 +295,10 @@ def at_centre_line(level: Level, layer: Array) -> float:
 # Relative difference from the ratio asked for at which the search ends, and its largest number of films.
 _CLOSE, _MOST_FILMS = 1e-4, 8
 
-# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma): between those of light and heavy circles.
-# Lines, whose layer is the film, start with the ratio itself.
+# Exponent of the start of the search, r/(1 + r^gamma)^(1/gamma), of a circle: between those of light and
+# heavy ones. From ellipses that are wide across entrainment hardly any oil flows to the sides, so that their
+# exponent grows with their width: a start with too thick a layer is a film that is starved at its ends alone,
+# which hardly converges. Lines, whose layer is the film, start with the ratio itself.
 _EXPONENT = 3.0
 
 # Largest factor between two layers of the search, and the ratio above which a film is flooded.
@@ -313,7 +324,8 @@ def film_of_ratio(
     if ratio >= _FLOODED:
         return (taken_layer(starved) if mesh.dy is None else None), None
     flooded = at_centre(mesh, starved.flooded.state.thickness)
-    layer = first_layer(ratio, line=mesh.dy is None) * starved.flooded_mass / ambient
+    wide = None if mesh.dy is None else 1.5 * starved.problem.geometry.load / np.pi
+    layer = first_layer(ratio, wide) * starved.flooded_mass / ambient
     if last is not None:
         layer = float(last[0])
     found: list[tuple[float, float]] = []
@@ -346,15 +358,19 @@ def taken_layer(starved: StarvedProblem) -> Array:
     return taken
 
 
-def first_layer(ratio: float, *, line: bool) -> float:
-    """Mass of the first layer of a search over that of the flooded film at the centre.
+def first_layer(ratio: float, width: float | None) -> float:
+    """Mass of the first layer of a search over that of the flooded film at the centre. ``width``, semi-axis
+    of the dry contact across entrainment over that along it; None of a line.
 
     Examples
     --------
-    >>> first_layer(0.5, line=True), round(first_layer(0.5, line=False), 3)
-    (0.5, 0.523)
+    >>> first_layer(0.5, None), round(first_layer(0.5, 1.0), 3), round(first_layer(0.5, 4.0), 3)
+    (0.5, 0.523, 0.5)
     """
-    return ratio if line else float((ratio**-_EXPONENT - 1.0) ** (-1.0 / _EXPONENT))
+    if width is None:
+        return ratio
+    exponent = _EXPONENT * max(1.0, width)
+    return float((ratio**-exponent - 1.0) ** (-1.0 / exponent))
 
 
 def _next(found: list[tuple[float, float]]) -> float:

@@ -191,8 +191,12 @@ def _supply_note(summary: Summary) -> str:
 
 
 def _rolling_note(summary: Summary) -> str:
-    flooded = "" if _supply(summary) == "flooded" else ", of flooded contacts"
-    return f"{flooded}, without spin, slip, cage, seals and churned oil"
+    supply, solved = _supply(summary), value_at(summary, "bearing.inner_solved_thickness")
+    what = ""
+    if supply != "flooded":
+        by_rule = "by SKF's factor of the supply" if isinstance(supply, str) else "of starved contacts"
+        what = f", {'of flooded contacts' if solved is None else by_rule}"
+    return f"{what}, without spin, slip, cage, seals and churned oil"
 
 
 def _rise_note(ring: str) -> Callable[[Summary], str]:

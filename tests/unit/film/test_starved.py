@@ -130,8 +130,11 @@ def test_runs_of_two_lines():
 
 def test_first_layer_of_a_search_inverts_the_published_relation():
     for ratio in (0.1, 0.5, 0.9):
-        part = first_layer(ratio, line=False)
-        assert part / (1.0 + part**3) ** (1.0 / 3.0) == pytest.approx(ratio, rel=1e-12)
+        for width, exponent in ((0.5, 3.0), (1.0, 3.0), (4.0, 12.0)):
+            part = first_layer(ratio, width)
+            assert part / (1.0 + part**exponent) ** (1.0 / exponent) == pytest.approx(ratio, rel=1e-12)
+        # A line, and with it an ellipse without end, has its layer as its film.
+        assert first_layer(ratio, 50.0) == pytest.approx(first_layer(ratio, None), rel=1e-6)
 
 
 @pytest.mark.parametrize(("first_order", "behind"), [(False, 0.25), (True, 0.3)])

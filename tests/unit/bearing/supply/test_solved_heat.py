@@ -43,7 +43,7 @@ def test_solved_factor_of_balls_is_near_to_the_formula():
     """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/theory/bearing.md."""
     quick = prepare_bearing(case(factor="inlet-shear"), 1)
     inner, _ = quick.rings
-    solved, _ = film_factor.solved_heat(case(), inner, largest_load(quick, inner))
+    solved, _ = film_factor.solved_contact(case(), inner, largest_load(quick, inner))
     assert 1.0 < solved / quick.conditions.inner.film_factor < 1.03
     assert solved < 1.0
 
