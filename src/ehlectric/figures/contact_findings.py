@@ -289,6 +289,9 @@ def _thinning(result: AnyContact) -> str:
     """Clause about the minimum film against the isothermal one; none if that did not converge."""
     heated = result.film.heated
     assert heated is not None
+    if result.film.contact.any():
+        # The minimum is the boundary film with heat and without.
+        return "; the surfaces touch"
     if heated.isothermal_minimum_thickness is None:
         return ""
     change = result.film.minimum_thickness / heated.isothermal_minimum_thickness - 1.0
