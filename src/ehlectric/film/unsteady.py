@@ -486,7 +486,10 @@ class UnsteadyFilm:
             solution = touching_newton(posed, start, first_damping=0.0)
             effort += Effort.of(solution)
             if solution.status == "converged":
-                return solution, effort
+                # A residual that is small as a pressure may be much oil: one step more leaves none.
+                closer = touching_newton(posed, solution.state, first_damping=0.0, min_iterations=1)
+                effort += Effort.of(closer)
+                return closer if closer.status == "converged" else solution, effort
         return None, effort
 
     def _starts(self, posed: GridProblem, history: History, step: float) -> list[tuple[State, bool]]:
