@@ -297,11 +297,10 @@ class HeatColumns:
         neighbours = [carried * part for part in flow.neighbours]
         diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
+        gained = flow.divergence
         if stream.earlier is not None:
             held = carried * stream.mass / stream.earlier.step
             diagonal, source = diagonal + held, source + held * stream.earlier.temperature
-        gained = flow.divergence
-        if stream.earlier is not None:
             gained = gained + (stream.mass - stream.earlier.mass) / stream.earlier.step
         upward = specific * np.tensordot(across.cumulative, gained, axes=1)
         # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
@@ -494,6 +493,25 @@ def solve_energy(
             break
         now = now.with_vector(mixing(now.vector, new.vector))
     return replace(new, by_pressure=march.by_pressure)
+
+
+def finite_heat(
+    stream: Stream, surfaces: tuple[Surface, Surface], last: Heat, inlet_temperature: float
+) -> Heat | None:
+    """Temperature and heat flow into the bodies of a stream, from those of the last turn between film and
+    temperature; None where there is no finite solution.
+    """
+    try:
+        new = solve_energy(
+            HeatColumns.of(stream, last.temperature),
+            surfaces,
+            last,
+            inlet_temperature=inlet_temperature,
+            symmetric=stream.symmetric,
+        )
+    except np.linalg.LinAlgError:
+        return None
+    return new if np.all(np.isfinite(new.temperature)) else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,13 +17,12 @@ from ehlectric.film.across_film import Across, on_mesh
 from ehlectric.film.energy_equation import (
     FrozenTemperature,
     Heat,
-    HeatColumns,
     Mixing,
     Stream,
     Surface,
     energy_imbalance,
+    finite_heat,
     moving_surface,
-    solve_energy,
     stream_of,
 )
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method, starved_on_grids
@@ -100,9 +99,9 @@ class HeatedGrid(GridSolution):
     def largest_rise(self) -> float | None:
         """Largest rise of the mid-film temperature over that of the oil that enters [K]."""
         thermal, middle = self.iteration.physics.thermal, self.middle
-        return (
-            None if middle is None or thermal is None else float(np.max(middle)) - thermal.inlet_temperature
-        )
+        if middle is None or thermal is None:
+            return None
+        return float(np.max(middle)) - thermal.inlet_temperature
 
     @property
     def filled(self) -> Mask | None:
@@ -233,6 +232,11 @@ class OuterIteration:
         mass = solution.final.coefficients.density * state.thickness
         return found, filled_part(solution.final.full_film, mass)
 
+    def pressure(self, state: State) -> Array:
+        """Pressure of the oil [Pa], not below ambient, shape (nx, ny)."""
+        scales = self.problem.scales
+        return np.maximum(scales.pressure * state.oil_pressure, scales.ambient_pressure)
+
     def stream(self, solution: GridSolution, heat: Heat, columns: Columns, filled: Array) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
         scales, thermal = self.problem.scales, self.physics.thermal
@@ -241,7 +245,7 @@ class OuterIteration:
             thermal.oil,
             columns,
             heat.temperature,
-            pressure=np.maximum(scales.pressure * solution.state.oil_pressure, scales.ambient_pressure),
+            pressure=self.pressure(solution.state),
             thickness=scales.thickness * solution.state.thickness,
             filled=filled,
             mesh=self.level.mesh,
@@ -386,17 +390,7 @@ class OuterIteration:
         thermal = self.physics.thermal
         assert thermal is not None
         stream = self.stream(solution, heat, *self.columns(solution, flow))
-        try:
-            new = solve_energy(
-                HeatColumns.of(stream, heat.temperature),
-                surfaces,
-                heat,
-                inlet_temperature=thermal.inlet_temperature,
-                symmetric=stream.symmetric,
-            )
-        except np.linalg.LinAlgError:
-            return None
-        return new if np.all(np.isfinite(new.temperature)) else None
+        return finite_heat(stream, surfaces, heat, thermal.inlet_temperature)
 
     def _distance(self, changes: list[float]) -> float:
         """Distance from the limit after changes that fall in a geometric sequence, or the last change."""
@@ -634,13 +628,10 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
         heat = None
         if before.heat is not None and (cold is None or guess.of is not cold):
             heat = _finer(before.heat, before.level, iteration.level)
-        careful = replace(iteration, careful=True)
-        variants = [
-            iteration,
-            replace(careful, held=iteration.held),
-            replace(careful, held=not iteration.held),
-        ]
-        for variant in variants if iteration.physics.thermal is not None else variants[:1]:
+        variants = [iteration]
+        if iteration.physics.thermal is not None:
+            variants += _variants(replace(iteration, careful=True), held=iteration.held)
+        for variant in variants:
             found = replace(variant, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
             if found.status == "converged":
                 break
@@ -680,8 +671,7 @@ def _careful(
 
     The variant that converged on the coarser grid comes first.
     """
-    before = bool(found) and found[-1].iteration.held
-    variants = [replace(iteration, held=held) for held in (before, not before)]
+    variants = _variants(iteration, held=bool(found) and found[-1].iteration.held)
     state, heat = _start(iteration, starts, found)
     tried: list[HeatedGrid] = []
     for variant in variants:
@@ -694,6 +684,11 @@ def _careful(
             if tried[-1].status == "converged":
                 return tried[-1]
     return tried[0]
+
+
+def _variants(iteration: OuterIteration, *, held: bool) -> list[OuterIteration]:
+    """Iteration with and without films that are held; that with ``held`` comes first."""
+    return [replace(iteration, held=each) for each in (held, not held)]
 
 
 def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem, order: int) -> FilmProblem:

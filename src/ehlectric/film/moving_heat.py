@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.energy_equation import Earlier, Heat, HeatColumns, Stream, Surface, solve_energy
+from ehlectric.film.energy_equation import Earlier, Heat, Stream, Surface, finite_heat
 from ehlectric.film.heated_film import HeatedGrid, OuterIteration, change_between, mid_film, node_weight
 from ehlectric.film.hot_oil import Thermal
 from ehlectric.film.newton import GridSolution
@@ -41,9 +41,13 @@ class Warmth:
     pressure: Array  # pressure [Pa], shape (nx, ny)
     # Ends of the time steps so far [s], the first of which is that of the stationary film, shape (n + 1,).
     times: Array
-    middle: Array  # temperature at mid-film [K], shape (nx, ny)
     # Flux into both surfaces in each step above that of the stationary film [W/m^2], shape (n, 2, nx, ny).
     excess: Array
+
+    @property
+    def middle(self) -> Array:
+        """Temperature at mid-film [K], shape (nx, ny)."""
+        return mid_film(self.heat.temperature)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +84,8 @@ class MovingHeat:
         return Warmth(
             heat=self.stationary,
             mass=stream.mass,
-            pressure=self._pressure(steady),
+            pressure=self.iteration.pressure(steady.state),
             times=np.zeros(1),
-            middle=mid_film(self.stationary.temperature),
             excess=np.zeros(shape),
         )
 
@@ -90,30 +93,18 @@ class MovingHeat:
         self, solution: GridSolution, heat: Heat, filled: Array, before: Warmth, step: float
     ) -> Warmth | None:
         """Heat after a time step T, from the temperature of a last turn; None if it is not finite."""
-        seconds, pressure = step * self.time_scale, self._pressure(solution)
+        seconds, pressure = step * self.time_scale, self.iteration.pressure(solution.state)
         stream = self._stream(solution, heat, filled)
         stream = stream.in_time(
             Earlier(before.heat.temperature, before.mass, before.pressure, seconds), pressure
         )
         now = float(before.times[-1]) + seconds
-        bodies = tuple(
-            self._surface(number, before, now, seconds) for number in range(len(self.thermal.bodies))
-        )
-        try:
-            new = solve_energy(
-                HeatColumns.of(stream, heat.temperature),
-                (bodies[0], bodies[1]),
-                heat,
-                inlet_temperature=self.thermal.inlet_temperature,
-                symmetric=stream.symmetric,
-            )
-        except np.linalg.LinAlgError:
-            return None
-        if not np.all(np.isfinite(new.temperature)):
+        surfaces = self._surface(0, before, now, seconds), self._surface(1, before, now, seconds)
+        new = finite_heat(stream, surfaces, heat, self.thermal.inlet_temperature)
+        if new is None:
             return None
         excess = np.concatenate([before.excess, (new.flux - self.stationary.flux)[np.newaxis]])
-        middle = mid_film(new.temperature)
-        return Warmth(new, stream.mass, pressure, np.append(before.times, now), middle, excess)
+        return Warmth(new, stream.mass, pressure, np.append(before.times, now), excess)
 
     def stands(self, solution: GridSolution, heat: Heat, new: Heat) -> bool:
         """Whether a new temperature of a film is close enough to that with which the film was solved."""
@@ -144,11 +135,6 @@ class MovingHeat:
         law = self.iteration.flow(solution.state, heat)
         columns, _ = self.iteration.columns(solution, law)
         return self.iteration.stream(solution, heat, columns, filled)
-
-    def _pressure(self, solution: GridSolution) -> Array:
-        """Pressure of the oil [Pa], shape (nx, ny)."""
-        scales = self.iteration.problem.scales
-        return np.maximum(scales.pressure * solution.state.oil_pressure, scales.ambient_pressure)
 
 
 def shifted(values: Array, way: float) -> Array:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain
 from typing import TypeAlias
 
@@ -54,35 +53,10 @@ def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int)
 
     ``order`` is that of the wedge term where oil fills the gap. The surfaces are apart.
     """
-    supply, problem = flooded_inlet(problem.level, order), replace(problem, asperities=Asperities())
-
-    def solved(posed: GridProblem, state: State, filled: Mask) -> GridSolution:
-        state = replace(state, contact_pressure=0.0)
-        return touching_newton(posed, state, first_damping=0.0, carried=Carried(supply, with_inlet(filled)))
-
-    return of_full_order(problem, solved(problem, *start), solved)
-
-
-def of_full_order(
-    problem: GridProblem, found: GridSolution, solved: Callable[[GridProblem, State, Mask], GridSolution]
-) -> GridSolution:
-    """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
-
-    Nodes that went round in circles got such a difference. A residual that is small as a pressure may be much
-    oil where the gap is wide. ``solved`` solves the film again from a state and its filled nodes, to a
-    smaller residual first; where both miss their tolerance, the solution stays.
-    """
-    if found.status != "converged":
-        return found
-    for closer in (_CLOSER * problem.tolerance, problem.tolerance):
-        posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
-        again = solved(posed, found.state, found.final.full_film)
-        if again.status == "converged":
-            return replace(again, steps=found.steps + again.steps)
-        if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
-            # The steps to the larger residual are the same.
-            break
-    return found
+    state, filled = start
+    guess = Guess(replace(state, contact_pressure=0.0), with_inlet(filled))
+    apart = replace(problem, asperities=Asperities())
+    return isothermal(apart)(guess, flooded_inlet(problem.level, order))
 
 
 def flooded_inlet(level: Level, order: int, *, first_order: bool = False) -> Supply:
@@ -125,24 +99,48 @@ _FALL, _LEAST_FALL = 0.6, 0.97
 _MOST_STEPS = 40
 
 
+def _of_full_order(problem: GridProblem, found: GridSolution, supply: Supply) -> GridSolution:
+    """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
+
+    Nodes that went round in circles got such a difference. A residual that is small as a pressure may be much
+    oil where the gap is wide. The film is solved again under a supply without such differences, to a smaller
+    residual first; where both miss their tolerance, the solution stays.
+    """
+    if found.status != "converged" or found.content is None:
+        return found
+    for closer in (_CLOSER * problem.tolerance, problem.tolerance):
+        posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
+        carried = Carried(supply, found.content.filled)
+        again = touching_newton(posed, found.state, first_damping=0.0, carried=carried)
+        if again.status == "converged":
+            return replace(again, steps=found.steps + again.steps)
+        if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
+            # The steps to the larger residual are the same.
+            break
+    return found
+
+
 # Film on one grid from an initial guess and a supply of oil.
 Solver: TypeAlias = Callable[[Guess, Supply], GridSolution]
 
 
-def isothermal(posed: GridProblem, *, full_order: bool = True, min_iterations: int = 0) -> Solver:
-    """Solver of films on one grid without heat; ``full_order`` as in ``of_full_order``."""
+def isothermal(
+    posed: GridProblem, *, full_order: bool = True, min_iterations: int = 0, first_damping: float = 0.0
+) -> Solver:
+    """Solver of films on one grid without heat; ``full_order`` as in ``_of_full_order``.
 
-    def solved(
-        problem: GridProblem, state: State, filled: Mask, supply: Supply, least: int = 0
-    ) -> GridSolution:
-        carried = Carried(supply, filled)
-        return touching_newton(problem, state, first_damping=0.0, carried=carried, min_iterations=least)
+    ``min_iterations`` and ``first_damping`` are those of the first solution, from the guess.
+    """
 
     def film(guess: Guess, supply: Supply) -> GridSolution:
-        found = solved(posed, guess.state, guess.filled, supply, min_iterations)
-        if not full_order:
-            return found
-        return of_full_order(posed, found, partial(solved, supply=supply.of_full_order))
+        found = touching_newton(
+            posed,
+            guess.state,
+            first_damping=first_damping,
+            carried=Carried(supply, guess.filled),
+            min_iterations=min_iterations,
+        )
+        return _of_full_order(posed, found, supply.of_full_order) if full_order else found
 
     return film
 

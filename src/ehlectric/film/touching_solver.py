@@ -32,10 +32,10 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.dry_contact import dry_contact, relieved
 from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
-from ehlectric.film.newton import Asperities, GridProblem, GridSolution, NewtonStep, State
-from ehlectric.film.oil_content import Carried, carried_rows
+from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
+from ehlectric.film.oil_content import Carried, Supply, carried_rows
 from ehlectric.film.reynolds import Stencil
-from ehlectric.film.starved_solver import flooded_inlet, of_full_order, with_inlet
+from ehlectric.film.starved_solver import flooded_inlet, isothermal, with_inlet
 from ehlectric.film.touching_film import (
     OIL_TOLERANCE,
     Stepped,
@@ -103,24 +103,19 @@ class Conserving:
         """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
         level = self.problem.level
         thickness = np.maximum(solution.state.thickness, self.problem.asperities.boundary_film)
-        carried = self._carried(level, solution.final.full_film)
+        carried = Carried(self._supply, with_inlet(solution.final.full_film))
         rows, _ = carried_rows(level, solution.final.flow, thickness, carried)
         return rows
 
     def _solved(self, problem: GridProblem, state: State, filled: Mask, damping: float) -> GridSolution:
         """Film from a state and the nodes (nx, ny) that oil fills in it, with a damping of the first step."""
+        solved = isothermal(problem, first_damping=damping)
+        return solved(Guess(state, with_inlet(filled)), self._supply)
 
-        def solved(
-            posed: GridProblem, state: State, filled: Mask, first_damping: float = 0.0
-        ) -> GridSolution:
-            carried = self._carried(posed.level, filled)
-            return touching_newton(posed, state, first_damping=first_damping, carried=carried)
-
-        return of_full_order(problem, solved(problem, state, filled, damping), solved)
-
-    def _carried(self, level: Level, filled: Mask) -> Carried:
-        """Nodes (nx, ny) that oil fills, with those of the inlet edge, and a flooded inlet."""
-        return Carried(flooded_inlet(level, self.order, first_order=self.first_order), with_inlet(filled))
+    @property
+    def _supply(self) -> Supply:
+        """Flooded inlet."""
+        return flooded_inlet(self.problem.level, self.order, first_order=self.first_order)
 
 
 # Inverse time steps, as the spacing dX over the distance that oil travels in the step: the first one, the one
