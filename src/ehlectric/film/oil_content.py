@@ -29,8 +29,47 @@ from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import ALONG, Stencil, residual
 
-# Ratio of the full gaps of two nodes above which the gap closes too steeply to be extrapolated.
-_STEEP = 1.8
+# Ratio of the full gaps of two nodes up to which the mass behind them is extrapolated, and the further rise
+# of this ratio at which half of it is the mean of two nodes. With a rise that is less than about 0.6 the flow
+# out of a node would fall where its gap grows.
+_STEEP, _HALF = 1.3, 1.0
+
+
+@dataclass(frozen=True)
+class Steepness:
+    """How steeply the gap closes to the nodes of a grid, where the mass at a face follows from their ratio.
+
+    The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where the
+    gap falls steeply, and negative where it falls to less than a third from node to node: no oil would enter
+    a spot that touches. A part of it is the mean of two nodes there. The part grows smoothly with the
+    steepness, so that the film does not depend on the way to it.
+    """
+
+    part: Array  # part w of the mass behind a node that is a mean, from 0 to 1, shape (nx, ny)
+    # by_before and by_node: derivatives of w by the full mass of the node before and by that of the node,
+    # shape (nx, ny); zero on coarser grids.
+    by_before: Array
+    by_node: Array
+
+    @classmethod
+    def of(cls, full: Array) -> Steepness:
+        """Steepness of a gap with the mass rho H (nx, ny).
+
+        Examples
+        --------
+        >>> Steepness.of(np.array([[2.3], [1.0], [1.0]])).part[:, 0].round(3).tolist()
+        [0.0, 0.5, 0.0]
+        """
+        ratio = np.ones_like(full)
+        ratio[1:] = full[:-1] / full[1:]
+        above = np.maximum(ratio - _STEEP, 0.0) / _HALF
+        slope = 2.0 * above / _HALF / (1.0 + above**2) ** 2
+        return cls(above**2 / (1.0 + above**2), slope / full, -slope * ratio / full)
+
+    def injected(self, level: Level) -> Steepness:
+        """Steepness on the next coarser grid, for its wedge term only."""
+        part = level.inject(self.part)
+        return Steepness(part, np.zeros_like(part), np.zeros_like(part))
 
 
 @dataclass(frozen=True)
@@ -41,41 +80,30 @@ class Supply:
     order: int  # order of the wedge term where the film is filled: 1, 2 or 3
     # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
     upwind: Mask | bool = False
-    # Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes. None until a gap
-    # is met, shape (nx, ny).
-    steep: Mask | None = None
-    first_order: bool = False  # whether steep nodes have an upwind difference in place of this mean
+    steepness: Steepness | None = None  # of the gap at the state; None where surfaces are apart
+    # Whether the mass behind nodes to which the gap closes steeply is that of the node in place of the mean.
+    first_order: bool = False
 
-    @property
-    def low(self) -> Mask:
-        """Nodes whose mass is extrapolated nowhere."""
-        return np.asarray(self.upwind) | (False if self.steep is None else self.steep)
+    def wedge(self, mesh: Mesh, filled: Mask, full: Array | None = None) -> Stencil:
+        """Operator of the wedge term, an upstream difference, with given filled nodes, a mask (nx, ny).
 
-    def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
-        """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
-        steep = None
-        if self.steep is not None and not self.first_order:
-            steep = filled & self.steep & ~np.asarray(self.upwind)
-        return content_wedge(mesh, filled & ~self.low, self.order, steep)
+        With the mass rho H of the full gap (nx, ny), zero where it is cavitated, it is the derivative of the
+        wedge term by this mass.
+        """
+        high = filled & ~np.asarray(self.upwind)
+        faces = Faces.of(high, self.order)
+        if self.steepness is not None:
+            faces = faces.steep(high, self.steepness, full, first_order=self.first_order)
+        return faces.difference(mesh)
 
     @property
     def of_full_order(self) -> Supply:
         """Supply whose nodes all enter formulas of a higher order."""
-        return replace(self, upwind=False, steep=None)
+        return replace(self, upwind=False, steepness=None)
 
-    def bounded(self, full: Array) -> Supply:
-        """Supply with no extrapolation where the full gap closes steeply, as at the edge of a spot.
-
-        The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where
-        the gap falls steeply, and negative where it falls to less than a third from node to node: no oil
-        would enter the spot. The nodes are those of the first gap that is met, and stay while Newton's method
-        moves the gap: chosen anew in each step they would depend on the way to the solution.
-        """
-        if self.steep is not None:
-            return self
-        steep = np.zeros(full.shape, dtype=bool)
-        steep[1:] = full[:-1] > _STEEP * full[1:]
-        return replace(self, steep=steep)
+    def at_gap(self, full: Array) -> Supply:
+        """Supply with the steepness of a gap whose mass rho H is ``full`` (nx, ny)."""
+        return replace(self, steepness=Steepness.of(full))
 
     def at_rupture(self, filled: Mask, mass: Array) -> Array:
         """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
@@ -86,20 +114,21 @@ class Supply:
         """
         if self.order == 1:
             return mass
-        high = ~filled & ~self.low
+        high = ~filled & ~np.asarray(self.upwind)
         high[:2] = False
-        high[1:] &= (filled & ~self.low)[:-1]
-        before = np.concatenate([mass[:1], mass[:-1]])
-        return np.where(high, (2.0 * mass + before) / 3.0, mass)
+        high[1:] &= (filled & ~np.asarray(self.upwind))[:-1]
+        before: Array = np.concatenate([mass[:1], mass[:-1]])
+        part: Array = high * (1.0 if self.steepness is None else 1.0 - self.steepness.part)
+        return mass + part * (before - mass) / 3.0
 
     def injected(self, level: Level) -> Supply:
         """Supply on the next coarser grid, for its wedge term only."""
-        upwind, steep = self.upwind, self.steep
+        upwind, steepness = self.upwind, self.steepness
         if not isinstance(upwind, bool):
             upwind = level.inject(upwind.astype(float)) > 0.0
-        if steep is not None:
-            steep = level.inject(steep.astype(float)) > 0.0
-        return replace(self, upwind=upwind, steep=steep)
+        if steepness is not None:
+            steepness = steepness.injected(level)
+        return replace(self, upwind=upwind, steepness=steepness)
 
 
 @dataclass(frozen=True)
@@ -143,46 +172,72 @@ class Runs:
         return reduced
 
 
-def content_wedge(mesh: Mesh, filled: Mask, order: int, steep: Mask | None = None) -> Stencil:
-    """Upstream difference d/dX of the mass whose order falls to one where the film is not filled.
+@dataclass(frozen=True)
+class Faces:
+    """Weights of the mass of three nodes in the mass at the face behind each node but the last."""
 
-    The mass at a face is that of the formula of highest order whose nodes are all filled. Behind the first
-    filled node and behind a steep one it is the mean of the two nodes, and behind a cavitated node that of
-    this node. The end rows are zero.
+    # far, near and ahead: of the node before, of the node and of the one behind the face, (nx - 1, ny).
+    far: Array
+    near: Array
+    ahead: Array
 
-    ``filled``, nodes where oil fills the gap, shape (nx, ny); ``order``, order of the wedge term where the
-    film is filled: 1, 2 or 3; ``steep``, further nodes, which are filled too, from which nothing is
-    extrapolated, shape (nx, ny). Returns operator on the mass (nx, ny).
+    @classmethod
+    def of(cls, filled: Mask, order: int) -> Faces:
+        """Formula of highest order, up to ``order``, whose nodes are all filled, a mask (nx, ny).
 
-    Examples
-    --------
-    The mass at the two last faces is extrapolated from the two nodes before:
+        Behind the first filled node it is the mean of the two nodes, and behind a cavitated node this node.
+        """
+        far = np.zeros((filled.shape[0] - 1, filled.shape[1]))
+        near, ahead = np.ones_like(far), np.zeros_like(far)
+        if order > 1:
+            # Behind a meniscus there is no second filled node: the face takes the mean of its two nodes.
+            first = filled[:-1] & filled[1:]
+            first[1:] &= ~filled[:-2]
+            near[first] = ahead[first] = 0.5
+            second = filled[1:-1] & filled[:-2]
+            far[1:][second], near[1:][second] = -0.5, 1.5
+            if order == 3:
+                third = second & filled[2:]
+                far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
+        return cls(far, near, ahead)
 
-    >>> filled = np.array([[False], [True], [True], [True], [True]])
-    >>> content_wedge(Mesh.over(5, 0.0, 4.0), filled, 2).coefficients[:, 3, 0].tolist()
-    [0.5, -2.0, 1.5, 0.0]
-    """
-    far = np.zeros((mesh.x.size - 1, mesh.y.size))
-    near, ahead = np.ones_like(far), np.zeros_like(far)
-    if order > 1:
-        # A face behind a meniscus has no second filled node before it, and takes the mean of its two nodes.
-        first = filled[:-1] & filled[1:]
-        first[1:] &= ~filled[:-2]
-        near[first] = ahead[first] = 0.5
-        second = filled[1:-1] & filled[:-2]
-        far[1:][second], near[1:][second] = -0.5, 1.5
-        if order == 3:
-            third = second & filled[2:]
-            far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
-        if steep is not None:
-            behind = steep[:-1] & (filled | steep)[1:]
-            far[behind], near[behind], ahead[behind] = 0.0, 0.5, 0.5
-    c = np.zeros((ALONG, *mesh.shape))
-    c[0, 1:-1] = -far[:-1]
-    c[1, 1:-1] = far[1:] - near[:-1]
-    c[2, 1:-1] = near[1:] - ahead[:-1]
-    c[3, 1:-1] = ahead[1:]
-    return Stencil(c / mesh.dx)
+    def steep(self, filled: Mask, steepness: Steepness, full: Array | None, *, first_order: bool) -> Faces:
+        """Weights where the gap closes steeply; with ``full`` those of the derivatives by the mass."""
+        mean = np.where(filled[1:] & (not first_order), 0.5, 0.0)
+        part = np.where(filled, steepness.part, 0.0)[:-1]
+        off = Faces(-self.far, 1.0 - mean - self.near, mean - self.ahead)
+        far, near, ahead = (
+            self.far + part * off.far,
+            self.near + part * off.near,
+            self.ahead + part * off.ahead,
+        )
+        if full is not None:
+            change = np.where(filled[:-1], off(full), 0.0)
+            far, near = far + change * steepness.by_before[:-1], near + change * steepness.by_node[:-1]
+        return Faces(far, near, ahead)
+
+    def __call__(self, mass: Array) -> Array:
+        """Mass (nx - 1, ny) at the faces from that of the nodes (nx, ny)."""
+        before: Array = np.concatenate([mass[:1], mass[:-2]])
+        return self.far * before + self.near * mass[:-1] + self.ahead * mass[1:]
+
+    def difference(self, mesh: Mesh) -> Stencil:
+        """Upstream difference d/dX of the mass at the faces; the end rows are zero.
+
+        Examples
+        --------
+        The mass at the two last faces is extrapolated from the two nodes before:
+
+        >>> filled = np.array([[False], [True], [True], [True], [True]])
+        >>> Faces.of(filled, 2).difference(Mesh.over(5, 0.0, 4.0)).coefficients[:, 3, 0].tolist()
+        [0.5, -2.0, 1.5, 0.0]
+        """
+        c = np.zeros((ALONG, *mesh.shape))
+        c[0, 1:-1] = -self.far[:-1]
+        c[1, 1:-1] = self.far[1:] - self.near[:-1]
+        c[2, 1:-1] = self.near[1:] - self.ahead[:-1]
+        c[3, 1:-1] = self.ahead[1:]
+        return Stencil(c / mesh.dx)
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:
@@ -318,19 +373,19 @@ def filled_anew(
 
 
 def _backed_up(filled: Mask, mass: Array, full: Array) -> Mask:
-    """Cavitated nodes upstream of an overflow whose gap is smaller than the mass that overflows.
+    """Cavitated nodes upstream of an overflow that the surplus of its mass fills.
 
     The backflow from a filled node overflows the node before it only. The nodes before that one would be
-    filled one by one. Those that the overflowing mass would fill are filled at once.
+    filled one by one.
     """
     over = ~filled & (mass > full)
     backed = np.zeros_like(over)
     if not over.any():
         return backed
-    level = np.zeros(over.shape[1])
+    surplus = np.zeros(over.shape[1])
     for i in range(len(over) - 1, 0, -1):
-        level = np.where(over[i], mass[i], np.where(filled[i] | (full[i] > level), 0.0, level))
-        backed[i] = level > 0.0
+        surplus = np.where(filled[i], 0.0, np.maximum(surplus, 0.0) + mass[i] - full[i])
+        backed[i] = surplus > 0.0
     return backed
 
 

@@ -143,8 +143,8 @@ def assess_touching(
             full_film |= with_refilled_nodes(full_film, r) & contact
     else:
         before = carried.filled
-        if contact.any():
-            carried = replace(carried, supply=carried.supply.bounded(k.density * thickness))
+        if boundary_film:
+            carried = replace(carried, supply=carried.supply.at_gap(k.density * thickness))
         carried, r = filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
         full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
     compliance = node_compliance(level)
@@ -323,7 +323,8 @@ def _damped(
     wedge = level.wedge
     if carried is not None:
         at_faces = of_filled(at_faces, carried.filled)
-        wedge = carried.supply.wedge(level.mesh, carried.filled)
+        full = at_faces.coefficients.density * thickness
+        wedge = carried.supply.wedge(level.mesh, carried.filled, full)
     by_p, by_h = linearise(at_faces, wedge, thickness, level.mesh)
     k, inner = at_faces.coefficients, level.mesh.inner
     by_p.coefficients[2][inner] += damping * level.rate * (k.density_p * thickness)[inner]
@@ -416,8 +417,9 @@ _PATIENCE = 70
 # Changes of a node, from filled to cavitated or back, above which it goes in a circle.
 _MOST_CHANGES = 4
 
-# Residual below which there is no damping.
-_NEAR = 1e-3
+# Residual below which there is no damping, and the factor by which it falls where a step without damping ends
+# above it.
+_NEAR, _NEARER = 1e-3, 0.03
 
 
 def touching_newton(
@@ -437,7 +439,7 @@ def touching_newton(
     asperities = problem.asperities
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory(_MOST_CHANGES)
-    before, damping = np.inf, first_damping
+    before, damping, near = np.inf, first_damping, _NEAR
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
     while len(steps) < min(problem.max_iterations, found + _PATIENCE):
@@ -462,7 +464,8 @@ def touching_newton(
             assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
-        damping = damping if assessed.norm > _NEAR and assessed.contact.any() else 0.0
+        near = _NEARER * near if now.norm <= near < assessed.norm else near
+        damping = damping if assessed.norm > near and assessed.contact.any() else 0.0
         now = assessed
     if is_solved(now, tolerance):
         status = "converged"

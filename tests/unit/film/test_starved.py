@@ -137,13 +137,31 @@ def test_first_layer_of_a_search_inverts_the_published_relation():
         assert first_layer(ratio, 50.0) == pytest.approx(first_layer(ratio, None), rel=1e-6)
 
 
-@pytest.mark.parametrize(("first_order", "behind"), [(False, 0.25), (True, 0.3)])
+@pytest.mark.parametrize(("first_order", "behind"), [(False, 0.83125), (True, 0.88125)])
 def test_mass_behind_a_steep_node(first_order, behind):
-    """The gap closes steeply from 1 to 0.3: behind flows the mean of 0.3 and 0.2, or 0.3.
+    """The gap closes from 2.3 to 1, where half of the mass behind is extrapolated.
 
-    Extrapolated from 1 and 0.3 it would be -0.05. Before, it is extrapolated from 1 and 1.
+    The other half is the mean of 1 and 0.8, or 1. Before, it is extrapolated from 2.3 and 2.3.
     """
-    mass = np.array([[1.0], [1.0], [1.0], [0.3], [0.2]])
-    supply = Supply(np.array([np.inf]), 3, first_order=first_order).bounded(mass)
+    mass = np.array([[2.3], [2.3], [2.3], [1.0], [0.8]])
+    supply = Supply(np.array([np.inf]), 3, first_order=first_order).at_gap(mass)
     wedge = supply.wedge(Mesh.over(5, 0.0, 4.0), np.ones(mass.shape, dtype=bool))
-    assert wedge(mass)[3, 0] == pytest.approx(behind - 1.0, abs=1e-14)
+    assert wedge(mass)[3, 0] == pytest.approx(behind - 1.8125, abs=1e-14)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+@pytest.mark.parametrize("first_order", [False, True])
+def test_derivative_of_the_wedge_where_gaps_close_steeply(order, first_order):
+    """Against central differences, at random gaps with cavities."""
+    random, mesh = np.random.default_rng(1), Mesh.over(40, 0.0, 1.0)
+    full, change = np.exp(random.normal(size=(40, 1))), random.normal(size=(40, 1))
+    filled = random.random((40, 1)) < 0.8
+    full, change = full * filled, change * filled
+    supply = Supply(np.array([np.inf]), order, first_order=first_order)
+
+    def wedge(mass):
+        return supply.at_gap(np.where(filled, mass, 1.0)).wedge(mesh, filled)(mass)
+
+    derivative = supply.at_gap(np.where(filled, full, 1.0)).wedge(mesh, filled, full)(change)
+    numerical = (wedge(full + 1e-6 * change) - wedge(full - 1e-6 * change)) / 2e-6
+    np.testing.assert_allclose(derivative, numerical, rtol=1e-5, atol=1e-5 * np.abs(derivative).max())
