@@ -45,7 +45,14 @@ from ehlectric.film.oil_content import Carried, Supply
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
 from ehlectric.film.shear_laws import UNBOUNDED
-from ehlectric.film.starved_solver import StarvedProblem, flooded_inlet, forms_again, isothermal, with_inlet
+from ehlectric.film.starved_solver import (
+    Solver,
+    StarvedProblem,
+    flooded_inlet,
+    forms_again,
+    isothermal,
+    with_inlet,
+)
 from ehlectric.film.touching_film import touching_newton
 from ehlectric.film.touching_solver import NEAR_DAMPING
 from ehlectric.runtime.threads import quiet_solution
@@ -597,7 +604,8 @@ def heated_solution(
 ) -> tuple[RefinedSolution, RefinedSolution]:
     """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
 
-    The film is flooded first, and then has its supply of oil. ``order`` is that of its wedge term.
+    The film is flooded first, and then has its supply of oil. Where this is a layer, the flooded film is only
+    a guess, and may be missed. ``order`` is that of the wedge term.
     """
     cold = replace(problem, physics=None)
     simple = film_method(cold)(cold, progress)
@@ -605,8 +613,9 @@ def heated_solution(
     starts = simple.solutions if simple.patch is None else [simple.whole]
     if isinstance(simple, StarvedSolution) and simple.flooded is not None:
         starts = [simple.flooded]
-    found = _on_grids(finest, starts, progress, careful=False)
-    if not all(grid.status == "converged" for grid in found):
+    layered = problem.supply is not None and problem.supply.layer is not None
+    found = _on_grids(finest, starts, progress, careful=False, every=layered)
+    if not (layered or all(grid.status == "converged" for grid in found)):
         # Very hot films take more grids and more exact loops.
         found = _on_grids(finest, starts, progress, careful=True)
     if problem.supply is None:
@@ -620,32 +629,43 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
     heat on this grid: guesses that are further away may take minutes to fail.
     """
-    iteration = flooded.iteration
+    iteration, careful = flooded.iteration, list[Solver]()
+    if iteration.physics.thermal is not None:
+        variants = _variants(replace(iteration, careful=True), held=iteration.held)
+        careful = [_solver(variant, flooded, cold) for variant in variants]
+    quick = _solver(iteration, flooded, cold)
+    return StarvedProblem(
+        iteration.problem, iteration.posed, flooded, quick, cold, with_heat=True, careful=tuple(careful)
+    )
+
+
+def _solver(iteration: OuterIteration, flooded: HeatedGrid, cold: GridSolution | None) -> Solver:
+    """Solver of starved films with heat on the grid of a flooded film and of the film without heat."""
 
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
         before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
         # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
         heat = None
-        if before.heat is not None and (cold is None or guess.of is not cold):
+        of_cold = cold is not None and guess.of is cold
+        if before.status == "converged" and before.heat is not None and not of_cold:
             heat = _finer(before.heat, before.level, iteration.level)
-        variants = [iteration]
-        if iteration.physics.thermal is not None:
-            variants += _variants(replace(iteration, careful=True), held=iteration.held)
-        for variant in variants:
-            found = replace(variant, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
-            if found.status == "converged":
-                break
-        return found
+        return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
 
-    return StarvedProblem(iteration.problem, iteration.posed, flooded, film, cold)
+    return film
 
 
 def _on_grids(
-    finest: FilmProblem, starts: Sequence[GridSolution], progress: Progress | None, *, careful: bool
+    finest: FilmProblem,
+    starts: Sequence[GridSolution],
+    progress: Progress | None,
+    *,
+    careful: bool,
+    every: bool = False,
 ) -> list[HeatedGrid]:
-    """Flooded film with heat on all grids; the quick iteration ends with the first that it does not solve.
+    """Flooded film with heat on all grids.
 
-    ``starts`` are isothermal films over the whole domain, the one on the finest grid last.
+    Unless on ``every`` grid, the quick iteration ends with the first that it does not solve. ``starts`` are
+    isothermal films over the whole domain, the one on the finest grid last.
     """
     grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
     if finest.width is not None:
@@ -659,7 +679,7 @@ def _on_grids(
             found.append(_careful(iteration, starts, found))
         else:
             found.append(iteration(*_start(iteration, starts, found), spike=True))
-        if not careful and found[-1].status != "converged":
+        if not (careful or every or found[-1].status == "converged"):
             break
     return found
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain
 from typing import TypeAlias
 
 import numpy as np
@@ -25,7 +24,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.touching_film import touching_newton
 
 # Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
-_AGAIN = 15
+_AGAIN = 25
 
 # Part of the tolerance to which it is solved then.
 _CLOSER = 0.01
@@ -155,8 +154,10 @@ class StarvedProblem:
     film: Solver
     # Film without heat with the same supply on this grid, from which that with heat starts; None without one.
     cold: GridSolution | None = None
+    with_heat: bool = False
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
+    careful: tuple[Solver, ...] = ()  # slower solvers, which are tried where ``film`` finds no film with heat
 
     @property
     def order(self) -> int:
@@ -186,10 +187,7 @@ class StarvedProblem:
         ``near`` is a guess that is likely to be close, as the film of a coarser grid.
         """
         best = None
-        attempts = self._attempts(layer, near)
-        if self.posed.asperities.boundary_film:
-            attempts = chain(attempts, replace(self, first_order=True)._attempts(layer, near))
-        for film in attempts:
+        for film in self._attempts(layer, near):
             if best is None or film.final.norm < best.final.norm:
                 best = film
             if film.status == "converged":
@@ -198,23 +196,43 @@ class StarvedProblem:
         return best
 
     def _attempts(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
-        """Films from all guesses, the likeliest one first."""
+        """Films from all guesses by all solvers, the likeliest one first."""
+        if self.with_heat:
+            yield from self._with_heat(layer, near)
+            return
         if near is not None:
             yield self._under(layer, near)
-        elif self.cold is not None and self.cold.status == "converged" and self.cold.content is not None:
-            # Both films pass nearly the same part of their layer.
-            supplied = at_centre_line(self.level, self.cold.content.supply.mass)
-            ambient = self.flooded.final.coefficients.density[0, 0]
-            fall = float(ambient * at_centre_line(self.level, layer) / supplied)
-            yield self._under(layer, self._follow(self.cold, fall))
         guesses = [self._from_flooded, self._from_dry]
         scarce = at_centre_line(self.level, layer) < _DRY * self.flooded_mass
-        # A film with heat whose guess is wrong takes long to fail; that from the dry contact fails rarely.
-        for guess in reversed(guesses) if scarce or self.cold is not None else guesses:
+        for guess in reversed(guesses) if scarce else guesses:
             yield self._under(layer, guess(layer))
         if self.posed.asperities.boundary_film:
             yield self._under(layer, self._from_contact(layer))
         yield from self._in_steps(layer)
+        if self.posed.asperities.boundary_film and not self.first_order:
+            yield from replace(self, first_order=True)._attempts(layer, near)
+
+    def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
+        """Films with heat from the guesses near the film.
+
+        These are the film on the coarser grid, the film without heat, the dry contact, and the flooded film. A
+        film with heat whose guess is further away takes long to fail.
+        """
+        guesses = [] if near is None else [near]
+        cold, scheme = self.cold, self
+        if cold is not None and cold.status == "converged" and cold.content is not None:
+            # Both films pass nearly the same part of their layer.
+            supplied = at_centre_line(self.level, cold.content.supply.mass)
+            ambient = self.flooded.final.coefficients.density[0, 0]
+            guesses.append(self._follow(cold, float(ambient * at_centre_line(self.level, layer) / supplied)))
+            scheme = replace(self, first_order=cold.content.supply.first_order)
+        guesses.append(self._from_dry(layer))
+        for solver in (self.film, *self.careful):
+            for guess in guesses:
+                yield replace(scheme, film=solver)._under(layer, guess)
+        if self.flooded.status == "converged":
+            yield scheme._under(layer, self._from_flooded(layer))
+            yield from scheme._in_steps(layer)
 
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""

@@ -50,7 +50,7 @@ from ehlectric.film.touching_film import (
 
 # Part of the source that is taken away in the first step, the least one, the factors after a step that
 # converged and one that did not, and the largest number of Newton steps of each.
-_FIRST, _LEAST, _LONGER, _SHORTER, _STEPS = 0.25, 0.01, 1.5, 0.5, 40
+_FIRST, _LEAST, _LONGER, _SHORTER, _STEPS = 0.25, 0.01, 1.5, 0.5, 15
 
 # Residual of the steps before the last one.
 _INTERMEDIATE = 1e-6

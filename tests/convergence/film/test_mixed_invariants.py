@@ -107,8 +107,8 @@ def test_films_of_the_same_contact_differ_at_single_nodes(speed):
     """
     half, whole = halved_and_whole(speed)
     np.testing.assert_allclose(whole.gap, whole.gap[:, ::-1], rtol=1e-6)
-    assert whole.share == pytest.approx(half.share, rel=1e-2)
-    assert np.mean(whole.gap) == pytest.approx(np.mean(half.mesh.mirrored(half.gap)), rel=1e-2)
+    assert whole.share == pytest.approx(half.share, rel=3e-3)
+    assert np.mean(whole.gap) == pytest.approx(np.mean(half.mesh.mirrored(half.gap)), rel=3e-3)
     assert np.sum(whole.touching) == np.sum(half.mesh.mirrored(half.touching.astype(float)))
 
 
