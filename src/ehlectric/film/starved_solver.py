@@ -213,10 +213,9 @@ class StarvedProblem:
             yield from replace(self, first_order=True)._attempts(layer, near)
 
     def _with_heat(self, layer: Array, near: Guess | None) -> Iterator[GridSolution]:
-        """Films with heat from the guesses near the film.
+        """Films with heat from the guesses near the film, as one from further away takes long to fail.
 
-        These are the film on the coarser grid, the film without heat, the dry contact, and the flooded film. A
-        film with heat whose guess is further away takes long to fail.
+        These are the film on the coarser grid, the film without heat, the dry contact, and the flooded film.
         """
         guesses = [] if near is None else [near]
         cold, scheme = self.cold, self
