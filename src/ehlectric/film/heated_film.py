@@ -29,7 +29,7 @@ from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_me
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import grid_problem, interpolated_state, levels_of
+from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of
 from ehlectric.film.newton import (
     SMALLEST_GAP,
     GridProblem,
@@ -67,9 +67,16 @@ _MOST_CHANGE = 40.0
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
+# The same residual of films that carry their oil: the temperature next to spots follows small changes of the
+# gap, and would not stand.
+_LOOSE_CARRYING = 1e-6
+
 # Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
 # least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
 _CARRYING, _TOUCHING = 3, 40
+
+# Successive loops in which a film that carries its oil misses its residual, at which the iteration ends.
+_MISSED = 5
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
@@ -297,21 +304,31 @@ class OuterIteration:
     ) -> HeatedGrid:
         """Film and temperature from an initial guess of both.
 
-        ``filled`` (nx, ny) marks the nodes that oil fills in the guess of a film with a supply. Another film
-        that forms again behind a cavity is solved once more, with the oil carried through it.
+        ``filled`` (nx, ny) marks the nodes that oil fills in a guess that carries its oil through cavities;
+        None of one whose cavities count as full. A film without a supply that forms again behind a cavity has
+        the oil carried through it.
         """
-        found = self._turns(state, heat, filled, spike=spike)
+        if self.supply is not None:
+            return self._turns(state, heat, filled, spike=spike)
+        if filled is not None:
+            carried = self._carrying(state, heat, filled, first_order=False)
+            if carried.status == "converged":
+                return carried
+        found = self._turns(state, heat, None, spike=spike)
         full = found.final.full_film
-        if self.supply is not None or found.status != "converged" or not forms_again(full):
+        if found.status != "converged" or not forms_again(full):
             return found
         for first_order in (False, True):
-            supply = flooded_inlet(self.level, self.problem.wedge_order, first_order=first_order)
-            carrying = replace(self, supply=supply)
-            again = carrying._turns(found.state, found.heat, with_inlet(full), spike=False)
+            again = self._carrying(found.state, found.heat, full, first_order=first_order)
             if again.status == "converged":
                 return replace(again, steps=found.steps + again.steps, loops=found.loops + again.loops)
         # A film that makes oil is better than none, and a warning says so.
         return found
+
+    def _carrying(self, state: State, heat: Heat | None, filled: Mask, *, first_order: bool) -> HeatedGrid:
+        """Flooded film that carries its oil through cavities, from a guess and its filled nodes (nx, ny)."""
+        supply = flooded_inlet(self.level, self.problem.wedge_order, first_order=first_order)
+        return replace(self, supply=supply)._turns(state, heat, with_inlet(filled), spike=False)
 
     def _turns(self, state: State, heat: Heat | None, filled: Mask | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature in turns, from an initial guess of both."""
@@ -329,9 +346,10 @@ class OuterIteration:
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
+        loose, missed = _LOOSE if carried is None else _LOOSE_CARRYING, 0
         for loop in range(_LOOPS):
             steps, tolerance = (
-                (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, _LOOSE))
+                (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, loose))
             )
             solution, law, heat = self.film(
                 state,
@@ -347,7 +365,8 @@ class OuterIteration:
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * max(central, SMALLEST_GAP)))
             stands = ends and solution.status == "converged" and films[-1] < allowed
-            if stands or solution.status == "diverged":
+            missed = missed + 1 if carried is not None and solution.status == "stalled" else 0
+            if stands or solution.status == "diverged" or missed == _MISSED:
                 break
             if self.held and loop < _HELD_TURNS:
                 new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
@@ -687,7 +706,8 @@ def _on_grids(
         if careful:
             found.append(_careful(iteration, starts, found))
         else:
-            found.append(iteration(*_start(iteration, starts, found), spike=True))
+            state, heat, filled = _start(iteration, starts, found)
+            found.append(iteration(state, heat, spike=True, filled=filled))
         if not (careful or every or found[-1].status == "converged"):
             break
     return found
@@ -701,10 +721,10 @@ def _careful(
     The variant that converged on the coarser grid comes first.
     """
     variants = _variants(iteration, held=bool(found) and found[-1].iteration.held)
-    state, heat = _start(iteration, starts, found)
+    state, heat, filled = _start(iteration, starts, found)
     tried: list[HeatedGrid] = []
     for variant in variants:
-        tried.append(variant(state, heat, spike=True))
+        tried.append(variant(state, heat, spike=True, filled=filled))
         if tried[-1].status == "converged":
             return tried[-1]
     if iteration.physics.slide_to_roll_ratio != 0.0:
@@ -739,31 +759,40 @@ def _by_slip(iteration: OuterIteration, starts: Sequence[GridSolution]) -> Heate
     """Film with heat on a grid from rolling to its slip in steps, which converges from farther."""
     first, second = iteration.physics.speeds
     mean = iteration.physics.mean_speed
-    (state, heat), loops = _start(iteration, starts, []), 0
+    (state, heat, filled), loops = _start(iteration, starts, []), 0
     for part in _SLIPS:
         speeds = mean + part * (first - mean), mean + part * (second - mean)
         problem = replace(iteration.problem, physics=replace(iteration.physics, speeds=speeds))
-        grid = replace(iteration, problem=problem)(state, heat, spike=False)
+        grid = replace(iteration, problem=problem)(state, heat, spike=False, filled=filled)
         loops += grid.loops
         if grid.status != "diverged":
-            state, heat = grid.state, grid.heat
+            state, heat, filled = grid.state, grid.heat, grid.filled
     return replace(grid, loops=loops)
 
 
 def _start(
     iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
-) -> tuple[State, Heat | None]:
-    """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
+) -> tuple[State, Heat | None, Mask | None]:
+    """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid.
+
+    Its filled nodes (nx, ny) are None of a film that does not carry its oil.
+    """
     level = iteration.level
+    same = [solution for solution in starts if solution.level.mesh.shape == level.mesh.shape]
+    simple = same[-1] if same else starts[-1]
+    heat, guess = None, simple
     if found and found[-1].status == "converged":
-        coarse = found[-1]
-        return _finer_state(level, coarse), None if coarse.heat is None else _finer(
-            coarse.heat, coarse.level, level
-        )
-    for solution in reversed(starts):
-        if solution.level.mesh.shape == level.mesh.shape:
-            return solution.state, None
-    return _finer_state(level, starts[-1]), None
+        if found[-1].heat is not None:
+            heat = _finer(found[-1].heat, found[-1].level, level)
+        # The spots of a film on a coarser grid are others.
+        guess = simple if same and simple.touches else found[-1]
+    state = guess.state if guess in same else _finer_state(level, guess)
+    return state, heat, _filled_on(level, guess)
+
+
+def _filled_on(level: Level, coarse: GridSolution) -> Mask | None:
+    """Nodes (nx, ny) that oil fills in a film on some grid; None if that does not carry its oil."""
+    return None if coarse.content is None else filled_on(level.mesh, coarse.level.mesh, coarse.content.filled)
 
 
 def _finer_state(level: Level, coarse: GridSolution) -> State:

@@ -341,10 +341,10 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
 def filled_state(level: Level, coarse: GridSolution, filled: Mask) -> tuple[State, Mask]:
     """State and filled nodes on a grid, from a coarser solution and the nodes that oil fills in it."""
     state = interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
-    return state, _filled_on(level.mesh, coarse.level.mesh, filled)
+    return state, filled_on(level.mesh, coarse.level.mesh, filled)
 
 
-def _filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
+def filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
     """Filled nodes on a mesh, from those on a coarser mesh of the same domain by linear interpolation."""
     if coarse.y.size == 1:
         part = np.interp(mesh.x, coarse.x, filled[:, 0])[:, np.newaxis]
