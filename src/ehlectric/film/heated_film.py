@@ -67,6 +67,9 @@ _MOST_CHANGE = 40.0
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
+# The same number of loops of a flooded film that is only a guess for one with a layer of oil.
+_GUESS_LOOPS = 25
+
 # The same residual of films that carry their oil: the temperature next to spots follows small changes of the
 # gap, and would not stand.
 _LOOSE_CARRYING = 1e-6
@@ -143,6 +146,7 @@ class OuterIteration:
     # Oil at the inlet edge of a film that carries its oil through cavities; None of one whose cavities count
     # as full.
     supply: Supply | None = None
+    most_loops: int = _LOOPS  # largest number of outer loops
 
     @property
     def level(self) -> Level:
@@ -347,7 +351,7 @@ class OuterIteration:
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
         loose, missed = _LOOSE if carried is None else _LOOSE_CARRYING, 0
-        for loop in range(_LOOPS):
+        for loop in range(self.most_loops):
             steps, tolerance = (
                 (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, loose))
             )
@@ -657,7 +661,7 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
     heat on this grid: guesses that are further away may take minutes to fail.
     """
-    iteration, careful = flooded.iteration, list[Solver]()
+    iteration, careful = replace(flooded.iteration, most_loops=_LOOPS), list[Solver]()
     if iteration.physics.thermal is not None:
         variants = _variants(replace(iteration, careful=True), held=iteration.held)
         careful = [_solver(variant, flooded, cold) for variant in variants]
@@ -702,7 +706,10 @@ def _on_grids(
         grids.append(grids[-1].halved())
     found: list[HeatedGrid] = []
     for finer, posed in reversed(list(enumerate(grids))):
-        iteration = replace(_iteration_on(posed, finer=finer, progress=progress), careful=careful)
+        most = _GUESS_LOOPS if every else _LOOPS
+        iteration = replace(
+            _iteration_on(posed, finer=finer, progress=progress), careful=careful, most_loops=most
+        )
         if careful:
             found.append(_careful(iteration, starts, found))
         else:

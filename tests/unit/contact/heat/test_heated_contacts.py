@@ -247,8 +247,8 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
 
 
 def test_a_sheared_film_whose_surfaces_touch_is_solved():
-    """The boundary film of 2 nm carries what the oil does not: together they carry the load."""
-    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
+    """The boundary film of 1 nm carries what the oil does not: together they carry the load."""
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4}
     table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
     result = solve(Case.from_dict(table))
     assert result.converged
@@ -264,7 +264,7 @@ def test_a_sheared_film_whose_surfaces_touch_is_solved():
 @pytest.mark.parametrize("friction", [None, 0.1])
 def test_the_heat_of_sliding_spots_needs_their_friction(friction):
     """Without the coefficient a warning says what is missing; with it the film is hotter."""
-    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003, "slide_to_roll_ratio": 1.0}
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4, "slide_to_roll_ratio": 1.0}
     contact |= {"boundary_friction": friction} if friction else {}
     result = solve(Case.from_dict(HOT_LINE | {"contact": contact, "grid": {"nodes": 101}}))
     assert result.converged
