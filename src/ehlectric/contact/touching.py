@@ -608,7 +608,7 @@ def asperities(
     Examples
     --------
     >>> from ehlectric import solve
-    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 0.005}
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 0.001}
     >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.3 um", "wavelength": "20 um"}
     >>> table = {"contact": contact | {"max_hertz_pressure": "0.5 GPa"}, "lubricant": {"base": "paper"}}
     >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 401}, "roughness": [wave]}))
