@@ -664,22 +664,25 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     iteration, careful = replace(flooded.iteration, most_loops=_LOOPS), list[Solver]()
     if iteration.physics.thermal is not None:
         variants = _variants(replace(iteration, careful=True), held=iteration.held)
-        careful = [_solver(variant, flooded, cold) for variant in variants]
-    quick = _solver(iteration, flooded, cold)
+        careful = [_solver(variant) for variant in variants]
     return StarvedProblem(
-        iteration.problem, iteration.posed, flooded, quick, cold, with_heat=True, careful=tuple(careful)
+        iteration.problem,
+        iteration.posed,
+        flooded,
+        _solver(iteration),
+        cold=cold,
+        with_heat=True,
+        careful=tuple(careful),
     )
 
 
-def _solver(iteration: OuterIteration, flooded: HeatedGrid, cold: GridSolution | None) -> Solver:
-    """Solver of starved films with heat on the grid of a flooded film and of the film without heat."""
+def _solver(iteration: OuterIteration) -> Solver:
+    """Solver of starved films with heat on the grid of an iteration."""
 
     def film(guess: Guess, supply: Supply) -> HeatedGrid:
-        before = guess.of if isinstance(guess.of, HeatedGrid) else flooded
+        before, heat = guess.of, None
         # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
-        heat = None
-        of_cold = cold is not None and guess.of is cold
-        if before.status == "converged" and before.heat is not None and not of_cold:
+        if isinstance(before, HeatedGrid) and before.status == "converged" and before.heat is not None:
             heat = _finer(before.heat, before.level, iteration.level)
         return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
 

@@ -30,8 +30,7 @@ from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import ALONG, Stencil, residual
 
 # Ratio of the full gaps of two nodes up to which the mass behind them is extrapolated, and the further rise
-# of this ratio at which half of it is the mean of two nodes. With a rise that is less than about 0.6 the flow
-# out of a node would fall where its gap grows.
+# of this ratio at which half of it is the mean of two nodes.
 _STEEP, _HALF = 1.3, 1.0
 
 
@@ -80,7 +79,7 @@ class Supply:
     order: int  # order of the wedge term where the film is filled: 1, 2 or 3
     # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
     upwind: Mask | bool = False
-    steepness: Steepness | None = None  # of the gap at the state; None where surfaces are apart
+    steepness: Steepness | None = None  # of the gap at the state; None where surfaces cannot touch
     # Whether the mass behind nodes to which the gap closes steeply is that of the node in place of the mean.
     first_order: bool = False
 
@@ -114,9 +113,10 @@ class Supply:
         """
         if self.order == 1:
             return mass
-        high = ~filled & ~np.asarray(self.upwind)
+        not_upwind = ~np.asarray(self.upwind)
+        high = ~filled & not_upwind
         high[:2] = False
-        high[1:] &= (filled & ~np.asarray(self.upwind))[:-1]
+        high[1:] &= (filled & not_upwind)[:-1]
         before: Array = np.concatenate([mass[:1], mass[:-1]])
         part: Array = high * (1.0 if self.steepness is None else 1.0 - self.steepness.part)
         return mass + part * (before - mass) / 3.0

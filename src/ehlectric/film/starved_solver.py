@@ -154,7 +154,7 @@ class StarvedProblem:
     film: Solver
     # Film without heat with the same supply on this grid, from which that with heat starts; None without one.
     cold: GridSolution | None = None
-    with_heat: bool = False
+    with_heat: bool = False  # whether ``film`` finds films with heat or shear
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
     careful: tuple[Solver, ...] = ()  # slower solvers, which are tried where ``film`` finds no film with heat
