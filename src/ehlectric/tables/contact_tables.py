@@ -180,7 +180,7 @@ def _change(name: str) -> Callable[[Summary], str]:
         effect = "heat and shear" if film["thermal"] else "shear"
         if simple is None or not summary["converged"]:
             return ""
-        if name == "minimum" and summary.get("asperities"):
+        if name == "minimum" and (summary.get("asperities") or {}).get("load_share"):
             # The minimum is the boundary film with heat and without.
             return ", the surfaces touch"
         return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"

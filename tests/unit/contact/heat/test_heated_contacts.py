@@ -261,6 +261,16 @@ def test_a_sheared_film_whose_surfaces_touch_is_solved():
     assert rows["film.isothermal.central_thickness"].endswith("% by shear")
 
 
+def test_a_rough_film_that_does_not_touch_has_its_change_by_shear():
+    wave = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "60 um"}
+    table = HOT_LINE | {"grid": {"nodes": 101}, "film": {"rheology": "eyring"}, "roughness": [wave]}
+    result = solve(Case.from_dict(table))
+    assert result.converged
+    assert not result.film.contact.any()
+    rows = {row.key: row.text for row in result_rows(result)}
+    assert rows["film.isothermal.minimum_thickness"].endswith("% by shear")
+
+
 @pytest.mark.parametrize("friction", [None, 0.1])
 def test_the_heat_of_sliding_spots_needs_their_friction(friction):
     """Without the coefficient a warning says what is missing; with it the film is hotter."""
