@@ -29,7 +29,7 @@ import numpy as np
 from scipy.linalg import lapack, matmul_toeplitz
 from scipy.special import k0e, k1e
 
-from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.arrays import Array, IntArray
 from ehlectric.film.across_film import Across, Properties, on_mesh
 from ehlectric.film.hot_oil import Body, HotOil
 from ehlectric.film.mesh import Mesh, trapezoidal_weights
@@ -377,25 +377,26 @@ def stream_of(
     pressure_scale: float,
     speed: float,
     stress: float,
-    rubbing: tuple[Mask, Array] | None = None,
+    rubbing: tuple[Array, Array] | None = None,
 ) -> Stream:
     """Flow and properties of the oil, SI units.
 
     ``temperature`` [K], shape (nz, nx, ny); ``pressure`` and ``thickness``, pressure [Pa] and film thickness
     [m], shape (nx, ny); ``filled``, share of the gap that oil fills, shape (nx, ny); ``length``,
     ``pressure_scale``, ``speed`` and ``stress``, half-width b [m], Hertz pressure [Pa], entrainment speed
-    [m/s], and scale of the stresses [Pa]; ``rubbing``, nodes where the surfaces touch, and the heat of their
-    friction there [W/m^2], both of shape (nx, ny), which takes the place of that of the oil. Returns
-    velocities, properties and sources of heat.
+    [m/s], and scale of the stresses [Pa]; ``rubbing``, share of the oil in the pressure of each node, which
+    is also the part of its heat of shear, and the heat of asperities that rub [W/m^2], both of shape
+    (nx, ny). Returns velocities, properties and sources of heat.
     """
     u, v = speed * columns.speed
     viscosity = oil.log_viscosity(pressure, temperature)
     density = oil.density(pressure, temperature)
     heating = columns.heating * (stress * speed / thickness)
-    softening = columns.softening
+    heating_slope = np.minimum(0.0, heating * columns.softening * viscosity.by_temperature)
     if rubbing is not None:
-        heating = np.where(rubbing[0], rubbing[1] / thickness, heating)
-        softening = np.where(rubbing[0], 0.0, softening)
+        oil_share, rubbed = rubbing
+        heating_slope *= oil_share
+        heating = oil_share * heating + rubbed / thickness
     along = upstream_slope(pressure, u, mesh.dx * length)
     across = columns.gradient[1] * (pressure_scale / length)
     expansion = np.where(filled < 1.0, 0.0, -density.by_temperature / density.value)
@@ -412,7 +413,7 @@ def stream_of(
         heat_capacity=oil.heat_capacity(pressure, temperature).value,
         conductivity=oil.thermal_conductivity(pressure, temperature).value,
         heating=heating,
-        heating_slope=np.minimum(0.0, heating * softening * viscosity.by_temperature),
+        heating_slope=heating_slope,
         compression=expansion * (u * along + v * across),
         compression_p=expansion * np.abs(u) / (mesh.dx * length),
         expansion=expansion,

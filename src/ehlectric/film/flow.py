@@ -16,13 +16,13 @@ Another relation between flux and pressure gradient is one more function in ``FL
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.film.mesh import Mesh
 
 # Difference of ln eta below which two nodes count as alike: the series of the mean is then exact to rounding.
@@ -93,6 +93,18 @@ class FaceFlow:
     # difference fixed.
     by_properties: Sides
     by_gap: Sides  # derivatives of the flux by H of the two nodes
+    # Part of the flux that the slip of the surfaces drives without any gradient of P, where oil that is hot
+    # on one side moves more with the other one; its derivative by H of each node. Shape (n - 1, m).
+    drift: Array | float = 0.0
+    drift_by_gap: Array | float = 0.0
+
+    def without_drift(self, where: Mask) -> FaceFlow:
+        """Flow without the drift through the faces of a mask (n - 1, m)."""
+        if isinstance(self.drift, float):
+            return self
+        of_gap = np.where(where, self.drift_by_gap, 0.0)
+        by_gap = Sides(self.by_gap.before - of_gap, self.by_gap.after - of_gap)
+        return replace(self, flux=self.flux - np.where(where, self.drift, 0.0), by_gap=by_gap)
 
     def divergence(self) -> Array:
         """Divergence dF/dX at the inner nodes: difference of the fluxes on both sides, shape (n - 2, m)."""

@@ -70,10 +70,6 @@ _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
 
-# The same residual of films that carry their oil: the temperature next to spots follows small changes of the
-# gap, and would not stand.
-_LOOSE_CARRYING = 1e-6
-
 # Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step, and
 # least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
 _CARRYING, _TOUCHING = 3, 40
@@ -247,7 +243,8 @@ class OuterIteration:
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.level.mesh
-        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
+        driven = True if solution.content is None else solution.content.filled
+        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh, driven=driven)
         if solution.fraction is not None:
             return found, _beside_edges(solution.fraction, mesh)
         mass = solution.final.coefficients.density * state.thickness
@@ -277,14 +274,16 @@ class OuterIteration:
             rubbing=self._rubbing(solution),
         )
 
-    def _rubbing(self, solution: GridSolution) -> tuple[Mask, Array] | None:
-        """Nodes where the surfaces touch, and the heat of their friction [W/m^2], both (nx, ny)."""
+    def _rubbing(self, solution: GridSolution) -> tuple[Array, Array] | None:
+        """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], both
+        (nx, ny); None of a film that nowhere touches.
+        """
         if not solution.touches:
             return None
         first, second = self.physics.speeds
         friction = (self.physics.boundary_friction or 0.0) * abs(second - first)
         pressure = self.problem.scales.pressure * np.asarray(solution.state.contact_pressure)
-        return solution.state.touching, friction * pressure
+        return solution.state.oil_share, friction * pressure
 
     def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
         """Surfaces of both bodies on the grid."""
@@ -350,7 +349,8 @@ class OuterIteration:
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
         rises, films, central, ends = list[float](), list[float](), np.inf, False
-        loose, missed = _LOOSE if carried is None else _LOOSE_CARRYING, 0
+        # The temperature in cavities and next to spots follows small changes of the film.
+        loose, missed = _LOOSE if carried is None else self.posed.tolerance, 0
         for loop in range(self.most_loops):
             steps, tolerance = (
                 (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, loose))
@@ -824,8 +824,8 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
     problem, physics = iteration.problem, iteration.physics
     mesh = iteration.level.mesh
     columns, filled = iteration.columns(last, last.law)
-    # The oil of the boundary film is no lubricant: friction coefficients of asperities stand for it.
-    sheared = filled * ~state.touching
+    # Friction coefficients of asperities stand for the oil where these carry the load.
+    sheared = filled * state.oil_share
     friction = traction(
         columns,
         state.thickness,

@@ -73,6 +73,12 @@ class State:
         """Pressure of the oil, shape (nx, ny)."""
         return self.pressure - self.contact_pressure
 
+    @property
+    def oil_share(self) -> Array:
+        """Part of the pressure of each node that the oil has, shape (nx, ny)."""
+        shared = np.clip(self.oil_pressure, 0.0, self.pressure)
+        return np.divide(shared, self.pressure, out=np.ones_like(shared), where=self.touching)
+
     def lifted(self, smallest: float) -> State:
         """State with H00 raised, if necessary, so that H is at least ``smallest`` everywhere."""
         return self.shifted(max(0.0, smallest - float(self.thickness.min())))

@@ -241,10 +241,26 @@ class Faces:
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:
-    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes."""
+    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes.
+
+    The mass of cavitated nodes is all that flows out of them along the film, with its drift.
+    """
     k = flow.coefficients
     density, density_p = (np.where(filled, values, 0.0) for values in (k.density, k.density_p))
-    return replace(flow, coefficients=replace(k, density=density, density_p=density_p))
+    coefficients = replace(k, density=density, density_p=density_p)
+    return replace(flow, coefficients=coefficients, along=flow.along.without_drift(~filled[:-1]))
+
+
+def at_drift(flow: Flow, mass: Array, full: Array, dx: float) -> Array:
+    """Mass theta rho H of cavitated nodes from the ``mass`` that flows out of them, all of shape (nx, ny).
+
+    A part theta of the gap drifts by the same part of what the full gap, with the mass ``full``, would.
+    """
+    drift = flow.along.drift
+    if isinstance(drift, float):
+        return mass
+    drifting = np.concatenate([drift, drift[-1:]])
+    return mass * full / (full - dx * drifting)
 
 
 def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: Supply) -> Array:
@@ -394,5 +410,7 @@ def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carrie
     runs, filled = Runs.of(carried.filled), carried.filled
     rows = unreduced(level, at_faces, thickness, filled, carried.supply)
     full = at_faces.coefficients.density * thickness
-    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
+    mass = content(runs, rows, full, level.mesh.dx)
+    mass = np.where(filled, mass, at_drift(at_faces, mass, full, level.mesh.dx))
+    mass = carried.supply.at_rupture(filled, mass)
     return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass
