@@ -22,7 +22,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.film.mesh import Mesh
 
 # Difference of ln eta below which two nodes count as alike: the series of the mean is then exact to rounding.
@@ -43,6 +43,11 @@ class Fluid:
     # Relation between flux, pressure and film thickness: a key of ``FLOWS``, or the law itself, a function of
     # fluid, P (nx, ny), H (nx, ny) and mesh that returns a ``Flow``
     flow: str | FlowLaw = "newtonian"
+
+    @property
+    def ambient_density(self) -> float:
+        """Density ratio of the oil that is supplied, at ambient pressure and inlet temperature."""
+        return float(self.density(np.full(1, self.ambient_pressure))[0][0])
 
 
 @dataclass(frozen=True)
@@ -132,8 +137,46 @@ class Flow:
     # pressure-driven flow across entrainment, with arrays (lines - 1, nx); None for a line contact.
     across: FaceFlow | None
 
+    def undrifted(self, cavitated: Mask) -> Flow:
+        """Flow without the drift out of cavitated nodes, a mask (nx, ny).
+
+        It is that of the full gap. The mass of these nodes is all that the surfaces carry out of them.
+        """
+        return replace(self, along=self.along.without_drift(cavitated[:-1]))
+
+    def carried(self, thickness: Array, dx: float) -> Array:
+        """Mass that the surfaces carry out of each node of a full gap H (nx, ny), rho H and its drift."""
+        full: Array = self.coefficients.density * thickness
+        drift = self.along.drift
+        if isinstance(drift, float):
+            return full
+        return full - dx * np.concatenate([drift, drift[-1:]])
+
 
 FlowLaw: TypeAlias = Callable[[Fluid, Array, Array, Mesh], Flow]
+
+
+@dataclass(frozen=True, eq=False)
+class Undrifted:
+    """Flow law without the drift out of nodes that are cavitated; see ``Flow.undrifted``."""
+
+    law: FlowLaw
+    mesh: Mesh
+    cavitated: Mask  # nodes of ``mesh``, shape (nx, ny)
+
+    def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
+        """Flow on any mesh of the same contact, each node of which is as the nearest one of ``mesh``."""
+        rows, lines = (nearest(*axes) for axes in ((self.mesh.x, mesh.x), (self.mesh.y, mesh.y)))
+        return self.law(fluid, pressure, thickness, mesh).undrifted(self.cavitated[np.ix_(rows, lines)])
+
+
+def nearest(nodes: Array, positions: Array) -> IntArray:
+    """Index of the node, of uniform ``nodes`` (n,), that is nearest to each of the ``positions`` (m,)."""
+    if nodes.size == 1:
+        return np.zeros(positions.size, dtype=np.intp)
+    index = np.rint((positions - nodes[0]) / (nodes[1] - nodes[0])).astype(np.intp)
+    return np.asarray(np.clip(index, 0, nodes.size - 1))
+
 
 # Flow along the first axis, from quantities at the nodes (n, m) and the spacing.
 FaceLaw: TypeAlias = Callable[..., FaceFlow]

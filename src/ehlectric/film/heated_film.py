@@ -90,9 +90,6 @@ _HELD, _HELD_TURNS = 60, 15
 # Least part of a gap that counts as filled in the energy equation, which has no solution without oil.
 _LEAST_FILLED = 1e-6
 
-# Multiple of the change at which the temperature stands, up to which it may follow a film of full order.
-_MOVED = 20.0
-
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
 
@@ -391,7 +388,7 @@ class OuterIteration:
         if full is not solution:
             # The film has moved since its temperature was found.
             new = self._heated(full, heat, law, surfaces)
-            if new is not None and change_between(weight, heat, new, thermal) < _MOVED * allowed:
+            if new is not None and change_between(weight, heat, new, thermal) < allowed:
                 solution, heat = full, new
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)

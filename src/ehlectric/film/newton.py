@@ -132,7 +132,7 @@ class GridSolution:
         """Part of the gap that oil fills, shape (nx, ny); None where it is not carried."""
         if self.content is None:
             return None
-        return self.content.fraction(self.final.coefficients.density * self.state.thickness)
+        return self.content.fraction(self.final.flow.carried(self.state.thickness, self.level.mesh.dx))
 
     @property
     def touches(self) -> bool:

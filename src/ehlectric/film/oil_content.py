@@ -241,26 +241,11 @@ class Faces:
 
 
 def of_filled(flow: Flow, filled: Mask) -> Flow:
-    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes.
-
-    The mass of cavitated nodes is all that flows out of them along the film, with its drift.
-    """
+    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes."""
     k = flow.coefficients
     density, density_p = (np.where(filled, values, 0.0) for values in (k.density, k.density_p))
-    coefficients = replace(k, density=density, density_p=density_p)
-    return replace(flow, coefficients=coefficients, along=flow.along.without_drift(~filled[:-1]))
-
-
-def at_drift(flow: Flow, mass: Array, full: Array, dx: float) -> Array:
-    """Mass theta rho H of cavitated nodes from the ``mass`` that flows out of them, all of shape (nx, ny).
-
-    A part theta of the gap drifts by the same part of what the full gap, with the mass ``full``, would.
-    """
-    drift = flow.along.drift
-    if isinstance(drift, float):
-        return mass
-    drifting = np.concatenate([drift, drift[-1:]])
-    return mass * full / (full - dx * drifting)
+    flow = replace(flow, coefficients=replace(k, density=density, density_p=density_p))
+    return flow.undrifted(~filled)
 
 
 def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: Supply) -> Array:
@@ -275,10 +260,10 @@ def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: 
 
 
 def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
-    """Mass of oil (nx, ny): rho H at filled nodes, theta rho H at cavitated nodes.
+    """Mass of oil that the surfaces carry out of each node (nx, ny): that of the full gap at filled nodes.
 
     ``rows`` (nx, ny) are those of the Reynolds equation without the masses of cavitated nodes, as
-    ``unreduced`` returns them; ``full`` (nx, ny) is the mass rho H of the full gap.
+    ``unreduced`` returns them; ``full`` (nx, ny) is the mass that a full gap carries.
 
     Examples
     --------
@@ -348,7 +333,8 @@ class Carried:
 
     supply: Supply  # oil at the inlet edge and order of the wedge term
     filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
-    mass: Array = field(default_factory=lambda: np.zeros((1, 1)))  # mass theta rho H of oil, shape (nx, ny)
+    # Mass of oil that the surfaces carry out of each node, theta times that of the full gap, shape (nx, ny).
+    mass: Array = field(default_factory=lambda: np.zeros((1, 1)))
 
     @property
     def hollow(self) -> Mask:
@@ -357,7 +343,7 @@ class Carried:
         return ~self.filled & ahead
 
     def fraction(self, full: Array) -> Array:
-        """Part theta of the gap that oil fills, from the mass rho H of the full gap, both (nx, ny)."""
+        """Part theta of the gap that oil fills, from the mass that a full gap carries, both (nx, ny)."""
         return np.where(self.filled, 1.0, np.clip(self.mass / full, 0.0, 1.0))
 
     def on(self, level: Level) -> Carried:
@@ -369,7 +355,7 @@ def filled_anew(
     level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
 ) -> tuple[Carried, Array]:
     """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
-    full = at_faces.coefficients.density * thickness
+    full = at_faces.carried(thickness, level.mesh.dx)
     r, mass = carried_rows(level, at_faces, thickness, carried)
     surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
     moved = full_film_nodes(
@@ -406,11 +392,9 @@ def _backed_up(filled: Mask, mass: Array, full: Array) -> Mask:
 
 
 def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carried) -> tuple[Array, Array]:
-    """Rows of the filled nodes, zero elsewhere, and the mass of the carried oil, both (nx, ny)."""
+    """Rows of the filled nodes, zero elsewhere, and the mass that the surfaces carry, both (nx, ny)."""
     runs, filled = Runs.of(carried.filled), carried.filled
     rows = unreduced(level, at_faces, thickness, filled, carried.supply)
-    full = at_faces.coefficients.density * thickness
-    mass = content(runs, rows, full, level.mesh.dx)
-    mass = np.where(filled, mass, at_drift(at_faces, mass, full, level.mesh.dx))
-    mass = carried.supply.at_rupture(filled, mass)
+    full = at_faces.carried(thickness, level.mesh.dx)
+    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
     return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass

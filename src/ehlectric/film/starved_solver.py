@@ -75,7 +75,7 @@ def oil_fraction(solution: GridSolution, order: int) -> Array:
     if solution.fraction is not None:
         return solution.fraction
     level, at_faces = solution.level, solution.final.flow
-    full = at_faces.coefficients.density * solution.state.thickness
+    full = at_faces.carried(solution.state.thickness, level.mesh.dx)
     filled = with_inlet(solution.final.full_film)
     carried = Carried(flooded_inlet(level, order), filled)
     _, mass = carried_rows(level, at_faces, solution.state.thickness, carried)
@@ -222,7 +222,7 @@ class StarvedProblem:
         if cold is not None and cold.status == "converged" and cold.content is not None:
             # Both films pass nearly the same part of their layer.
             supplied = at_centre_line(self.level, cold.content.supply.mass)
-            ambient = self.flooded.final.coefficients.density[0, 0]
+            ambient = self.posed.fluid.ambient_density
             fall = float(ambient * at_centre_line(self.level, layer) / supplied)
             # The spots of a film on a coarser grid are others.
             guesses.insert(0 if cold.touches else len(guesses), self._follow(cold, fall))
@@ -237,7 +237,7 @@ class StarvedProblem:
 
     def _under(self, layer: Array, guess: Guess) -> GridSolution:
         """Film under a layer of oil (ny,), from a guess."""
-        ambient = self.flooded.final.coefficients.density[0]
+        ambient = self.posed.fluid.ambient_density
         return self.film(guess, Supply(ambient * layer, self.order, first_order=self.first_order))
 
     def _from_flooded(self, layer: Array) -> Guess:
@@ -335,7 +335,7 @@ def film_of_ratio(
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
     lines, mesh = np.ones_like(starved.level.mesh.y), starved.level.mesh
-    ambient = float(starved.flooded.final.coefficients.density[0, 0])
+    ambient = starved.posed.fluid.ambient_density
     if starved.flooded.status != "converged":
         return None, None
     if ratio >= _FLOODED:
@@ -371,7 +371,7 @@ def taken_layer(starved: StarvedProblem) -> Array:
     density = flow.coefficients.density
     mass = density * flooded.state.thickness
     edge = mass[0] if starved.order == 1 else 0.5 * (mass[0] + mass[1])
-    taken: Array = (edge - mesh.dx * flow.along.flux[0]) / density[0]
+    taken: Array = (edge - mesh.dx * flow.along.flux[0]) / starved.posed.fluid.ambient_density
     return taken
 
 

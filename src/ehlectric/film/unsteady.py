@@ -42,13 +42,14 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.energy_equation import Heat, Mixing
+from ehlectric.film.flow import Undrifted
 from ehlectric.film.heated_film import HeatedGrid
 from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.moving_heat import MOST_TURNS, MovingHeat, Warmth
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import GridProblem, GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.reynolds import ALONG, Stencil
+from ehlectric.film.reynolds import ALONG, Stencil, residual
 from ehlectric.film.touching_film import touching_newton
 
 # Distance in grid spacings within which the foot of a line counts as a node.
@@ -168,7 +169,9 @@ def stationary_mass(stationary: GridSolution) -> Array:
     mass = full.copy()
     cavitated = ~final.full_film & level.mesh.inner & (level.mesh.x > 0.0)[:, np.newaxis]
     # Oil that the pressure gradient drives into a node, mainly into the first node behind the full film.
-    driven = level.wedge(full) - final.reynolds
+    flow = final.flow.undrifted(cavitated)
+    driven = level.wedge(full) - residual(flow, level.wedge, stationary.state.thickness, level.mesh)
+    driven += level.source
     for i in np.flatnonzero(cavitated.any(axis=1)):
         flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * level.mesh.dx * driven[i]) / 3.0
         mass[i] = np.where(cavitated[i], np.clip(flowing, 0.0, full[i]), full[i])
@@ -397,8 +400,8 @@ class UnsteadyFilm:
         if self.layer is None or steady.content is None:
             mass, filled = stationary_mass(steady), steady.final.full_film
         else:
-            mass = np.clip(steady.content.mass, 0.0, density * state.thickness)
-            filled = steady.content.filled
+            filled, full = steady.content.filled, density * state.thickness
+            mass = np.where(filled, full, np.clip(steady.content.mass, 0.0, full))
         now = Instant(0.0, state, mass, density, filled)
         if self._heat is not None and self._hot is not None:
             now = replace(now, warmth=self._heat.start(self._hot, now.oil_fraction))
@@ -436,7 +439,8 @@ class UnsteadyFilm:
         effort, mixing, solution = Effort(), Mixing(), None
         for _ in range(MOST_TURNS):
             last = history.now.state if solution is None else solution.state
-            solution, work = self._solved(self._posed(levels, last, heat), history, step, solution)
+            posed = self._posed(levels, last, heat, history.now.full_film)
+            solution, work = self._solved(posed, history, step, solution)
             effort += work
             if solution is None:
                 break
@@ -451,11 +455,16 @@ class UnsteadyFilm:
             heat = new.heat.with_vector(mixing(heat.vector, new.heat.vector))
         return None, effort
 
-    def _posed(self, levels: list[Level], last: State, heat: Heat | None) -> GridProblem:
-        """Equations of a time step, with the flow law of the temperature of a film at the state ``last``."""
+    def _posed(self, levels: list[Level], last: State, heat: Heat | None, filled: Mask) -> GridProblem:
+        """Equations of a time step, with the flow law of the temperature of a film at the state ``last``.
+
+        ``filled`` are the nodes (nx, ny) that oil filled before the step: only there it drifts.
+        """
         fluid, tolerance = self.problem.fluid, max(self.problem.tolerance, STEP_TOLERANCE)
         if self._hot is not None:
-            fluid = replace(fluid, flow=self._hot.iteration.flow(last, heat))
+            cavitated = ~filled if self.layer is not None else ~filled & self.level.mesh.inner
+            law = self._hot.iteration.flow(last, heat)
+            fluid = replace(fluid, flow=Undrifted(law, self.level.mesh, cavitated))
         return GridProblem(fluid, levels, tolerance, _MANY_ITERATIONS, None, self.problem.asperities)
 
     def _solved(
@@ -528,6 +537,6 @@ class UnsteadyFilm:
         if self.layer is None:
             mass, full_film = mass_after(solution), solution.final.full_film
         else:
-            oil = oil_after(solution, density[0] * self.layer)
+            oil = oil_after(solution, self.problem.fluid.ambient_density * self.layer)
             mass, full_film = oil.mass, oil.filled
         return Instant(time, solution.state, mass, density, full_film)
