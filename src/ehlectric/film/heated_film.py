@@ -90,6 +90,10 @@ _HELD, _HELD_TURNS = 60, 15
 # Least part of a gap that counts as filled in the energy equation, which has no solution without oil.
 _LEAST_FILLED = 1e-6
 
+# Part of the heat that a film may make or lose by its grid. More says that temperature and film are not those
+# of one another, however little they change.
+_MOST_IMBALANCE = 0.1
+
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
 
@@ -271,6 +275,12 @@ class OuterIteration:
             rubbing=self._rubbing(solution),
         )
 
+    def imbalance(self, solution: GridSolution, heat: Heat, flow: ShearedFlow) -> float:
+        """Heat of a film that the bodies and the oil do not take up, over all heat."""
+        assert self.physics.thermal is not None
+        stream = self.stream(solution, heat, *self.columns(solution, flow))
+        return energy_imbalance(stream, heat, self.physics.thermal.inlet_temperature)
+
     def _rubbing(self, solution: GridSolution) -> tuple[Array, Array] | None:
         """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], both
         (nx, ny); None of a film that nowhere touches.
@@ -390,6 +400,9 @@ class OuterIteration:
             new = self._heated(full, heat, law, surfaces)
             if new is not None and change_between(weight, heat, new, thermal) < allowed:
                 solution, heat = full, new
+        solves = self.finer == 0 and solution.status == "converged"
+        if solves and self.imbalance(solution, heat, law) > _MOST_IMBALANCE:
+            solution = replace(solution, status="stalled")
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
 
@@ -834,9 +847,8 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
     scales, level = problem.scales, iteration.level
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat, imbalance = last.heat, None
-    if heat is not None and physics.thermal is not None:
-        stream = iteration.stream(last, heat, columns, filled)
-        imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
+    if heat is not None:
+        imbalance = iteration.imbalance(last, heat, last.law)
     return HeatedSolution(
         refined=refined,
         simple=simple,

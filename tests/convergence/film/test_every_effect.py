@@ -178,6 +178,7 @@ def test_a_hot_film_of_sliding_surfaces_gets_its_layer_and_no_more():
     assert meniscus > 80
     # The oil of the node before the meniscus flows back.
     np.testing.assert_allclose(layer[1 : meniscus - 1], 60e-9, rtol=1e-3)
+    # The pressure compresses the oil.
     assert film.central_thickness < 60e-9
 
 
