@@ -35,6 +35,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -299,6 +300,9 @@ def oil_after(step: GridSolution, layer: Array) -> Oil:
 # step.
 STEP_TOLERANCE = 1e-6
 
+# Part of the load that the pressure may miss: a step with more has one Newton step more.
+_LOAD_MISSED = 1e-9
+
 # Largest numbers of Newton steps before a time step is halved: from the better of two initial guesses, the
 # extrapolated and the last film, and from the other one.
 _FEW_ITERATIONS, _MANY_ITERATIONS = 8, 30
@@ -488,6 +492,8 @@ class UnsteadyFilm:
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < boundary_film:
                     break
+                if abs(solution.final.load) > _LOAD_MISSED * posed.level.load:
+                    return self._closer(solution, effort, partial(newton, transient=True), limited)
                 return solution, effort
         if boundary_film > 0.0:
             # The surfaces touch or part in this step: it starts from the last film.
@@ -496,10 +502,17 @@ class UnsteadyFilm:
             effort += Effort.of(solution)
             if solution.status == "converged":
                 # A residual that is small as a pressure may be much oil: one step more leaves none.
-                closer = touching_newton(posed, solution.state, first_damping=0.0, min_iterations=1)
-                effort += Effort.of(closer)
-                return closer if closer.status == "converged" else solution, effort
+                return self._closer(solution, effort, partial(touching_newton, first_damping=0.0), posed)
         return None, effort
+
+    @staticmethod
+    def _closer(
+        solution: GridSolution, effort: Effort, method: Callable[..., GridSolution], posed: GridProblem
+    ) -> tuple[GridSolution, Effort]:
+        """Film after at least one Newton step more by a method, or the film itself where it misses."""
+        closer = method(posed, solution.state, min_iterations=1)
+        effort += Effort.of(closer)
+        return closer if closer.status == "converged" else solution, effort
 
     def _starts(self, posed: GridProblem, history: History, step: float) -> list[tuple[State, bool]]:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
