@@ -216,7 +216,7 @@ def film_thickness(line: Line) -> Panel:
     if smooth is not None:
         curves.insert(0, line.curve("film, smooth surfaces", factor * smooth.thickness, *_SMOOTH))
     if film.film_fraction is not None:
-        curves.append(line.curve("layer of oil", film.film_fraction * thickness, ORANGE, "solid", 0.7))
+        curves.append(line.curve("layer of oil", film.film_fraction * thickness, ORANGE, "dot", 1.0))
     if touches(result):
         on = line.of(film.contact)
         curves.append(Curve(SPOTS, line.x[on], line.of(thickness)[on], BLACK, marker="dots"))
