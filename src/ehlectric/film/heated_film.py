@@ -231,14 +231,19 @@ class OuterIteration:
             return posed
         return replace(posed, max_iterations=max(posed.max_iterations, _TOUCHING))
 
-    def _of_full_order(self, solution: GridSolution, law: ShearedFlow) -> GridSolution:
-        """Film of the same temperature whose nodes have no upwind difference that it does not need."""
+    def _closer(self, solution: GridSolution, law: ShearedFlow, *, full_order: bool) -> GridSolution:
+        """Film of the same temperature after at least one more Newton step, as a residual that is small as a
+        pressure may be much oil; the film itself where it has no oil to carry or the step misses.
+
+        With ``full_order`` its nodes have no upwind difference that it does not need.
+        """
         if solution.content is None or solution.status != "converged":
             return solution
         most = _CARRYING * self.problem.max_iterations
         posed = replace(self.posed, fluid=replace(self.problem.fluid, flow=law), max_iterations=most)
         guess = Guess(solution.state, solution.content.filled)
-        again = isothermal(posed)(guess, solution.content.supply)
+        solver = isothermal(posed, full_order=full_order, min_iterations=0 if full_order else 1)
+        again = solver(guess, solution.content.supply)
         return again if again.status == "converged" else solution
 
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
@@ -349,7 +354,7 @@ class OuterIteration:
             solution, law, _ = self.film(
                 state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, carried=carried
             )
-            solution = self._of_full_order(solution, law)
+            solution = self._closer(solution, law, full_order=True)
             return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
         heat = self.start(thermal) if heat is None else heat
         surfaces, weight = self.surfaces(thermal), node_weight(self.level, state)
@@ -394,12 +399,14 @@ class OuterIteration:
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        full = self._of_full_order(solution, law)
+        full = self._closer(solution, law, full_order=True)
         if full is not solution:
             # The film has moved since its temperature was found.
             new = self._heated(full, heat, law, surfaces)
             if new is not None and change_between(weight, heat, new, thermal) < allowed:
                 solution, heat = full, new
+            else:
+                solution = self._closer(solution, law, full_order=False)
         solves = self.finer == 0 and solution.status == "converged"
         if solves and self.imbalance(solution, heat, law) > _MOST_IMBALANCE:
             solution = replace(solution, status="stalled")
