@@ -249,6 +249,8 @@ class Stream:
     compression: Array
     compression_p: Array  # derivative of ``compression`` by the pressure at the same node [1/(s K)]
     expansion: Array  # -(1/rho) (d rho/dT) [1/K], zero where oil does not fill the gap
+    # Heat of asperities that rub [W/m^2], half of which arises at each surface, shape (nx, ny).
+    rubbed: Array | float = 0.0
     earlier: Earlier | None = None  # oil at the instant before; None of a stationary film
 
     @property
@@ -297,6 +299,7 @@ class HeatColumns:
         neighbours = [carried * part for part in flow.neighbours]
         diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
+        source[[0, -1]] += 0.5 * stream.rubbed
         gained = flow.divergence
         if stream.earlier is not None:
             held = carried * stream.mass / stream.earlier.step
@@ -384,19 +387,17 @@ def stream_of(
     ``temperature`` [K], shape (nz, nx, ny); ``pressure`` and ``thickness``, pressure [Pa] and film thickness
     [m], shape (nx, ny); ``filled``, share of the gap that oil fills, shape (nx, ny); ``length``,
     ``pressure_scale``, ``speed`` and ``stress``, half-width b [m], Hertz pressure [Pa], entrainment speed
-    [m/s], and scale of the stresses [Pa]; ``rubbing``, share of the oil in the pressure of each node, which
-    is also the part of its heat of shear, and the heat of asperities that rub [W/m^2], both of shape
-    (nx, ny). Returns velocities, properties and sources of heat.
+    [m/s], and scale of the stresses [Pa]; ``rubbing``, part of each node in which the oil is sheared, its
+    share of the pressure, and the heat of asperities that rub [W/m^2], both of shape (nx, ny). Returns
+    velocities, properties and sources of heat.
     """
     u, v = speed * columns.speed
     viscosity = oil.log_viscosity(pressure, temperature)
     density = oil.density(pressure, temperature)
     heating = columns.heating * (stress * speed / thickness)
     heating_slope = np.minimum(0.0, heating * columns.softening * viscosity.by_temperature)
-    if rubbing is not None:
-        oil_share, rubbed = rubbing
-        heating_slope *= oil_share
-        heating = oil_share * heating + rubbed / thickness
+    oil_share, rubbed = (1.0, 0.0) if rubbing is None else rubbing
+    heating, heating_slope = oil_share * heating, oil_share * heating_slope
     along = upstream_slope(pressure, u, mesh.dx * length)
     across = columns.gradient[1] * (pressure_scale / length)
     expansion = np.where(filled < 1.0, 0.0, -density.by_temperature / density.value)
@@ -417,6 +418,7 @@ def stream_of(
         compression=expansion * (u * along + v * across),
         compression_p=expansion * np.abs(u) / (mesh.dx * length),
         expansion=expansion,
+        rubbed=rubbed,
     )
 
 
@@ -711,7 +713,8 @@ class FrozenTemperature:
 
 
 def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> float:
-    """Heat that neither the bodies nor the oil take up, over the heat that is made.
+    """Heat that neither the bodies nor the oil take up, over the heat that is made, or that flows from body
+    to body where this is more.
 
     Heating and cooling by compression count with their absolute values. Oil enters at ``inlet_temperature``
     [K].
@@ -724,8 +727,9 @@ def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> fl
     along, lines = trapezoidal_weights(stream.u.shape[1], stream.dx), _lines(stream)
     area = along[:, np.newaxis] * lines
     compression = stream.compression * heat.temperature
-    made = np.sum(filled * (stream.heating + compression), axis=0)
-    size = np.sum(filled * (stream.heating + np.abs(compression)), axis=0)
+    made = np.sum(filled * (stream.heating + compression), axis=0) + stream.rubbed
+    size = np.sum(filled * (stream.heating + np.abs(compression)), axis=0) + stream.rubbed
+    through_film = 0.5 * np.sum(np.abs(heat.flux), axis=0)
     rise = heat.temperature - inlet_temperature
     carried = filled * stream.heat_capacity
     # div(c m (T - T0)) with the mass flow m, less (T - T0) m grad c
@@ -741,7 +745,7 @@ def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> fl
     changed = np.sum(filled * stream.density * slope * rise, axis=0)
     into_bodies = heat.flux.sum(axis=0)
     left_over = float(np.sum(area * (made - into_bodies + changed))) - out
-    return abs(left_over) / max(float(np.sum(area * size)), 1e-300)
+    return abs(left_over) / max(float(np.sum(area * size)), float(np.sum(area * through_film)), 1e-300)
 
 
 def _lines(stream: Stream) -> Array:

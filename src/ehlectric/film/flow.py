@@ -98,8 +98,9 @@ class FaceFlow:
     # difference fixed.
     by_properties: Sides
     by_gap: Sides  # derivatives of the flux by H of the two nodes
-    # Part of the flux that the slip of the surfaces drives without any gradient of P, where oil that is hot
-    # on one side moves more with the other one; its derivative by H of each node. Shape (n - 1, m).
+    # Part of the flux that the slip of the surfaces drives without any gradient of P, as hot oil on one side
+    # lets the rest move with the other side: minus this mass flow over the spacing. Its derivative by H of
+    # each of the two nodes. Both have the shape (n - 1, m).
     drift: Array | float = 0.0
     drift_by_gap: Array | float = 0.0
 
@@ -107,9 +108,14 @@ class FaceFlow:
         """Flow without the drift through the faces of a mask (n - 1, m)."""
         if isinstance(self.drift, float):
             return self
-        of_gap = np.where(where, self.drift_by_gap, 0.0)
-        by_gap = Sides(self.by_gap.before - of_gap, self.by_gap.after - of_gap)
-        return replace(self, flux=self.flux - np.where(where, self.drift, 0.0), by_gap=by_gap)
+        drift, of_gap = np.where(where, self.drift, 0.0), np.where(where, self.drift_by_gap, 0.0)
+        return replace(
+            self,
+            flux=self.flux - drift,
+            by_gap=Sides(self.by_gap.before - of_gap, self.by_gap.after - of_gap),
+            drift=self.drift - drift,
+            drift_by_gap=self.drift_by_gap - of_gap,
+        )
 
     def divergence(self) -> Array:
         """Divergence dF/dX at the inner nodes: difference of the fluxes on both sides, shape (n - 2, m)."""
@@ -138,9 +144,10 @@ class Flow:
     across: FaceFlow | None
 
     def undrifted(self, cavitated: Mask) -> Flow:
-        """Flow without the drift out of cavitated nodes, a mask (nx, ny).
+        """Flow without the drift through the faces behind cavitated nodes, a mask (nx, ny).
 
-        It is that of the full gap. The mass of these nodes is all that the surfaces carry out of them.
+        The drift at a face is that of a gap that oil fills. Oil that fills a part of the gap drifts less: the
+        mass of a cavitated node counts as what flows through the face behind it, with the drift in it.
         """
         return replace(self, along=self.along.without_drift(cavitated[:-1]))
 
@@ -158,7 +165,7 @@ FlowLaw: TypeAlias = Callable[[Fluid, Array, Array, Mesh], Flow]
 
 @dataclass(frozen=True, eq=False)
 class Undrifted:
-    """Flow law without the drift out of nodes that are cavitated; see ``Flow.undrifted``."""
+    """Flow law without the drift behind nodes that are cavitated; see ``Flow.undrifted``."""
 
     law: FlowLaw
     mesh: Mesh

@@ -90,8 +90,8 @@ _HELD, _HELD_TURNS = 60, 15
 # Least part of a gap that counts as filled in the energy equation, which has no solution without oil.
 _LEAST_FILLED = 1e-6
 
-# Part of the heat that a film may make or lose by its grid. More says that temperature and film are not those
-# of one another, however little they change.
+# Part of its heat that a film may make or lose by its grid. Where it is more, film and temperature do not
+# belong together, even if both stand still.
 _MOST_IMBALANCE = 0.1
 
 # Largest ratio of two successive changes in the estimate of the distance.
@@ -119,6 +119,17 @@ class HeatedGrid(GridSolution):
         if middle is None or thermal is None:
             return None
         return float(np.max(middle)) - thermal.inlet_temperature
+
+    def moved(self, film: GridSolution, heat: Heat) -> HeatedGrid:
+        """The same grid with another film and its temperature; the steps that led there stay."""
+        return replace(
+            self,
+            state=film.state,
+            final=film.final,
+            status=film.status,
+            content=film.content,
+            heat=heat,
+        )
 
     @property
     def filled(self) -> Mask | None:
@@ -232,10 +243,9 @@ class OuterIteration:
         return replace(posed, max_iterations=max(posed.max_iterations, _TOUCHING))
 
     def _closer(self, solution: GridSolution, law: ShearedFlow, *, full_order: bool) -> GridSolution:
-        """Film of the same temperature after at least one more Newton step, as a residual that is small as a
-        pressure may be much oil; the film itself where it has no oil to carry or the step misses.
-
-        With ``full_order`` its nodes have no upwind difference that it does not need.
+        """Film of the same temperature without upwind differences that it does not need, or unless
+        ``full_order`` the film after one more Newton step, as a residual that is small as a pressure may be
+        much oil. It is the film itself where it carries no oil, or where its iteration fails.
         """
         if solution.content is None or solution.status != "converged":
             return solution
@@ -246,10 +256,17 @@ class OuterIteration:
         again = solver(guess, solution.content.supply)
         return again if again.status == "converged" else solution
 
-    def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
-        """Stresses and speeds across the film, and the share of the gap that oil fills."""
+    def columns(
+        self, solution: GridSolution, flow: ShearedFlow, filled: Mask | None = None
+    ) -> tuple[Columns, Array]:
+        """Stresses and speeds across the film, and the share of the gap that oil fills.
+
+        ``filled`` (nx, ny) marks the nodes that oil fills, where the solution does not carry its oil itself.
+        """
         state, mesh = solution.state, self.level.mesh
-        driven = True if solution.content is None else solution.content.filled
+        driven: Mask | bool = True if filled is None else filled
+        if solution.content is not None:
+            driven = solution.content.filled
         found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh, driven=driven)
         if solution.fraction is not None:
             return found, _beside_edges(solution.fraction, mesh)
@@ -347,27 +364,47 @@ class OuterIteration:
 
     def _turns(self, state: State, heat: Heat | None, filled: Mask | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature in turns, from an initial guess of both."""
-        thermal, most = self.physics.thermal, self.problem.max_iterations
+        thermal = self.physics.thermal
         carried = None if self.supply is None or filled is None else Carried(self.supply, filled)
-        times = 1 if carried is None else _CARRYING
         if thermal is None:
-            solution, law, _ = self.film(
-                state, None, steps=times * most, tolerance=self.posed.tolerance, spike=spike, carried=carried
-            )
-            solution = self._closer(solution, law, full_order=True)
-            return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
+            return self._without_heat(state, carried, spike=spike)
         heat = self.start(thermal) if heat is None else heat
-        surfaces, weight = self.surfaces(thermal), node_weight(self.level, state)
-        mixing, taken = _mixing(weight, heat), list[NewtonStep]()
-        allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
-        rises, films, central, ends = list[float](), list[float](), np.inf, False
+        weight = node_weight(self.level, state)
+        found = self._alternating(thermal, state, heat, carried, weight=weight, spike=spike)
+        return self._settled(found, thermal, weight)
+
+    def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
+        """Film of an oil that thins under shear, at the temperature of the inlet."""
+        most = self.problem.max_iterations * (1 if carried is None else _CARRYING)
+        tolerance = self.posed.tolerance
+        solution, law, _ = self.film(
+            state, None, steps=most, tolerance=tolerance, spike=spike, carried=carried
+        )
+        solution = self._closer(solution, law, full_order=True)
+        return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
+
+    def _alternating(
+        self,
+        thermal: Thermal,
+        state: State,
+        heat: Heat,
+        carried: Carried | None,
+        *,
+        weight: Array,
+        spike: bool,
+    ) -> HeatedGrid:
+        """Film and temperature in turns until both stand, or their iteration ends without.
+
+        ``weight`` (nx, ny) is that of the changes of the temperature.
+        """
+        most, times = self.problem.max_iterations, 1 if carried is None else _CARRYING
         # The temperature in cavities and next to spots follows small changes of the film.
-        loose, missed = _LOOSE if carried is None else self.posed.tolerance, 0
+        loose = self.posed.tolerance if carried is not None else max(self.posed.tolerance, _LOOSE)
+        surfaces, mixing, taken = self.surfaces(thermal), _mixing(weight, heat), list[NewtonStep]()
+        rises, films, central, ends, missed = list[float](), list[float](), np.inf, False, 0
         for loop in range(self.most_loops):
-            steps, tolerance = (
-                (most, self.posed.tolerance) if ends else (_STEPS, max(self.posed.tolerance, loose))
-            )
-            solution, law, heat = self.film(
+            steps, tolerance = (most, self.posed.tolerance) if ends else (_STEPS, loose)
+            solution, law, now = self.film(
                 state,
                 heat,
                 steps=times * steps,
@@ -375,17 +412,17 @@ class OuterIteration:
                 spike=spike and loop == 0,
                 carried=carried,
             )
-            assert heat is not None
-            carried = solution.content
+            assert now is not None
+            heat, carried = now, solution.content
             taken += solution.steps
             before, central = central, at_centre(self.level.mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * max(central, SMALLEST_GAP)))
-            stands = ends and solution.status == "converged" and films[-1] < allowed
+            stands = ends and solution.status == "converged" and films[-1] < self._allowed
             missed = missed + 1 if carried is not None and solution.status == "stalled" else 0
             if stands or solution.status == "diverged" or missed == _MISSED:
                 break
             if self.held and loop < _HELD_TURNS:
-                new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
+                new = self._temperature_of_held(solution, heat, surfaces, weight, self._allowed)
             else:
                 law = self.flow(solution.state, heat) if self.careful else law
                 new = self._heated(solution, heat, law, surfaces)
@@ -394,24 +431,32 @@ class OuterIteration:
                 break
             rises.append(change_between(weight, heat, new, thermal))
             # Film and temperature that are close enough end with a film at the last temperature.
-            ends = max(self._distance(rises), self._distance(films)) < allowed
+            ends = max(self._distance(rises), self._distance(films)) < self._allowed
             state = solution.state
             heat = _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        full = self._closer(solution, law, full_order=True)
-        if full is not solution:
-            # The film has moved since its temperature was found.
-            new = self._heated(full, heat, law, surfaces)
-            if new is not None and change_between(weight, heat, new, thermal) < allowed:
-                solution, heat = full, new
-            else:
-                solution = self._closer(solution, law, full_order=False)
-        solves = self.finer == 0 and solution.status == "converged"
-        if solves and self.imbalance(solution, heat, law) > _MOST_IMBALANCE:
-            solution = replace(solution, status="stalled")
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
+
+    def _settled(self, found: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
+        """Film without upwind differences that it does not need, if its temperature stands there."""
+        assert found.heat is not None
+        full = self._closer(found, found.law, full_order=True)
+        if full is not found:
+            # The film has moved since its temperature was found.
+            heat = found.heat
+            new = self._heated(full, heat, found.law, self.surfaces(thermal))
+            if new is not None and change_between(weight, heat, new, thermal) < self._allowed:
+                found = found.moved(full, new)
+            else:
+                found = found.moved(self._closer(found, found.law, full_order=False), heat)
+        return found
+
+    @property
+    def _allowed(self) -> float:
+        """Distance at which film and temperature stand on this grid, over that on the finest grid."""
+        return _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
 
     def _temperature_of_held(
         self,
@@ -854,8 +899,11 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
     scales, level = problem.scales, iteration.level
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat, imbalance = last.heat, None
+    status = last.status
     if heat is not None:
         imbalance = iteration.imbalance(last, heat, last.law)
+        if status == "converged" and imbalance > _MOST_IMBALANCE:
+            status = "stalled"
     return HeatedSolution(
         refined=refined,
         simple=simple,
@@ -874,7 +922,7 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
         ),
         energy_imbalance=imbalance,
         outer_iterations=sum(grid.loops for grid in found),
-        status=last.status,
+        status=status,
     )
 
 

@@ -57,6 +57,7 @@ class MovingHeat:
     iteration: OuterIteration  # rheology, heat and grid
     stationary: Heat
     surfaces: tuple[Surface, Surface]  # surfaces of the stationary film
+    carried: bool  # whether the stationary film carries its oil through cavities
 
     @classmethod
     def of(cls, steady: HeatedGrid) -> MovingHeat | None:
@@ -64,7 +65,8 @@ class MovingHeat:
         thermal = steady.iteration.physics.thermal
         if thermal is None or steady.heat is None:
             return None
-        return cls(steady.iteration, steady.heat, steady.iteration.surfaces(thermal))
+        surfaces = steady.iteration.surfaces(thermal)
+        return cls(steady.iteration, steady.heat, surfaces, steady.content is not None)
 
     @property
     def thermal(self) -> Thermal:
@@ -133,7 +135,7 @@ class MovingHeat:
     def _stream(self, solution: GridSolution, heat: Heat, filled: Array) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
         law = self.iteration.flow(solution.state, heat)
-        columns, _ = self.iteration.columns(solution, law)
+        columns, _ = self.iteration.columns(solution, law, filled >= 1.0 if self.carried else None)
         return self.iteration.stream(solution, heat, columns, filled)
 
 

@@ -6,8 +6,9 @@ condition of Elrod and Adams in the whole domain:
     P >= P_amb,   theta <= 1,   (P - P_amb) (1 - theta) = 0,
     d(theta rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
-A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H is
-carried along entrainment by an upstream difference of first order, which conserves it whatever the grid. It
+A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H,
+of a hot film with its drift (``Flow.carried``), is carried along entrainment by an upstream difference of
+first order, which conserves it whatever the grid. It
 begins as the layer of oil at the inlet edge. The masses of a run of cavitated nodes follow from the rows of
 the Reynolds equation one after the other. They are eliminated: the row of the first filled node behind a run
 is the sum of the rows of the run and its own.

@@ -462,7 +462,8 @@ class UnsteadyFilm:
     def _posed(self, levels: list[Level], last: State, heat: Heat | None, filled: Mask) -> GridProblem:
         """Equations of a time step, with the flow law of the temperature of a film at the state ``last``.
 
-        ``filled`` are the nodes (nx, ny) that oil filled before the step: only there it drifts.
+        ``filled`` (nx, ny) marks the nodes that oil filled before the step: the flow behind the others has
+        no drift.
         """
         fluid, tolerance = self.problem.fluid, max(self.problem.tolerance, STEP_TOLERANCE)
         if self._hot is not None:
@@ -490,10 +491,10 @@ class UnsteadyFilm:
             solution = newton(limited, start, min_iterations=1, eliminate_spike=spike, transient=True)
             effort += Effort.of(solution)
             if solution.status == "converged":
+                if abs(solution.final.load) > _LOAD_MISSED * posed.level.load:
+                    solution, effort = self._closer(solution, effort, newton, limited)
                 if float(solution.state.thickness.min()) < boundary_film:
                     break
-                if abs(solution.final.load) > _LOAD_MISSED * posed.level.load:
-                    return self._closer(solution, effort, partial(newton, transient=True), limited)
                 return solution, effort
         if boundary_film > 0.0:
             # The surfaces touch or part in this step: it starts from the last film.

@@ -6,7 +6,7 @@ import numpy as np
 
 from ehlectric.film import reynolds
 from ehlectric.film.across_film import Across, on_mesh
-from ehlectric.film.flow import flow, mean_fluidity
+from ehlectric.film.flow import Undrifted, flow, mean_fluidity
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.shear_flow import ShearedFlow
 from ehlectric.film.shear_laws import Rheology
@@ -194,3 +194,32 @@ def test_profiles_are_moved_to_other_meshes():
     line = Mesh.over(17, -2.0, 2.0)
     np.testing.assert_allclose(on_mesh(linear(line), line, strip), linear(strip), atol=1e-14)
     assert on_mesh(linear(fine), fine, fine) is not None
+
+
+@each("rheology", LAWS)
+def test_drift_is_the_flow_without_a_gradient(rheology):
+    """At a uniform pressure nothing else flows; behind cavitated nodes it is taken away, and only once."""
+    mesh = Mesh.over(9, -1.0, 1.0)
+    fluid = sheared(rheology, mesh, warm=True)
+    _, thickness, _ = state(mesh, 3)
+    found = flow(fluid, np.full(mesh.shape, 0.3), thickness, mesh)
+    assert np.all(np.abs(found.along.drift) > 0.0)
+    np.testing.assert_allclose(found.along.drift, found.along.flux, rtol=1e-6)
+    cavitated = (mesh.x < 0.0)[:, np.newaxis]
+    taken = found.undrifted(cavitated)
+    np.testing.assert_allclose(taken.along.flux[:4], 0.0, atol=1e-6 * np.abs(found.along.flux).max())
+    np.testing.assert_array_equal(taken.along.flux[4:], found.along.flux[4:])
+    np.testing.assert_array_equal(taken.undrifted(cavitated).along.flux, taken.along.flux)
+
+
+def test_drift_is_left_out_on_coarser_grids_and_halves_too():
+    """Each node is cavitated as the nearest one of the grid that has the mask."""
+    mesh = Mesh.over(9, -1.0, 1.0, Width(9, 1.0, symmetric=True))
+    coarse = Mesh.over(5, -1.0, 1.0, Width(5, 1.0, symmetric=True))
+    fluid = sheared(LAWS[1], mesh, warm=True)
+    cavitated = np.broadcast_to((mesh.x < 0.0)[:, np.newaxis], mesh.shape)
+    pressure, thickness = np.full(coarse.shape, 0.3), np.full(coarse.shape, 0.2)
+    found = Undrifted(fluid.flow, mesh, cavitated)(fluid, pressure, thickness, coarse).along.flux
+    whole = fluid.flow(fluid, pressure, thickness, coarse).along.flux
+    np.testing.assert_allclose(found[:2], 0.0, atol=1e-6 * np.abs(whole).max())
+    np.testing.assert_array_equal(found[2:], whole[2:])

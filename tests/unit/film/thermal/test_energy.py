@@ -5,7 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film.energy_equation import Heat, HeatColumns, moving_surface, solve_energy
+from ehlectric.film.energy_equation import (
+    Heat,
+    HeatColumns,
+    energy_imbalance,
+    moving_surface,
+    solve_energy,
+)
+from ehlectric.film.newton import State
 from tests.helpers.hot import channel, cold_surface, steel
 
 
@@ -32,6 +39,18 @@ def test_uniform_heating_between_cold_surfaces_is_a_parabola():
     np.testing.assert_allclose(found.temperature[:, -1, 0], exact, rtol=1e-8)
     # Half of the heat flows into each body.
     np.testing.assert_allclose(found.flux[:, -1, 0], 0.5 * heat * 1e-6, rtol=1e-6)
+
+
+@pytest.mark.parametrize("filling", [1.0, 1e-3])
+def test_heat_of_rubbing_flows_into_the_bodies_however_little_oil_there_is(filling):
+    """Half of it into each, and the oil between equal surfaces stays as hot as they are."""
+    stream = channel(1.0, nodes=21)
+    shape = stream.thickness.shape
+    stream = replace(stream, filling=np.full(shape, filling), rubbed=np.full(shape, 3e8))
+    found = solved(stream, (cold_surface(300.0, 21), cold_surface(300.0, 21)))
+    np.testing.assert_allclose(found.flux, 1.5e8, rtol=1e-6)
+    np.testing.assert_allclose(found.temperature, 300.0, atol=1e-4)
+    assert energy_imbalance(stream, found, 300.0) < 1e-6
 
 
 def plug_flow(nodes, degree=16):
@@ -168,3 +187,10 @@ def test_columns_are_the_same_from_both_surfaces():
         np.testing.assert_allclose(getattr(columns, key), getattr(mirrored, key)[..., ::-1], rtol=1e-12)
     turned = mirrored.matrix[..., ::-1, ::-1]
     np.testing.assert_allclose(columns.matrix, turned, atol=1e-12 * columns.matrix.max())
+
+
+def test_share_of_the_oil_in_the_pressure_of_a_node():
+    """All of it where the surfaces do not touch, none where asperities have all of the load."""
+    pressure, contact = np.array([[1.0, 1.0, 0.5, 0.0]]), np.array([[0.0, 0.25, 0.5, 0.0]])
+    state = State(pressure, 0.0, np.ones((1, 4)), contact)
+    np.testing.assert_array_equal(state.oil_share, [[1.0, 0.75, 0.0, 1.0]])
