@@ -256,18 +256,10 @@ class OuterIteration:
         again = solver(guess, solution.content.supply)
         return again if again.status == "converged" else solution
 
-    def columns(
-        self, solution: GridSolution, flow: ShearedFlow, filled: Mask | None = None
-    ) -> tuple[Columns, Array]:
-        """Stresses and speeds across the film, and the share of the gap that oil fills.
-
-        ``filled`` (nx, ny) marks the nodes that oil fills, where the solution does not carry its oil itself.
-        """
+    def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
+        """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.level.mesh
-        driven: Mask | bool = True if filled is None else filled
-        if solution.content is not None:
-            driven = solution.content.filled
-        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh, driven=driven)
+        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
         if solution.fraction is not None:
             return found, _beside_edges(solution.fraction, mesh)
         mass = solution.final.coefficients.density * state.thickness

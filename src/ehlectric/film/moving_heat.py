@@ -57,7 +57,6 @@ class MovingHeat:
     iteration: OuterIteration  # rheology, heat and grid
     stationary: Heat
     surfaces: tuple[Surface, Surface]  # surfaces of the stationary film
-    carried: bool  # whether the stationary film carries its oil through cavities
 
     @classmethod
     def of(cls, steady: HeatedGrid) -> MovingHeat | None:
@@ -65,8 +64,7 @@ class MovingHeat:
         thermal = steady.iteration.physics.thermal
         if thermal is None or steady.heat is None:
             return None
-        surfaces = steady.iteration.surfaces(thermal)
-        return cls(steady.iteration, steady.heat, surfaces, steady.content is not None)
+        return cls(steady.iteration, steady.heat, steady.iteration.surfaces(thermal))
 
     @property
     def thermal(self) -> Thermal:
@@ -135,7 +133,7 @@ class MovingHeat:
     def _stream(self, solution: GridSolution, heat: Heat, filled: Array) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
         law = self.iteration.flow(solution.state, heat)
-        columns, _ = self.iteration.columns(solution, law, filled >= 1.0 if self.carried else None)
+        columns, _ = self.iteration.columns(solution, law)
         return self.iteration.stream(solution, heat, columns, filled)
 
 

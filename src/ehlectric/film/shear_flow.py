@@ -198,13 +198,8 @@ class ShearedFlow:
         across = self._through(turned, mesh.dy, slip, fluid, with_mirror(by_x, mesh).T, across=True)
         return Flow(k, along, across)
 
-    def columns(
-        self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh, *, driven: Mask | bool = True
-    ) -> Columns:
-        """Stress, shear rate and speed across the film at the nodes, with central differences of P.
-
-        ``driven`` (nx, ny) marks the nodes whose oil the pressure drives: in others the surfaces carry it.
-        """
+    def columns(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
+        """Stress, shear rate and speed across the film at the nodes, with central differences of P."""
         k, properties = self._evaluate(fluid, pressure, thickness, mesh)
         clipped = np.maximum(pressure, fluid.ambient_pressure)
         degree = _DEGREE if self.profile is None else self.profile.across.zeta.size - 1
@@ -217,7 +212,7 @@ class ShearedFlow:
             self.rheology,
             Across.of(degree),
             (viscosity, density),
-            gradient=np.where(driven, np.stack(gradients(pressure, mesh)), 0.0),
+            gradient=np.stack(gradients(pressure, mesh)),
             thickness=thickness,
             scale=self._scale(clipped)[0],
             slip=fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0,
