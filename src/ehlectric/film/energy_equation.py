@@ -380,23 +380,23 @@ def stream_of(
     pressure_scale: float,
     speed: float,
     stress: float,
-    rubbing: tuple[Array, Array] | None = None,
+    rubbing: tuple[Array | float, Array | float] = (1.0, 0.0),
 ) -> Stream:
     """Flow and properties of the oil, SI units.
 
     ``temperature`` [K], shape (nz, nx, ny); ``pressure`` and ``thickness``, pressure [Pa] and film thickness
     [m], shape (nx, ny); ``filled``, share of the gap that oil fills, shape (nx, ny); ``length``,
     ``pressure_scale``, ``speed`` and ``stress``, half-width b [m], Hertz pressure [Pa], entrainment speed
-    [m/s], and scale of the stresses [Pa]; ``rubbing``, part of each node in which the oil is sheared, its
-    share of the pressure, and the heat of asperities that rub [W/m^2], both of shape (nx, ny). Returns
-    velocities, properties and sources of heat.
+    [m/s], and scale of the stresses [Pa]; ``rubbing``, share of the oil in the pressure of each node,
+    which is sheared in this part of the node, and the heat of asperities that rub [W/m^2], both of shape
+    (nx, ny). Returns velocities, properties and sources of heat.
     """
     u, v = speed * columns.speed
     viscosity = oil.log_viscosity(pressure, temperature)
     density = oil.density(pressure, temperature)
     heating = columns.heating * (stress * speed / thickness)
     heating_slope = np.minimum(0.0, heating * columns.softening * viscosity.by_temperature)
-    oil_share, rubbed = (1.0, 0.0) if rubbing is None else rubbing
+    oil_share, rubbed = rubbing
     heating, heating_slope = oil_share * heating, oil_share * heating_slope
     along = upstream_slope(pressure, u, mesh.dx * length)
     across = columns.gradient[1] * (pressure_scale / length)

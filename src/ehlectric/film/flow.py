@@ -22,7 +22,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.across_film import on_mesh
 from ehlectric.film.mesh import Mesh
 
 # Difference of ln eta below which two nodes count as alike: the series of the mean is then exact to rounding.
@@ -172,17 +173,9 @@ class Undrifted:
     cavitated: Mask  # nodes of ``mesh``, shape (nx, ny)
 
     def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
-        """Flow on any mesh of the same contact, each node of which is as the nearest one of ``mesh``."""
-        rows, lines = (nearest(*axes) for axes in ((self.mesh.x, mesh.x), (self.mesh.y, mesh.y)))
-        return self.law(fluid, pressure, thickness, mesh).undrifted(self.cavitated[np.ix_(rows, lines)])
-
-
-def nearest(nodes: Array, positions: Array) -> IntArray:
-    """Index of the node, of uniform ``nodes`` (n,), that is nearest to each of the ``positions`` (m,)."""
-    if nodes.size == 1:
-        return np.zeros(positions.size, dtype=np.intp)
-    index = np.rint((positions - nodes[0]) / (nodes[1] - nodes[0])).astype(np.intp)
-    return np.asarray(np.clip(index, 0, nodes.size - 1))
+        """Flow on any mesh of the same contact."""
+        part = on_mesh(self.cavitated[np.newaxis].astype(float), self.mesh, mesh)[0]
+        return self.law(fluid, pressure, thickness, mesh).undrifted(part > 0.5)
 
 
 # Flow along the first axis, from quantities at the nodes (n, m) and the spacing.

@@ -121,7 +121,7 @@ class HeatedGrid(GridSolution):
         return float(np.max(middle)) - thermal.inlet_temperature
 
     def moved(self, film: GridSolution, heat: Heat) -> HeatedGrid:
-        """The same grid with another film and its temperature; the steps that led there stay."""
+        """Another film and temperature on this grid, with the steps that this one took."""
         return replace(
             self,
             state=film.state,
@@ -286,25 +286,17 @@ class OuterIteration:
             pressure_scale=scales.pressure,
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
-            rubbing=self._rubbing(solution),
+            rubbing=self._rubbing(solution.state),
         )
 
-    def imbalance(self, solution: GridSolution, heat: Heat, flow: ShearedFlow) -> float:
-        """Heat of a film that the bodies and the oil do not take up, over all heat."""
-        assert self.physics.thermal is not None
-        stream = self.stream(solution, heat, *self.columns(solution, flow))
-        return energy_imbalance(stream, heat, self.physics.thermal.inlet_temperature)
-
-    def _rubbing(self, solution: GridSolution) -> tuple[Array, Array] | None:
-        """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], both
-        (nx, ny); None of a film that nowhere touches.
+    def _rubbing(self, state: State) -> tuple[Array, Array]:
+        """Share of the oil in the pressure of each node, and the heat of asperities that rub [W/m^2], zero
+        where none do, (nx, ny).
         """
-        if not solution.touches:
-            return None
         first, second = self.physics.speeds
         friction = (self.physics.boundary_friction or 0.0) * abs(second - first)
-        pressure = self.problem.scales.pressure * np.asarray(solution.state.contact_pressure)
-        return solution.state.oil_share, friction * pressure
+        pressure = self.problem.scales.pressure * np.asarray(state.contact_pressure)
+        return state.oil_share, friction * pressure
 
     def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
         """Surfaces of both bodies on the grid."""
@@ -367,10 +359,10 @@ class OuterIteration:
 
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
         """Film of an oil that thins under shear, at the temperature of the inlet."""
-        most = self.problem.max_iterations * (1 if carried is None else _CARRYING)
-        tolerance = self.posed.tolerance
+        most, tolerance = self.problem.max_iterations, self.posed.tolerance
+        steps = most if carried is None else _CARRYING * most
         solution, law, _ = self.film(
-            state, None, steps=most, tolerance=tolerance, spike=spike, carried=carried
+            state, None, steps=steps, tolerance=tolerance, spike=spike, carried=carried
         )
         solution = self._closer(solution, law, full_order=True)
         return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
@@ -890,10 +882,10 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
     )
     scales, level = problem.scales, iteration.level
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
-    heat, imbalance = last.heat, None
-    status = last.status
-    if heat is not None:
-        imbalance = iteration.imbalance(last, heat, last.law)
+    heat, status, imbalance = last.heat, last.status, None
+    if heat is not None and physics.thermal is not None:
+        stream = iteration.stream(last, heat, columns, filled)
+        imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
         if status == "converged" and imbalance > _MOST_IMBALANCE:
             status = "stalled"
     return HeatedSolution(

@@ -8,10 +8,9 @@ condition of Elrod and Adams in the whole domain:
 
 A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H,
 of a hot film with its drift (``Flow.carried``), is carried along entrainment by an upstream difference of
-first order, which conserves it whatever the grid. It
-begins as the layer of oil at the inlet edge. The masses of a run of cavitated nodes follow from the rows of
-the Reynolds equation one after the other. They are eliminated: the row of the first filled node behind a run
-is the sum of the rows of the run and its own.
+first order, which conserves it whatever the grid. It begins as the layer of oil at the inlet edge. The masses
+of a run of cavitated nodes follow from the rows of the Reynolds equation one after the other. They are
+eliminated: the row of the first filled node behind a run is the sum of the rows of the run and its own.
 
 H. G. Elrod, J. Lubr. Technol. 103 (1981) 350, doi:10.1115/1.3251669; F. Chevalier, A. A. Lubrecht,
 P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175 (both second-hand).

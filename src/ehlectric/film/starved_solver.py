@@ -223,7 +223,7 @@ class StarvedProblem:
             # Both films pass nearly the same part of their layer.
             supplied = at_centre_line(self.level, cold.content.supply.mass)
             ambient = self.posed.fluid.ambient_density
-            fall = float(ambient * at_centre_line(self.level, layer) / supplied)
+            fall = ambient * at_centre_line(self.level, layer) / supplied
             # The spots of a film on a coarser grid are others.
             guesses.insert(0 if cold.touches else len(guesses), self._follow(cold, fall))
             scheme = replace(self, first_order=cold.content.supply.first_order)

@@ -139,10 +139,10 @@ def test_oil_that_conducts_all_heat_leaves_a_starved_film_isothermal(part):
     np.testing.assert_allclose(hot.thickness, cold.thickness, rtol=1e-6)
 
 
-def sliding(part=1.9):
+def sliding():
     """Film problem of starved hot rollers, one of which hardly moves and conducts heat to the inlet."""
     case = table("line", starved=True, hot=True)
-    case["contact"] |= {"slide_to_roll_ratio": part}
+    case["contact"] |= {"slide_to_roll_ratio": 1.9}
     case = Case.from_dict(case | {"inlet": {"oil_layer": "60 nm"}})
     return check_case(case).film_problem(Setup.of(case))
 

@@ -271,15 +271,18 @@ def test_a_rough_film_that_does_not_touch_has_its_change_by_shear():
     assert rows["film.isothermal.minimum_thickness"].endswith("% by shear")
 
 
-@pytest.mark.parametrize("friction", [None, 0.1])
-def test_the_heat_of_sliding_spots_needs_their_friction(friction):
+def test_the_heat_of_sliding_spots_needs_their_friction():
     """Without the coefficient a warning says what is missing; with it the film is hotter."""
-    contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4, "slide_to_roll_ratio": 1.0}
-    contact |= {"boundary_friction": friction} if friction else {}
-    result = solve(Case.from_dict(HOT_LINE | {"contact": contact, "grid": {"nodes": 101}}))
-    assert result.converged
-    assert result.film.contact.any()
-    assert ("spot-heat-unknown" in [each.code for each in result.warnings]) == (friction is None)
+    rises = []
+    for friction in (None, 0.1):
+        contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4, "slide_to_roll_ratio": 1.0}
+        contact |= {"boundary_friction": friction} if friction else {}
+        result = solve(Case.from_dict(HOT_LINE | {"contact": contact, "grid": {"nodes": 101}}))
+        assert result.converged
+        assert result.film.contact.any()
+        assert ("spot-heat-unknown" in [each.code for each in result.warnings]) == (friction is None)
+        rises.append(result.film.heated.max_temperature_rise)
+    assert rises[1] > rises[0]
 
 
 def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):

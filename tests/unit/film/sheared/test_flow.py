@@ -213,7 +213,7 @@ def test_drift_is_the_flow_without_a_gradient(rheology):
 
 
 def test_drift_is_left_out_on_coarser_grids_and_halves_too():
-    """Each node is cavitated as the nearest one of the grid that has the mask."""
+    """Each of their nodes is cavitated as that of the grid that has the mask."""
     mesh = Mesh.over(9, -1.0, 1.0, Width(9, 1.0, symmetric=True))
     coarse = Mesh.over(5, -1.0, 1.0, Width(5, 1.0, symmetric=True))
     fluid = sheared(LAWS[1], mesh, warm=True)
