@@ -119,23 +119,3 @@ class Profile(Protocol):
         The flow is computed on coarser grids and on strips of the grid, too.
         """
         ...
-
-
-def on_mesh(values: Array, of: Mesh, mesh: Mesh) -> Array:
-    """Values across the film on another mesh of the same contact, by linear interpolation. ``values``, values
-    on the mesh ``of``, shape (nz, nx, ny). Returns values on ``mesh``; the given array if both meshes have
-    the same nodes, shape (nz, nx', ny').
-
-    Examples
-    --------
-    >>> of, mesh = Mesh.over(3, 0.0, 2.0), Mesh.over(5, 0.0, 2.0)
-    >>> on_mesh(np.array([[[0.0], [1.0], [4.0]]]), of, mesh)[0, :, 0].tolist()
-    [0.0, 0.5, 1.0, 2.5, 4.0]
-    """
-    for axis, (old, new) in enumerate(((of.x, mesh.x), (of.y, mesh.y)), start=1):
-        if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
-            continue
-        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
-        part = ((new - old[left]) / (old[left + 1] - old[left])).reshape((-1, 1) if axis == 1 else (-1,))
-        values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
-    return values

@@ -30,9 +30,9 @@ from scipy.linalg import lapack, matmul_toeplitz
 from scipy.special import k0e, k1e
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.film.across_film import Across, Properties, on_mesh
+from ehlectric.film.across_film import Across, Properties
 from ehlectric.film.hot_oil import Body, HotOil
-from ehlectric.film.mesh import Mesh, trapezoidal_weights
+from ehlectric.film.mesh import Mesh, on_mesh, trapezoidal_weights
 from ehlectric.film.shear_flow import Columns
 
 
@@ -696,7 +696,7 @@ class FrozenTemperature:
         key = (*mesh.shape, float(mesh.x[0]))
         if key not in self._on_meshes:
             values = (on_mesh(each, self.mesh, mesh) for each in vars(self.properties).values())
-            pressure = on_mesh(self.pressure[np.newaxis], self.mesh, mesh)[0]
+            pressure = on_mesh(self.pressure, self.mesh, mesh)
             self._on_meshes[key] = Properties(*values), pressure
         return self._on_meshes[key]
 

@@ -19,7 +19,7 @@ from ehlectric.film.film_error import (
     upstream_deficits,
 )
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import filled_state, grid_problem, levels_of, nested_iteration
+from ehlectric.film.nested import filled_on, grid_problem, levels_of, nested_iteration, open_state
 from ehlectric.film.newton import GridSolution, Guess, Progress
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
@@ -327,7 +327,8 @@ def starved_on_grids(
     for starved in grids:
         near, last = None, solutions[-1] if solutions else None
         if last is not None and last.status == "converged" and last.content is not None:
-            near = Guess(*filled_state(starved.level, last, last.content.filled), last)
+            filled = filled_on(starved.level.mesh, last.level.mesh, last.content.filled)
+            near = Guess(open_state(starved.level, last), filled, last)
         layer, film = _layer_and_film(starved, supply, near, layer)
         solutions.append(starved.flooded if film is None else film)
     return StarvedSolution(grids[-1].problem, solutions, flooded=grids[-1].flooded, layer=layer)

@@ -23,8 +23,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.across_film import on_mesh
-from ehlectric.film.mesh import Mesh
+from ehlectric.film.mesh import Mesh, on_mesh
 
 # Difference of ln eta below which two nodes count as alike: the series of the mean is then exact to rounding.
 _ALIKE = 1e-4
@@ -174,7 +173,7 @@ class Undrifted:
 
     def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
         """Flow on any mesh of the same contact."""
-        part = on_mesh(self.cavitated[np.newaxis].astype(float), self.mesh, mesh)[0]
+        part = on_mesh(self.cavitated.astype(float), self.mesh, mesh)
         return self.law(fluid, pressure, thickness, mesh).undrifted(part > 0.5)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.across_film import Across, on_mesh
+from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import (
     FrozenTemperature,
     Heat,
@@ -28,8 +28,8 @@ from ehlectric.film.energy_equation import (
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method, starved_on_grids
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
-from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of
+from ehlectric.film.mesh import Mesh, at_centre, on_mesh
+from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of, open_state
 from ehlectric.film.newton import (
     SMALLEST_GAP,
     GridProblem,
@@ -586,7 +586,7 @@ def _growing_peak(coarse: HeatedGrid, fine: HeatedGrid) -> float:
     """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
     before, now = coarse.middle, fine.middle
     assert before is not None and now is not None
-    growth = np.maximum(now - on_mesh(before[np.newaxis], coarse.level.mesh, fine.level.mesh)[0], 0.0)
+    growth = np.maximum(now - on_mesh(before, coarse.level.mesh, fine.level.mesh), 0.0)
     times = _GROWTH_UNBOUNDED if fine.iteration.physics.rheology.name in UNBOUNDED else _GROWTH
     return float(np.max(now + times * growth) - np.max(now))
 
@@ -842,19 +842,15 @@ def _start(
             heat = _finer(found[-1].heat, found[-1].level, level)
         # The spots of a film on a coarser grid are others.
         guess = simple if same and simple.touches else found[-1]
-    state = guess.state if guess in same else _finer_state(level, guess)
+    state = guess.state
+    if guess not in same:
+        state = (interpolated_state if guess.touches else open_state)(level, guess)
     return state, heat, _filled_on(level, guess)
 
 
 def _filled_on(level: Level, coarse: GridSolution) -> Mask | None:
     """Nodes (nx, ny) that oil fills in a film on some grid; None if that does not carry its oil."""
     return None if coarse.content is None else filled_on(level.mesh, coarse.level.mesh, coarse.content.filled)
-
-
-def _finer_state(level: Level, coarse: GridSolution) -> State:
-    """State on a grid from a solution on another one, with no gap that vanishes."""
-    state = interpolated_state(level, coarse)
-    return state if coarse.touches else state.lifted(0.5 * float(coarse.state.thickness.min()))
 
 
 def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:

@@ -144,3 +144,24 @@ def at_centre(mesh: Mesh, values: Array) -> float:
     rows = slice(after - 1, after + 1)
     line = [np.interp(0.0, mesh.y, row) for row in values[rows]]
     return float(np.interp(0.0, mesh.x[rows], line))
+
+
+def on_mesh(values: Array, of: Mesh, mesh: Mesh) -> Array:
+    """Nodal values on another mesh of the same contact, by linear interpolation. ``values``, values on the
+    mesh ``of``, shape (..., nx, ny). Returns values on ``mesh``, shape (..., nx', ny'); the given array if
+    both meshes have the same nodes.
+
+    Examples
+    --------
+    >>> of, mesh = Mesh.over(3, 0.0, 2.0), Mesh.over(5, 0.0, 2.0)
+    >>> on_mesh(np.array([[0.0], [1.0], [4.0]]), of, mesh)[:, 0].tolist()
+    [0.0, 0.5, 1.0, 2.5, 4.0]
+    """
+    for axis, old, new in ((-2, of.x, mesh.x), (-1, of.y, mesh.y)):
+        if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
+            continue
+        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
+        part = (new - old[left]) / (old[left + 1] - old[left])
+        part = part[:, np.newaxis] if axis == -2 else part
+        values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
+    return values

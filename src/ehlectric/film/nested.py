@@ -12,12 +12,12 @@ from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
+from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
-from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.newton import GridProblem, GridSolution, Progress, State, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
@@ -89,7 +89,8 @@ def _full_film(
     found: list[GridSolution] = []
     apart = coarse is not None and not coarse.touches
     if coarse is not None and apart and coarse.fraction is not None:
-        start = filled_state(levels[0], coarse, with_inlet(coarse.final.full_film))
+        filled = filled_on(levels[0].mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
+        start = open_state(levels[0], coarse), filled
         found.append(_conserving(problem, levels, start, progress))
         if found[-1].status == "converged":
             if forms_again(found[-1].final.full_film):
@@ -175,8 +176,8 @@ def _mixed(
     conserving = Conserving(posed, problem.wedge_order)
     found: list[GridSolution] = []
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
-        filled = with_inlet(coarse.final.full_film)
-        found.append(conserving.near(near, filled_state(level, coarse, filled)[1]))
+        filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
+        found.append(conserving.near(near, filled))
         if found[-1].status == "converged":
             return found
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
@@ -323,9 +324,7 @@ def _from_coarser(
 
     The coarse solution is interpolated by a monotone cubic, which is smooth and does not overshoot.
     """
-    state = interpolated_state(levels[0], coarse)
-    state = state.lifted(0.5 * float(coarse.state.thickness.min()))
-    return _newton_on(problem, levels, progress, spike=True)(state)
+    return _newton_on(problem, levels, progress, spike=True)(open_state(levels[0], coarse))
 
 
 def interpolated_state(level: Level, coarse: GridSolution) -> State:
@@ -338,20 +337,14 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
     return State.of(level, pressure, coarse.state.h00, contact)
 
 
-def filled_state(level: Level, coarse: GridSolution, filled: Mask) -> tuple[State, Mask]:
-    """State and filled nodes on a grid, from a coarser solution and the nodes that oil fills in it."""
-    state = interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
-    return state, filled_on(level.mesh, coarse.level.mesh, filled)
+def open_state(level: Level, coarse: GridSolution) -> State:
+    """The same without contact pressure, with a gap of at least half of the thinnest one of the solution."""
+    return interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
 
 
 def filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
     """Filled nodes on a mesh, from those on a coarser mesh of the same domain by linear interpolation."""
-    if coarse.y.size == 1:
-        part = np.interp(mesh.x, coarse.x, filled[:, 0])[:, np.newaxis]
-    else:
-        at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
-        part = RegularGridInterpolator((coarse.x, coarse.y), filled.astype(float))(at)
-    return part > 0.5
+    return on_mesh(filled.astype(float), coarse, mesh) > 0.5
 
 
 def _finer(level: Level, of: Mesh, values: Array) -> Array:

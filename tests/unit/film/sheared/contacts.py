@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.film.across_film import Across, Properties, on_mesh
+from ehlectric.film.across_film import Across, Properties
 from ehlectric.film.deflection import point_geometry
 from ehlectric.film.flow import Fluid
-from ehlectric.film.mesh import Mesh, Width
+from ehlectric.film.mesh import Mesh, Width, on_mesh
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
 from ehlectric.film.shear_flow import ShearedFlow, filled_part, traction

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.film import reynolds
-from ehlectric.film.across_film import Across, on_mesh
+from ehlectric.film.across_film import Across
 from ehlectric.film.flow import Undrifted, flow, mean_fluidity
-from ehlectric.film.mesh import Mesh, Width
+from ehlectric.film.mesh import Mesh, Width, on_mesh
 from ehlectric.film.shear_flow import ShearedFlow
 from ehlectric.film.shear_laws import Rheology
 from tests.helpers.each import each
