@@ -10,7 +10,7 @@ FILES = sorted(path.stem for path in DATA.glob("*.csv"))
 
 
 def test_there_are_data_files():
-    assert len(FILES) == 5
+    assert len(FILES) == 6
 
 
 @each("name", FILES)

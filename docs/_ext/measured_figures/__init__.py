@@ -17,6 +17,7 @@ ROOT = Path(__file__).parents[3]
 if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
+from measured_figures.breakdown import bearing_breakdown  # noqa: E402
 from measured_figures.capacitances import ball_on_steel, chromium_disc, equation_of_state  # noqa: E402
 from measured_figures.dent import dent_in_rolling, slow_dent  # noqa: E402
 from measured_figures.films import fva_3, shc_320, thin_films  # noqa: E402
@@ -34,6 +35,7 @@ FIGURES: dict[str, Callable[[], Drawn]] = {
     "dent_in_rolling": dent_in_rolling,
     "slow_dent": slow_dent,
     "equation_of_state": equation_of_state,
+    "bearing_breakdown": bearing_breakdown,
 }
 _LOOK = {
     "font.size": 9.0,
