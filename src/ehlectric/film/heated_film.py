@@ -74,8 +74,9 @@ _GUESS_LOOPS = 25
 # least number of steps of one whose surfaces may touch: fewer would leave its spots unsettled.
 _CARRYING, _TOUCHING = 3, 40
 
-# Successive loops in which a film that carries its oil misses its residual, at which the iteration ends.
-_MISSED = 5
+# Successive loops in which a film that carries its oil misses its residual, at which the iteration ends, and
+# those without a smaller change of the temperature. It goes on where the least change is near its limit.
+_MISSED, _PATIENCE, _NEAR = 5, 20, 10.0
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
@@ -414,6 +415,9 @@ class OuterIteration:
                 solution = replace(solution, status="diverged")
                 break
             rises.append(change_between(weight, heat, new, thermal))
+            if goes_round(rises, self._allowed):
+                solution = replace(solution, status="stalled")
+                break
             # Film and temperature that are close enough end with a film at the last temperature.
             ends = max(self._distance(rises), self._distance(films)) < self._allowed
             state = solution.state
@@ -483,6 +487,12 @@ class OuterIteration:
             return changes[-1]
         ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
         return changes[-1] * ratio / (1.0 - ratio)
+
+
+def goes_round(changes: list[float], allowed: float) -> bool:
+    """Whether an iteration changes by far more than what is allowed, and has long not changed by less."""
+    before, last = changes[:-_PATIENCE], changes[-_PATIENCE:]
+    return bool(before) and min(last) >= max(min(before), _NEAR * allowed)
 
 
 def change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
@@ -709,8 +719,7 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     """
     iteration, careful = replace(flooded.iteration, most_loops=_LOOPS), list[Solver]()
     if iteration.physics.thermal is not None:
-        variants = _variants(replace(iteration, careful=True), held=iteration.held)
-        careful = [_solver(variant) for variant in variants]
+        careful = [_solver(replace(iteration, careful=True))]
     return StarvedProblem(
         iteration.problem,
         iteration.posed,

@@ -1,0 +1,403 @@
+"""The open benchmark of films: 240 contacts of a design, solved to a stated error, and written as tables.
+
+python -m benchmarks.open_benchmark solve FOLDER [--part 0 --parts 2]   (what FOLDER lacks; resumes)
+python -m benchmarks.open_benchmark write FOLDER                        (open_benchmark/ from FOLDER)
+
+The tables are all that another program needs: ``contacts.csv`` has every input in SI units.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import hashlib
+import json
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+from scipy.stats import qmc
+
+from ehlectric import Case, ConvergenceError, solve
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.lubricant.viscosity import roelands_exponent
+from ehlectric.version import __version__
+
+TARGET = Path(__file__).parents[1] / "open_benchmark"
+
+RADIUS = 10e-3  # along entrainment, of all contacts [m]
+
+# Reduced moduli [Pa], of steel on steel to plastic on steel: a contact has the largest with which it rolls at
+# this speed [m/s] at least. Those that would roll faster than the other are left out of the sequence.
+MODULI = (226e9, 50e9, 10e9, 2e9)
+SPEEDS = (0.01, 100.0)
+
+ROELANDS, S0 = 1.96e8, 1.1  # constants of Roelands' law: p0 [Pa], and the slope index over the temperature
+
+# Viscosity [Pa s], pressure-viscosity coefficient [1/Pa], and density law of each oil.
+OILS: dict[str, tuple[float, float, str]] = {
+    "thin": (0.005, 14e-9, "dowson-higginson"),
+    "mineral": (0.04, 20e-9, "dowson-higginson"),
+    "stiff": (0.2, 26e-9, "dowson-higginson"),
+    "incompressible": (0.04, 20e-9, "incompressible"),
+}
+PERMITTIVITY = 2.2  # of all oils, at any pressure
+VOLTAGE = 1.0  # between the surfaces [V]
+
+# Oil and bodies of the contacts with heat: conductivity [W/m/K], heat capacity [J/kg/K] and density [kg/m^3].
+OIL_HEAT = {"thermal_conductivity": 0.14, "heat_capacity": 2000.0, "density": 870.0}
+STEEL = {"thermal_conductivity": 46.0, "heat_capacity": 460.0, "density": 7850.0}
+EXPANSION, TEMPERATURE, EYRING = 6.5e-4, 313.15, 5e6  # [1/K], [K], [Pa]
+
+# Hertz pressures of the contacts that are kept [Pa]; others are left out of the sequence.
+PRESSURES = (0.02e9, 3.0e9)
+
+# Candidates of a class for each contact that it has: a candidate that is not solved to its error is left out.
+CANDIDATES = 1.4
+
+# Nodes along a point contact at which its refinement ends; more take some ten minutes.
+MOST_NODES = 2100
+
+NODES = 201  # of a profile
+
+Table = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Class:
+    """Class of contacts: how many, the lowest and highest values of the design, and the error to solve to."""
+
+    number: int
+    seed: int
+    ranges: dict[str, tuple[float, float]]  # all are drawn evenly in their logarithm
+    make: Callable[[dict[str, float], str], Table]
+    error: float  # of the film, over its thickness
+
+
+def speed_of(moes_l: float, modulus: float, viscosity: float, coefficient: float) -> float:
+    """Entrainment speed [m/s] by Moes' L = alpha E' (2 eta u/(E' R))^(1/4).
+
+    ``modulus`` [Pa]; ``viscosity`` [Pa s]; ``coefficient`` [1/Pa].
+    """
+    return 0.5 * (moes_l / (coefficient * modulus)) ** 4 * modulus * RADIUS / viscosity
+
+
+def _contact(at: dict[str, float], oil: str) -> Table:
+    """Speed and load of a contact from Moes' groups; a ``ratio`` of the radii makes it a point contact."""
+    viscosity, coefficient, _ = OILS[oil]
+    speeds = {modulus: speed_of(at["moes_l"], modulus, viscosity, coefficient) for modulus in MODULI}
+    modulus = next((modulus for modulus in MODULI if speeds[modulus] > SPEEDS[0]), MODULI[-1])
+    speed = speeds[modulus]
+    doubled = 2.0 * viscosity * speed / (modulus * RADIUS)
+    contact = {"reduced_modulus": modulus, "entrainment_speed": speed}
+    if "radii" not in at:
+        load = at["moes_m"] * doubled**0.5 * modulus * RADIUS
+        return {"geometry": "line", **contact, "load_per_length": load}
+    load = at["moes_m"] * doubled**0.75 * modulus * RADIUS**2
+    return {"geometry": "point", **contact, "radius_y": RADIUS * at["radii"], "load": load}
+
+
+def _rough(at: dict[str, float], oil: str) -> Table:
+    """Line contact with a wavy surface 1 at rest: amplitude over the film, wavelength over the half-width."""
+    contact = _contact(at, oil)
+    half_width = np.sqrt(8.0 * contact["load_per_length"] * RADIUS / (np.pi * contact["reduced_modulus"]))
+    film = _guess(contact, oil)
+    return contact | {
+        "waviness_amplitude": at["amplitude"] * film,
+        "waviness_wavelength": at["wavelength"] * float(half_width),
+    }
+
+
+def _hot(at: dict[str, float], oil: str) -> Table:
+    """Contact with heat and shear, of surfaces that slide."""
+    return _contact(at, oil) | {"slide_to_roll_ratio": at["slip"], "temperature": TEMPERATURE}
+
+
+def _guess(contact: Table, oil: str) -> float:
+    """Film of a smooth line by Dowson and Higginson's formula [m], to which waves are scaled."""
+    viscosity, coefficient, _ = OILS[oil]
+    modulus = contact["reduced_modulus"]
+    speed = viscosity * contact["entrainment_speed"] / (modulus * RADIUS)
+    load = contact["load_per_length"] / (modulus * RADIUS)
+    return float(2.65 * (coefficient * modulus) ** 0.54 * speed**0.7 * load**-0.13 * RADIUS)
+
+
+CLASSES: dict[str, Class] = {
+    "line": Class(100, 11, {"moes_m": (3.0, 300.0), "moes_l": (1.0, 20.0)}, _contact, 1e-4),
+    "point": Class(
+        100, 12, {"moes_m": (5.0, 700.0), "moes_l": (1.0, 18.0), "radii": (0.5, 20.0)}, _contact, 1e-3
+    ),
+    "rough": Class(
+        20,
+        13,
+        {"moes_m": (5.0, 100.0), "moes_l": (4.0, 15.0), "amplitude": (0.03, 0.5), "wavelength": (0.1, 1.0)},
+        _rough,
+        1e-3,
+    ),
+    "hot": Class(15, 14, {"moes_m": (5.0, 100.0), "moes_l": (6.0, 15.0), "slip": (0.02, 1.0)}, _hot, 1e-3),
+    "hot-point": Class(
+        5,
+        15,
+        {"moes_m": (10.0, 200.0), "moes_l": (5.0, 10.0), "radii": (1.0, 6.0), "slip": (0.05, 1.0)},
+        _hot,
+        1e-3,
+    ),
+}
+
+
+def contacts() -> Iterator[tuple[str, Table]]:
+    """Names and inputs of all candidates."""
+    for kind, drawn in CLASSES.items():
+        yield from drawn_of(kind, round(CANDIDATES * drawn.number))
+
+
+def drawn_of(kind: str, number: int) -> Iterator[tuple[str, Table]]:
+    """Names and inputs of the first contacts of a class: a Sobol sequence, whose last number has the oil."""
+    drawn, kept = CLASSES[kind], 0
+    low, high = np.log(np.array(list(drawn.ranges.values())).T)
+    for *unit, chosen in qmc.Sobol(low.size + 1, seed=drawn.seed).random(2048):
+        at = dict(zip(drawn.ranges, np.exp(low + unit * (high - low)).tolist(), strict=True))
+        oil = list(OILS)[int(chosen * len(OILS))]
+        table = {"oil": oil, **drawn.make(at, oil)}
+        if kept < number and _real(table):
+            kept += 1
+            yield f"{kind}-{kept:03d}", table | {"moes_m": at["moes_m"], "moes_l": at["moes_l"]}
+
+
+def case_of(table: Table, error: float | None) -> Case:
+    """Case of a contact; ``error`` of the film to solve to, None without a grid."""
+    viscosity, coefficient, density = OILS[table["oil"]]
+    contact = {}
+    for key in ("geometry", "reduced_modulus", "entrainment_speed", "load", "load_per_length", "radius_y"):
+        if key in table:
+            contact[key] = table[key]
+    contact["reduced_radius" if table["geometry"] == "line" else "radius_x"] = RADIUS
+    lubricant: Table = {
+        "viscosity_law": "roelands",
+        "pressure_viscosity_coefficient": coefficient,
+        "roelands_pressure": ROELANDS,
+        "roelands_z": roelands_exponent(viscosity, coefficient, ROELANDS),
+        "density_law": density,
+        "permittivity_law": "constant",
+        "relative_permittivity": PERMITTIVITY,
+        "ambient_pressure": 0.0,
+        "viscosity": viscosity,
+    }
+    if density == "dowson-higginson":
+        lubricant |= {"density_c1": 0.59e9, "density_c2": 1.34}
+    whole: Table = {"contact": contact, "lubricant": lubricant}
+    whole["electric"] = {"potential_1": 0.0, "potential_2": VOLTAGE}
+    if "slide_to_roll_ratio" in table:
+        contact |= {key: table[key] for key in ("slide_to_roll_ratio", "temperature")}
+        contact |= {"body_1": STEEL, "body_2": STEEL}
+        lubricant |= {"atmospheric_law": "roelands", "roelands_s0": S0, "eyring_stress": EYRING}
+        lubricant |= {"thermal_expansion": EXPANSION, "reference_temperature": TEMPERATURE, **OIL_HEAT}
+        whole["film"] = {"thermal": True, "rheology": "eyring"}
+    if "waviness_amplitude" in table:
+        wave = {"amplitude": table["waviness_amplitude"], "wavelength": table["waviness_wavelength"]}
+        whole["roughness"] = [{"surface": 1, "generator": "sinusoid", **wave}]
+    if error is not None:
+        whole["grid"] = {"error": error}
+        if table["geometry"] == "point":
+            whole["grid"]["most_nodes"] = MOST_NODES
+    return Case.from_dict(whole)
+
+
+def _real(table: Table) -> bool:
+    """Whether speed and Hertz pressure of a contact are within their bounds."""
+    if table["entrainment_speed"] > SPEEDS[1]:
+        return False
+    case = case_of(table, None)
+    pressure = KINDS[case.contact.geometry].resolve(case).max_pressure
+    return bool(PRESSURES[0] < pressure < PRESSURES[1])
+
+
+def solved(table: Table, error: float) -> tuple[Table, dict[str, np.ndarray]]:
+    """Results and profiles of a contact."""
+    start = process_time()
+    result = solve(case_of(table, error))
+    summary = result.summary()
+    film, field, dry = summary["film"], summary["field"], summary["hertz"]
+    heat = film if "slide_to_roll_ratio" in table else {}
+    row = {
+        "half_width": dry.get("half_width", dry.get("semi_axis_x")),
+        "semi_axis_y": dry.get("semi_axis_y"),
+        "hertz_pressure": dry["max_pressure"],
+        "central_film": film["central_thickness"],
+        "minimum_film": film["minimum_thickness"],
+        "mean_film": film["mean_thickness"],
+        "film_error": film["discretisation_error"],
+        "domain_error": max(film.get("inlet_deficit") or 0.0, film.get("side_deficit") or 0.0),
+        "max_pressure": film["max_pressure"],
+        "max_pressure_error": film["max_pressure_error"],
+        "traction_coefficient": heat.get("traction_coefficient"),
+        "temperature_rise": heat.get("max_temperature_rise"),
+        "temperature_rise_error": heat.get("temperature_rise_error"),
+        "capacitance": field.get("capacitance", field.get("capacitance_per_length")),
+        "max_field": field["max_strength"],
+        "max_field_error": field["max_strength_error"],
+        "nodes": film["nodes"],
+        "seconds": process_time() - start,
+        "warnings": ";".join(summary["warning_codes"]),
+    }
+    return row, profiles(result.film, row)
+
+
+def profiles(film: Any, row: Table) -> dict[str, np.ndarray]:
+    """Pressure [Pa] and film [m] along both axes through the centre, at positions over the semi-axes."""
+    along = np.linspace(-2.0, 1.5, NODES)
+    x = along * row["half_width"]
+    if row["semi_axis_y"] is None:
+        values = [np.interp(x, film.x, values) for values in (film.pressure, film.thickness)]
+        return {"x": np.array([along, *values])}
+    across = np.linspace(0.0, 1.5, NODES)
+    y = across * row["semi_axis_y"]
+    lines = {"x": (along, x, np.zeros(NODES)), "y": (across, np.zeros(NODES), y)}
+    found = {}
+    for axis, (position, at_x, at_y) in lines.items():
+        values = [_between(film, values, at_x, at_y) for values in (film.pressure, film.thickness)]
+        found[axis] = np.array([position, *values])
+    return found
+
+
+def _between(film: Any, values: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Values of a film of a point contact at positions [m], by linear interpolation."""
+    return RegularGridInterpolator((film.x, film.y), values)(np.stack([x, y], axis=-1))
+
+
+def class_of(name: str) -> str:
+    """Class of a contact, from its name."""
+    return name.rsplit("-", 1)[0]
+
+
+def solve_missing(folder: Path, part: int, parts: int) -> None:
+    """Solve the candidates of a part that the folder lacks, a file for each, until all classes are full."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, (name, table) in enumerate(contacts()):
+        kind, path = class_of(name), folder / f"{name}.npz"
+        if number % parts != part or path.exists() or len(_accepted(folder, kind)) >= CLASSES[kind].number:
+            continue
+        try:
+            row, found = solved(table, CLASSES[kind].error)
+        except ConvergenceError as missed:
+            row, found = {"film_error": None, "missed": str(missed)}, {}
+        np.savez(path, row=json.dumps(row), **found)
+        print(name, row["film_error"], row.get("nodes"), row.get("seconds"), flush=True)
+
+
+def _accepted(folder: Path, kind: str) -> list[str]:
+    """Names of the candidates of a class that are solved to its error, in order, as many as it has."""
+    found = []
+    for path in sorted(folder.glob(f"{kind}-[0-9]*.npz")):
+        with np.load(path) as stored:
+            row = json.loads(str(stored["row"]))
+        if good(row, CLASSES[kind].error):
+            found.append(path.stem)
+    return found[: CLASSES[kind].number]
+
+
+def good(row: Table, limit: float) -> bool:
+    """Whether a film is known to an error, with that by its domain, which warnings tell of line contacts."""
+    if row["film_error"] is None or max(row["film_error"], row["domain_error"]) > limit:
+        return False
+    return not {"inlet-too-short", "inlet-far-too-short"} & set(row["warnings"].split(";"))
+
+
+def write(folder: Path, target: Path = TARGET) -> None:
+    """Tables of inputs, results and profiles, and the manifest with their hashes."""
+    inputs, results, lines = [], [], []
+    accepted = {kind: _accepted(folder, kind) for kind in CLASSES}
+    for kind, names in accepted.items():
+        if len(names) < CLASSES[kind].number:
+            raise SystemExit(f"{kind}: {len(names)} of {CLASSES[kind].number} contacts; solve more first")
+    for name, table in contacts():
+        if name not in accepted[class_of(name)]:
+            continue
+        with np.load(folder / f"{name}.npz") as stored:
+            results.append({"name": name, **json.loads(str(stored["row"]))})
+            for axis in ("x", "y"):
+                if axis in stored:
+                    lines += [(name, axis, *values) for values in stored[axis].T.tolist()]
+        inputs.append({"name": name, **_inputs(table)})
+    _write_rows(target / "contacts.csv", inputs)
+    _write_rows(target / "results.csv", results)
+    with (target / "profiles.csv").open("w", newline="", encoding="utf-8") as file:
+        file.write("name,axis,position,pressure,film\n")
+        for name, axis, position, pressure, film in lines:
+            file.write(f"{name},{axis},{position:.4f},{pressure:.6g},{film:.6g}\n")
+    files = ("contacts.csv", "results.csv", "profiles.csv", "compare.py")
+    manifest = {
+        "title": "Open benchmark of elastohydrodynamic films with their electric field",
+        "licence": "CC-BY-4.0",
+        "made_by": f"ehlectric {__version__}, python -m benchmarks.open_benchmark",
+        "contacts": len(inputs),
+        "sha256": {name: hashlib.sha256((target / name).read_bytes()).hexdigest() for name in files},
+    }
+    (target / "manifest.json").write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
+
+
+def _inputs(table: Table) -> Table:
+    """Row of the inputs: all that another program needs, in SI units."""
+    viscosity, coefficient, density = OILS[table["oil"]]
+    hot = "slide_to_roll_ratio" in table
+    return {
+        "geometry": table["geometry"],
+        "moes_m": table["moes_m"],
+        "moes_l": table["moes_l"],
+        "reduced_modulus": table["reduced_modulus"],
+        "radius_x": RADIUS,
+        "radius_y": table.get("radius_y"),
+        "load": table.get("load", table.get("load_per_length")),
+        "entrainment_speed": table["entrainment_speed"],
+        "slide_to_roll_ratio": table.get("slide_to_roll_ratio", 0.0),
+        "oil": table["oil"],
+        "viscosity": viscosity,
+        "pressure_viscosity_coefficient": coefficient,
+        "roelands_z": roelands_exponent(viscosity, coefficient, ROELANDS),
+        "density_law": density,
+        "waviness_amplitude": table.get("waviness_amplitude", 0.0),
+        "waviness_wavelength": table.get("waviness_wavelength"),
+        "thermal": int(hot),
+    }
+
+
+def _write_rows(path: Path, rows: list[Table]) -> None:
+    """Table with a head; numbers with seven digits, and nothing where there is no value."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({key: _text(value) for key, value in row.items() if key != "seconds"})
+
+
+def _text(value: Any) -> str:
+    """Value as text."""
+    if value is None:
+        return ""
+    if isinstance(value, list):
+        return "x".join(str(each) for each in value)
+    return f"{value:.7g}" if isinstance(value, float) else str(value)
+
+
+def main() -> None:
+    """Solve what is missing, or write the tables."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("step", choices=("solve", "write"))
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--part", type=int, default=0)
+    parser.add_argument("--parts", type=int, default=1)
+    asked = parser.parse_args()
+    warnings.simplefilter("ignore")
+    if asked.step == "solve":
+        solve_missing(asked.folder, asked.part, asked.parts)
+    else:
+        write(asked.folder)
+
+
+if __name__ == "__main__":
+    main()
