@@ -12,6 +12,7 @@ import argparse
 import csv
 import hashlib
 import json
+import signal
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -60,8 +61,7 @@ PRESSURES = (0.02e9, 3.0e9)
 # Candidates of a class for each contact that it has: a candidate that is not solved to its error is left out.
 CANDIDATES = 1.4
 
-# Nodes along a point contact at which its refinement ends; more take some ten minutes.
-MOST_NODES = 2100
+LIMIT = 150.0  # processor time of a candidate [s]
 
 NODES = 201  # of a profile
 
@@ -203,8 +203,6 @@ def case_of(table: Table, error: float | None) -> Case:
         whole["roughness"] = [{"surface": 1, "generator": "sinusoid", **wave}]
     if error is not None:
         whole["grid"] = {"error": error}
-        if table["geometry"] == "point":
-            whole["grid"]["most_nodes"] = MOST_NODES
     return Case.from_dict(whole)
 
 
@@ -282,12 +280,25 @@ def solve_missing(folder: Path, part: int, parts: int) -> None:
         kind, path = class_of(name), folder / f"{name}.npz"
         if number % parts != part or path.exists() or len(_accepted(folder, kind)) >= CLASSES[kind].number:
             continue
-        try:
-            row, found = solved(table, CLASSES[kind].error)
-        except ConvergenceError as missed:
-            row, found = {"film_error": None, "missed": str(missed)}, {}
+        row, found = attempted(table, CLASSES[kind].error)
         np.savez(path, row=json.dumps(row), **found)
         print(name, row["film_error"], row.get("nodes"), row.get("seconds"), flush=True)
+
+
+def attempted(table: Table, error: float) -> tuple[Table, dict[str, np.ndarray]]:
+    """The same, with the reason where there is no film, or none in the processor time."""
+
+    def late(*_: object) -> None:
+        raise TimeoutError(f"takes more than {LIMIT:g} s")
+
+    signal.signal(signal.SIGVTALRM, late)
+    signal.setitimer(signal.ITIMER_VIRTUAL, LIMIT)
+    try:
+        return solved(table, error)
+    except (ConvergenceError, TimeoutError) as missed:
+        return {"film_error": None, "missed": str(missed)}, {}
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
 
 
 def _accepted(folder: Path, kind: str) -> list[str]:
