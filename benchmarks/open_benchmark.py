@@ -114,7 +114,7 @@ def _rough(at: dict[str, float], oil: str) -> Table:
 
 
 def _hot(at: dict[str, float], oil: str) -> Table:
-    """Contact with heat and shear, of surfaces that slide."""
+    """Line contact with heat and shear, of surfaces that slide."""
     return _contact(at, oil) | {"slide_to_roll_ratio": at["slip"], "temperature": TEMPERATURE}
 
 
@@ -139,14 +139,7 @@ CLASSES: dict[str, Class] = {
         _rough,
         1e-3,
     ),
-    "hot": Class(15, 14, {"moes_m": (5.0, 100.0), "moes_l": (6.0, 15.0), "slip": (0.02, 1.0)}, _hot, 1e-3),
-    "hot-point": Class(
-        5,
-        15,
-        {"moes_m": (10.0, 200.0), "moes_l": (5.0, 10.0), "radii": (1.0, 6.0), "slip": (0.05, 1.0)},
-        _hot,
-        1e-3,
-    ),
+    "hot": Class(20, 14, {"moes_m": (5.0, 100.0), "moes_l": (6.0, 15.0), "slip": (0.02, 1.0)}, _hot, 1e-3),
 }
 
 
@@ -380,10 +373,10 @@ def _inputs(table: Table) -> Table:
 def _write_rows(path: Path, rows: list[Table]) -> None:
     """Table with a head; numbers with seven digits, and nothing where there is no value."""
     with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
+        names = [key for key in dict.fromkeys(key for row in rows for key in row) if key != "seconds"]
+        writer = csv.DictWriter(file, names, extrasaction="ignore")
         writer.writeheader()
-        for row in rows:
-            writer.writerow({key: _text(value) for key, value in row.items() if key != "seconds"})
+        writer.writerows({key: _text(value) for key, value in row.items()} for row in rows)
 
 
 def _text(value: Any) -> str:

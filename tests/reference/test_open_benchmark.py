@@ -76,9 +76,9 @@ def test_lines_agree_on_a_coarser_grid(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [f"point-{number:03d}" for number in (3, 21, 40, 61)])
-def test_points_agree_on_a_coarser_grid(name):
-    exact = rows("results.csv")[name]
+@pytest.mark.parametrize("place", [2, 27, 52, 77])
+def test_points_agree_on_a_coarser_grid(place):
+    name, exact = [each for each in rows("results.csv").items() if class_of(each[0]) == "point"][place]
     result = solve(case_of(dict(contacts())[name], 1e-2))
     assert result.film.central_thickness == pytest.approx(float(exact["central_film"]), rel=1e-2)
     assert result.film.minimum_thickness == pytest.approx(float(exact["minimum_film"]), rel=1e-2)
