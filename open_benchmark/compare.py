@@ -36,11 +36,20 @@ ABSOLUTE = {"temperature_rise"}
 
 def table(path: Path) -> dict[str, dict[str, str]]:
     """Rows of a table by the names of their contacts."""
-    with path.open(newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        if "name" not in (reader.fieldnames or ()):
-            raise SystemExit(f"{path}: expected a column name, with the names of contacts.csv")
-        return {row["name"]: row for row in reader}
+    try:
+        # Spreadsheets begin their files with a mark.
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            reader = csv.DictReader(file)
+            if "name" not in (reader.fieldnames or ()):
+                raise SystemExit(f"{path}: expected a column name, with the names of contacts.csv")
+            rows = list(reader)
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise SystemExit(f"{path}: {error}; expected a CSV file in UTF-8") from None
+    names = [row["name"] for row in rows]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise SystemExit(f"{path}: {twice} stands there twice; expected one row for each contact")
+    return {row["name"]: row for row in rows}
 
 
 def number(row: dict[str, str], key: str, path: Path) -> float | None:
@@ -52,7 +61,9 @@ def number(row: dict[str, str], key: str, path: Path) -> float | None:
         value = float(text)
     except ValueError:
         raise SystemExit(f"{path}: {row['name']}, {key}: got {text!r}; expected a number") from None
-    return value if math.isfinite(value) else None
+    if not math.isfinite(value):
+        raise SystemExit(f"{path}: {row['name']}, {key}: got {text}; expected a finite number, or nothing")
+    return value
 
 
 def deviations(path: Path, own: float) -> dict[tuple[str, str], list[tuple[float, str]]]:
@@ -70,6 +81,7 @@ def deviations(path: Path, own: float) -> dict[tuple[str, str], list[tuple[float
             if true is None or value is None or error is None:
                 continue
             error = error / abs(true) if key in ABSOLUTE else error
+            error += number(exact, "domain_error", HERE / "results.csv") or 0.0
             if error <= own:
                 found[name.rsplit("-", 1)[0], key].append((value / true - 1.0, name))
     return found
@@ -81,8 +93,6 @@ def main() -> None:
     parser.add_argument("table", type=Path, help="CSV with a column name and columns of results.csv")
     parser.add_argument("--own", type=float, default=0.01, help="largest error of a reference, default 0.01")
     asked = parser.parse_args()
-    if not asked.table.is_file():
-        raise SystemExit(f"{asked.table}: there is no such file")
     found = deviations(asked.table, asked.own)
     if not found:
         raise SystemExit(f"{asked.table}: no quantity to compare; expected columns {', '.join(QUANTITIES)}")

@@ -31,13 +31,13 @@ def test_files_are_those_of_the_manifest():
     manifest = json.loads((TARGET / "manifest.json").read_text("utf-8"))
     for name, digest in manifest["sha256"].items():
         assert hashlib.sha256((TARGET / name).read_bytes()).hexdigest() == digest, name
-    assert manifest["contacts"] == sum(each.number for each in CLASSES.values()) == 240
+    assert manifest["contacts"] == sum(each.number for each in CLASSES.values()) == 140
     assert sum(path.stat().st_size for path in TARGET.iterdir() if path.is_file()) < 20e6
 
 
 def test_inputs_are_those_of_the_design():
     drawn, written = dict(contacts()), rows("contacts.csv")
-    assert len(written) == 240
+    assert len(written) == 140
     for name, row in written.items():
         for key in ("entrainment_speed", "reduced_modulus", "moes_m", "moes_l"):
             assert float(row[key]) == pytest.approx(drawn[name][key], rel=1e-6), (name, key)
@@ -59,7 +59,7 @@ def test_profiles_pass_through_the_central_film():
             position = abs(float(row["position"]))
             if row["axis"] == "x" and position < at_centre.get(row["name"], (0.02,))[0]:
                 at_centre[row["name"]] = position, float(row["film"])
-    assert len(at_centre) == 240
+    assert len(at_centre) == 140
     smooth = {name: film for name, (_, film) in at_centre.items() if class_of(name) != "rough"}
     for name, film in smooth.items():
         assert film == pytest.approx(float(results[name]["central_film"]), rel=0.02), name
@@ -75,15 +75,6 @@ def test_lines_agree_on_a_coarser_grid(name):
     assert field["capacitance_per_length"] == pytest.approx(float(exact["capacitance"]), rel=5e-3)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("place", [2, 27, 52, 77])
-def test_points_agree_on_a_coarser_grid(place):
-    name, exact = [each for each in rows("results.csv").items() if class_of(each[0]) == "point"][place]
-    result = solve(case_of(dict(contacts())[name], 1e-2))
-    assert result.film.central_thickness == pytest.approx(float(exact["central_film"]), rel=1e-2)
-    assert result.film.minimum_thickness == pytest.approx(float(exact["minimum_film"]), rel=1e-2)
-
-
 def test_comparison_finds_what_is_wrong(tmp_path):
     """A table whose central films are 1 % too thick, one of them by 5 %."""
     results = rows("results.csv")
@@ -96,7 +87,7 @@ def test_comparison_finds_what_is_wrong(tmp_path):
     assert done.returncode == 0, done.stderr
     lines = {line.split()[0]: line.split() for line in done.stdout.splitlines()[1:]}
     assert lines["line"][1:] == ["central_film", "100", "1.00%", "+5.00%", "line-007"]
-    assert lines["point"][2:5] == ["100", "1.00%", "+1.00%"]
+    assert lines["rough"][2:5] == ["20", "1.00%", "+1.00%"]
 
 
 @pytest.mark.parametrize(
@@ -106,6 +97,8 @@ def test_comparison_finds_what_is_wrong(tmp_path):
         ("name,central_film\nline-999,1e-7\n", "line-999 is no contact"),
         ("name,central_film\nline-002,thick\n", "line-002, central_film: got 'thick'"),
         ("name,height\nline-002,1e-7\n", "no quantity to compare"),
+        ("name,central_film\nline-002,nan\n", "expected a finite number"),
+        ("name,central_film\nline-002,1e-7\nline-002,2e-7\n", "line-002 stands there twice"),
     ],
 )
 def test_comparison_refuses_a_wrong_table(tmp_path, text, message):

@@ -159,7 +159,7 @@ def _deficits(found: RefinedSolution) -> tuple[float, float | None]:
     """Shares of pressure and load that the domain cuts off; the load of a starved film is not known."""
     if isinstance(found, StarvedSolution):
         return found.inlet_deficit, None
-    problem, level, state = found.problem, found.whole.level, found.whole.state
+    problem, level, state = found.whole_problem, found.whole.level, found.whole.state
     mass = found.whole.final.coefficients.density * state.thickness
     upstream, load = upstream_deficits(problem.fluid, problem.geometry, level.mesh, state.pressure, mass)
     return upstream, load if problem.width is None else point_load_deficit(problem)

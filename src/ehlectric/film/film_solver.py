@@ -56,6 +56,11 @@ class RefinedSolution:
         return self.last if self.patch is None else self.patch.coarse
 
     @property
+    def whole_problem(self) -> FilmProblem:
+        """Problem over the whole domain; that of a patch has the domain and the load of the patch."""
+        return self.problem if self.patch is None else self.patch.problem
+
+    @property
     def fraction(self) -> Array | None:
         """Part of the gap that oil fills on the last grid, shape (nx, ny); None if it is not carried."""
         return self.last.fraction
@@ -68,9 +73,8 @@ class RefinedSolution:
         estimate is then at least 0.5.
         """
         error = rough_film_error(self.problem, self.last, self.coarser)
-        posed = self.problem if self.patch is None else self.patch.problem
         times = 1 if self.patch is None else self.patch.times(self.last.level.mesh)
-        expected = expected_error(posed, times)
+        expected = expected_error(self.whole_problem, times)
         if error is not None and expected is not None and expected > UNSEEN:
             return max(error, LEAST_UNSEEN)
         return error
@@ -194,6 +198,11 @@ class StarvedSolution(RefinedSolution):
     def starved(self) -> bool:
         """Whether the flooded film needs more oil than there is."""
         return self.last is not self.flooded
+
+    @property
+    def whole_problem(self) -> FilmProblem:
+        """Problem over the whole domain; that of a patch has the domain and the load of the patch."""
+        return self.problem if self.patch is None else self.patch.problem
 
     @property
     def fraction(self) -> Array | None:
