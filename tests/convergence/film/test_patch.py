@@ -157,3 +157,14 @@ def test_rough_film_on_a_patch_is_that_of_the_whole_domain(name):
     assert (
         np.max(np.abs(result.smooth.thickness - smooth[np.ix_(rows, lines)])) < 2e-3 * film.central_thickness
     )
+
+
+def test_load_cut_off_is_that_of_the_whole_domain():
+    """A film refined inside a patch has the domain of the coarse film, and the load of the contact."""
+    case = contact("20 N", "8 m/s")
+    grid = {"grid.nodes": 65, "grid.inlet": -6.0, "grid.outlet": 2.0, "grid.side": 4.0}
+    whole = solve(case.replace(grid)).film
+    patched = solve(case.replace(grid | {"grid.refine": 2e-3})).film
+    assert patched.x.size > whole.x.size
+    assert len(set(np.round(np.diff(patched.x) / np.diff(patched.x).min()))) > 1  # fine nodes in a part only
+    assert patched.load_deficit == pytest.approx(whole.load_deficit, rel=1e-6)
