@@ -16,6 +16,7 @@ import statistics
 import sys
 from collections import defaultdict
 from pathlib import Path
+from typing import NoReturn
 
 HERE = Path(__file__).parent
 
@@ -34,6 +35,12 @@ QUANTITIES = {
 ABSOLUTE = {"temperature_rise"}
 
 
+def refuse(text: str) -> NoReturn:
+    """End with one line and status 2."""
+    print(text, file=sys.stderr)
+    sys.exit(2)
+
+
 def table(path: Path) -> dict[str, dict[str, str]]:
     """Rows of a table by the names of their contacts."""
     try:
@@ -41,14 +48,14 @@ def table(path: Path) -> dict[str, dict[str, str]]:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
             if "name" not in (reader.fieldnames or ()):
-                raise SystemExit(f"{path}: expected a column name, with the names of contacts.csv")
+                refuse(f"{path}: expected a column name, with the names of contacts.csv")
             rows = list(reader)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise SystemExit(f"{path}: {error}; expected a CSV file in UTF-8") from None
+        refuse(f"{path}: {error}; expected a CSV file in UTF-8")
     names = [row["name"] for row in rows]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise SystemExit(f"{path}: {twice} stands there twice; expected one row for each contact")
+        refuse(f"{path}: {twice} stands there twice; expected one row for each contact")
     return {row["name"]: row for row in rows}
 
 
@@ -60,9 +67,9 @@ def number(row: dict[str, str], key: str, path: Path) -> float | None:
     try:
         value = float(text)
     except ValueError:
-        raise SystemExit(f"{path}: {row['name']}, {key}: got {text!r}; expected a number") from None
+        refuse(f"{path}: {row['name']}, {key}: got {text!r}; expected a number")
     if not math.isfinite(value):
-        raise SystemExit(f"{path}: {row['name']}, {key}: got {text}; expected a finite number, or nothing")
+        refuse(f"{path}: {row['name']}, {key}: got {text}; expected a finite number, or nothing")
     return value
 
 
@@ -71,7 +78,7 @@ def deviations(path: Path, own: float) -> dict[tuple[str, str], list[tuple[float
     reference, mine = table(HERE / "results.csv"), table(path)
     unknown = sorted(set(mine) - set(reference))
     if unknown:
-        raise SystemExit(f"{path}: {unknown[0]} is no contact of contacts.csv")
+        refuse(f"{path}: {unknown[0]} is no contact of contacts.csv")
     found: dict[tuple[str, str], list[tuple[float, str]]] = defaultdict(list)
     for name, row in mine.items():
         exact = reference[name]
@@ -95,7 +102,7 @@ def main() -> None:
     asked = parser.parse_args()
     found = deviations(asked.table, asked.own)
     if not found:
-        raise SystemExit(f"{asked.table}: no quantity to compare; expected columns {', '.join(QUANTITIES)}")
+        refuse(f"{asked.table}: no quantity to compare; expected columns {', '.join(QUANTITIES)}")
     print(f"{'class':10s} {'quantity':21s} {'number':>6s} {'median':>9s} {'largest':>9s}  at")
     for (kind, key), values in sorted(found.items()):
         middle = statistics.median(abs(value) for value, _ in values)

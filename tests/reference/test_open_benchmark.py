@@ -105,6 +105,6 @@ def test_comparison_refuses_a_wrong_table(tmp_path, text, message):
     table = tmp_path / "mine.csv"
     table.write_text(text, "utf-8")
     done = compared(table)
-    assert done.returncode != 0
+    assert done.returncode == 2
     assert message in done.stderr
     assert "Traceback" not in done.stderr
