@@ -11,41 +11,28 @@ from __future__ import annotations
 
 import argparse
 import csv
-import json
 import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.open_benchmark import CLASSES, Table, attempted, case_of, drawn_of, good
+from benchmarks.open_benchmark import CLASSES, Table, case_of, class_of, drawn_of, good, stored
 from ehlectric import ConvergenceError, solve
 
 DATA = Path(__file__).parent / "data" / "error_estimates.csv"
 
 # Contacts of each class, and the error of the film that a user asks for.
 NUMBERS = {"line": 500, "rough": 100, "hot": 100}
-ASKED = {"line": 1e-2, "rough": 1e-2, "hot": 1e-2}
+ASKED = 1e-2
 
 _FILMS = {"central": "central_thickness", "minimum": "minimum_thickness"}
 
 
-def truth(folder: Path, name: str, table: Table) -> Table:
-    """Film of the open benchmark, solved where the folder lacks it."""
-    path = folder / f"{name}.npz"
-    if not path.exists():
-        row, lines = attempted(table, CLASSES[name.rsplit("-", 1)[0]].error)
-        np.savez(path, row=json.dumps(row), **lines)
-    with np.load(path) as stored:
-        found: Table = json.loads(str(stored["row"]))
-    return found
-
-
 def compared(name: str, table: Table, row: Table) -> dict[str, Any] | None:
     """Estimate of a film beside its true error; None where it did not converge or has no estimate."""
-    kind = name.rsplit("-", 1)[0]
     try:
-        result = solve(case_of(table, ASKED[kind]))
+        result = solve(case_of(table, ASKED))
     except ConvergenceError:
         return None
     film = result.summary()["film"]
@@ -83,17 +70,17 @@ def main() -> None:
         if not known:
             writer.writeheader()
         for kind in asked.kinds:
-            for name, table in drawn_of(kind, NUMBERS[kind]):
-                row = truth(asked.folder, name, table) if name not in names else None
-                if row is not None and good(row, CLASSES[kind].error):
-                    found = compared(name, table, row)
-                    if found is not None:
-                        writer.writerow(found)
-                        file.flush()
-                        known.append(found)
+            missing = (each for each in drawn_of(kind, NUMBERS[kind]) if each[0] not in names)
+            for name, table in missing:
+                row = stored(asked.folder, name, table)
+                found = compared(name, table, row) if good(row, CLASSES[kind].error) else None
+                if found is not None:
+                    writer.writerow(found)
+                    file.flush()
+                    known.append(found)
     print("| class | films | exceeded | at most | estimate over error, median | error, median and largest |")
     for kind in NUMBERS:
-        rows = [row for row in known if row["name"].rsplit("-", 1)[0] == kind]
+        rows = [row for row in known if class_of(row["name"]) == kind]
         if rows:
             print(report(kind, rows))
 

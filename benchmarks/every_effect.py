@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import signal
 from collections import Counter
 from pathlib import Path
 from time import process_time
@@ -22,6 +21,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
 from ehlectric.contact.check import check_case
 from ehlectric.contact.contact_kinds import KINDS
@@ -90,28 +90,17 @@ def case_of(kind: str, at: dict[str, float]) -> Case:
     )
 
 
-class _LateError(Exception):
-    """A film took longer than its limit."""
-
-
 def solved(kind: str, at: dict[str, float], limit: float) -> dict[str, Any]:
     """Row of the file: inputs, status of the film, and its numbers where it converged."""
-
-    def late(*_: object) -> None:
-        raise _LateError
-
     start = process_time()
-    signal.signal(signal.SIGVTALRM, late)
-    signal.setitimer(signal.ITIMER_VIRTUAL, limit)
     row: dict[str, Any] = {"kind": kind, **at}
     try:
-        case = case_of(kind, at)
-        problem = check_case(case).film_problem(Setup.of(case))
-        film = (solve_film if kind == "lines" else solve_point_film)(problem)
-    except _LateError:
+        with processor_limit(limit):
+            case = case_of(kind, at)
+            problem = check_case(case).film_problem(Setup.of(case))
+            film = (solve_film if kind == "lines" else solve_point_film)(problem)
+    except GivenUpError:
         return row | {"status": "limit of time", "seconds": limit}
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
     row |= {"status": film.status, "seconds": process_time() - start}
     heated = film.heated
     if film.converged and heated is not None:

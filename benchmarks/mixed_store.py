@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import platform
-import signal
 import subprocess
 import time
 from collections.abc import Callable
@@ -22,6 +21,7 @@ import scipy
 from tests.helpers.mixed_films import MixedFilm, at_film, mixed_film, rough_line, rough_point
 
 from benchmarks.measure import ROOT, processor
+from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
 from ehlectric.contact.check import check_case
 from ehlectric.contact.problems import spacings_of
@@ -35,10 +35,6 @@ BOUNDARY_FILM = 1e-9
 
 # Nodes along each axis of contacts of a ball.
 POINT_GRIDS = (65, 129, 257)
-
-
-class GivenUpError(Exception):
-    """A solution took more processor time than it may."""
 
 
 @dataclass(frozen=True)
@@ -109,19 +105,12 @@ def composite_roughness(case: Case) -> float:
 
 def timed(case: Case, limit: float) -> tuple[MixedFilm | None, float]:
     """Film of a case, None if it was given up, and its processor time [s]."""
-
-    def give_up(*_: Any) -> None:
-        raise GivenUpError
-
-    signal.signal(signal.SIGPROF, give_up)
     started = time.process_time()
-    signal.setitimer(signal.ITIMER_PROF, limit)
     try:
-        return mixed_film(case), time.process_time() - started
+        with processor_limit(limit):
+            return mixed_film(case), time.process_time() - started
     except GivenUpError:
         return None, time.process_time() - started
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
 
 
 def key_figures(film: MixedFilm) -> Record:

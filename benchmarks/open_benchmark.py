@@ -12,18 +12,18 @@ import argparse
 import csv
 import hashlib
 import json
-import signal
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from time import process_time
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 from scipy.stats import qmc
 
+from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case, ConvergenceError, solve
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.lubricant.viscosity import roelands_exponent
@@ -35,7 +35,7 @@ RADIUS = 10e-3  # along entrainment, of all contacts [m]
 
 # Reduced moduli [Pa], of steel on steel to plastic on steel: a contact has the largest with which it rolls at
 # this speed [m/s] at least. Those that would roll faster than the other are left out of the sequence.
-MODULI = (226e9, 50e9, 10e9, 2e9)
+MODULI = (226e9, 50e9, 10e9)
 SPEEDS = (0.01, 100.0)
 
 ROELANDS, S0 = 1.96e8, 1.1  # constants of Roelands' law: p0 [Pa], and the slope index over the temperature
@@ -89,18 +89,17 @@ def speed_of(moes_l: float, modulus: float, viscosity: float, coefficient: float
 
 
 def _contact(at: dict[str, float], oil: str) -> Table:
-    """Speed and load of a contact from Moes' groups; a ``ratio`` of the radii makes it a point contact."""
+    """Modulus, speed and load of a contact from Moes' groups."""
     viscosity, coefficient, _ = OILS[oil]
     speeds = {modulus: speed_of(at["moes_l"], modulus, viscosity, coefficient) for modulus in MODULI}
     modulus = next((modulus for modulus in MODULI if speeds[modulus] > SPEEDS[0]), MODULI[-1])
     speed = speeds[modulus]
     doubled = 2.0 * viscosity * speed / (modulus * RADIUS)
-    contact = {"reduced_modulus": modulus, "entrainment_speed": speed}
-    if "radii" not in at:
-        load = at["moes_m"] * doubled**0.5 * modulus * RADIUS
-        return {"geometry": "line", **contact, "load_per_length": load}
-    load = at["moes_m"] * doubled**0.75 * modulus * RADIUS**2
-    return {"geometry": "point", **contact, "radius_y": RADIUS * at["radii"], "load": load}
+    return {
+        "reduced_modulus": modulus,
+        "entrainment_speed": speed,
+        "load_per_length": at["moes_m"] * doubled**0.5 * modulus * RADIUS,
+    }
 
 
 def _rough(at: dict[str, float], oil: str) -> Table:
@@ -163,11 +162,8 @@ def drawn_of(kind: str, number: int) -> Iterator[tuple[str, Table]]:
 def case_of(table: Table, error: float | None) -> Case:
     """Case of a contact; ``error`` of the film to solve to, None without a grid."""
     viscosity, coefficient, density = OILS[table["oil"]]
-    contact = {}
-    for key in ("geometry", "reduced_modulus", "entrainment_speed", "load", "load_per_length", "radius_y"):
-        if key in table:
-            contact[key] = table[key]
-    contact["reduced_radius" if table["geometry"] == "line" else "radius_x"] = RADIUS
+    contact: Table = {"geometry": "line", "reduced_radius": RADIUS}
+    contact |= {key: table[key] for key in ("reduced_modulus", "entrainment_speed", "load_per_length")}
     lubricant: Table = {
         "viscosity_law": "roelands",
         "pressure_viscosity_coefficient": coefficient,
@@ -204,21 +200,19 @@ def _real(table: Table) -> bool:
     """Whether speed and Hertz pressure of a contact are within their bounds."""
     if table["entrainment_speed"] > SPEEDS[1]:
         return False
-    case = case_of(table, None)
-    pressure = KINDS[case.contact.geometry].resolve(case).max_pressure
+    pressure = KINDS["line"].resolve(case_of(table, None)).max_pressure
     return bool(PRESSURES[0] < pressure < PRESSURES[1])
 
 
-def solved(table: Table, error: float) -> tuple[Table, dict[str, np.ndarray]]:
-    """Results and profiles of a contact."""
+def solved(table: Table, error: float) -> tuple[Table, np.ndarray]:
+    """Results of a contact, and its profile: position over the half-width, pressure [Pa], film [m]."""
     start = process_time()
     result = solve(case_of(table, error))
     summary = result.summary()
     film, field, dry = summary["film"], summary["field"], summary["hertz"]
     heat = film if "slide_to_roll_ratio" in table else {}
     row = {
-        "half_width": dry.get("half_width", dry.get("semi_axis_x")),
-        "semi_axis_y": dry.get("semi_axis_y"),
+        "half_width": dry["half_width"],
         "hertz_pressure": dry["max_pressure"],
         "central_film": film["central_thickness"],
         "minimum_film": film["minimum_thickness"],
@@ -230,36 +224,17 @@ def solved(table: Table, error: float) -> tuple[Table, dict[str, np.ndarray]]:
         "traction_coefficient": heat.get("traction_coefficient"),
         "temperature_rise": heat.get("max_temperature_rise"),
         "temperature_rise_error": heat.get("temperature_rise_error"),
-        "capacitance": field.get("capacitance", field.get("capacitance_per_length")),
+        "capacitance": field["capacitance_per_length"],
         "max_field": field["max_strength"],
         "max_field_error": field["max_strength_error"],
         "nodes": film["nodes"],
         "seconds": process_time() - start,
         "warnings": ";".join(summary["warning_codes"]),
     }
-    return row, profiles(result.film, row)
-
-
-def profiles(film: Any, row: Table) -> dict[str, np.ndarray]:
-    """Pressure [Pa] and film [m] along both axes through the centre, at positions over the semi-axes."""
     along = np.linspace(-2.0, 1.5, NODES)
-    x = along * row["half_width"]
-    if row["semi_axis_y"] is None:
-        values = [np.interp(x, film.x, values) for values in (film.pressure, film.thickness)]
-        return {"x": np.array([along, *values])}
-    across = np.linspace(0.0, 1.5, NODES)
-    y = across * row["semi_axis_y"]
-    lines = {"x": (along, x, np.zeros(NODES)), "y": (across, np.zeros(NODES), y)}
-    found = {}
-    for axis, (position, at_x, at_y) in lines.items():
-        values = [_between(film, values, at_x, at_y) for values in (film.pressure, film.thickness)]
-        found[axis] = np.array([position, *values])
-    return found
-
-
-def _between(film: Any, values: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Values of a film of a point contact at positions [m], by linear interpolation."""
-    return RegularGridInterpolator((film.x, film.y), values)(np.stack([x, y], axis=-1))
+    pressure, thickness = result.film.pressure, result.film.thickness
+    profile = [np.interp(along * dry["half_width"], result.film.x, each) for each in (pressure, thickness)]
+    return row, np.array([along, *profile])
 
 
 def class_of(name: str) -> str:
@@ -271,38 +246,50 @@ def solve_missing(folder: Path, part: int, parts: int) -> None:
     """Solve the candidates of a part that the folder lacks, a file for each, until all classes are full."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, (name, table) in enumerate(contacts()):
-        kind, path = class_of(name), folder / f"{name}.npz"
-        if number % parts != part or path.exists() or len(_accepted(folder, kind)) >= CLASSES[kind].number:
+        kind = class_of(name)
+        if number % parts != part or _path(folder, name).exists():
             continue
-        row, found = attempted(table, CLASSES[kind].error)
-        np.savez(path, row=json.dumps(row), **found)
+        if len(_accepted(folder, kind)) >= CLASSES[kind].number:
+            continue
+        row = stored(folder, name, table)
         print(name, row["film_error"], row.get("nodes"), row.get("seconds"), flush=True)
 
 
-def attempted(table: Table, error: float) -> tuple[Table, dict[str, np.ndarray]]:
-    """The same, with the reason where there is no film, or none in the processor time."""
+def _path(folder: Path, name: str) -> Path:
+    """File of a contact."""
+    return folder / f"{name}.npz"
 
-    def late(*_: object) -> None:
-        raise TimeoutError(f"takes more than {LIMIT:g} s")
 
-    signal.signal(signal.SIGVTALRM, late)
-    signal.setitimer(signal.ITIMER_VIRTUAL, LIMIT)
-    try:
-        return solved(table, error)
-    except (ConvergenceError, TimeoutError) as missed:
-        return {"film_error": None, "missed": str(missed)}, {}
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+def stored(folder: Path, name: str, table: Table) -> Table:
+    """Results of a contact, which is solved first where the folder lacks it.
+
+    Where there is no film, or none within ``LIMIT``, ``film_error`` is None and ``missed`` has the reason.
+    """
+    path = _path(folder, name)
+    if not path.exists():
+        profile = np.empty((3, 0))
+        try:
+            with processor_limit(LIMIT):
+                row, profile = solved(table, CLASSES[class_of(name)].error)
+        except GivenUpError:
+            row = {"film_error": None, "missed": f"takes more than {LIMIT:g} s"}
+        except ConvergenceError as missed:
+            row = {"film_error": None, "missed": str(missed)}
+        np.savez(path, row=json.dumps(row), profile=profile)
+    return _read(path)[0]
+
+
+@cache
+def _read(path: Path) -> tuple[Table, np.ndarray]:
+    """Results and profile of a file, which is never written again."""
+    with np.load(path) as file:
+        return json.loads(str(file["row"])), file["profile"]
 
 
 def _accepted(folder: Path, kind: str) -> list[str]:
     """Names of the candidates of a class that are solved to its error, in order, as many as it has."""
-    found = []
-    for path in sorted(folder.glob(f"{kind}-[0-9]*.npz")):
-        with np.load(path) as stored:
-            row = json.loads(str(stored["row"]))
-        if good(row, CLASSES[kind].error):
-            found.append(path.stem)
+    paths = sorted(folder.glob(f"{kind}-[0-9]*.npz"))
+    found = [path.stem for path in paths if good(_read(path)[0], CLASSES[kind].error)]
     return found[: CLASSES[kind].number]
 
 
@@ -321,18 +308,16 @@ def write(folder: Path, target: Path = TARGET) -> None:
     for name, table in contacts():
         if name not in accepted[class_of(name)]:
             continue
-        with np.load(folder / f"{name}.npz") as stored:
-            results.append({"name": name, **json.loads(str(stored["row"]))})
-            for axis in ("x", "y"):
-                if axis in stored:
-                    lines += [(name, axis, *values) for values in stored[axis].T.tolist()]
+        row, profile = _read(_path(folder, name))
+        results.append({"name": name, **row})
+        lines += [(name, *values) for values in profile.T.tolist()]
         inputs.append({"name": name, **_inputs(table)})
     _write_rows(target / "contacts.csv", inputs)
     _write_rows(target / "results.csv", results)
     with (target / "profiles.csv").open("w", newline="", encoding="utf-8") as file:
         file.write("name,axis,position,pressure,film\n")
-        for name, axis, position, pressure, film in lines:
-            file.write(f"{name},{axis},{position:.4f},{pressure:.6g},{film:.6g}\n")
+        for name, position, pressure, film in lines:
+            file.write(f"{name},x,{position:.4f},{pressure:.6g},{film:.6g}\n")
     files = ("contacts.csv", "results.csv", "profiles.csv", "compare.py")
     manifest = {
         "title": "Open benchmark of elastohydrodynamic films with their electric field",
@@ -347,15 +332,13 @@ def write(folder: Path, target: Path = TARGET) -> None:
 def _inputs(table: Table) -> Table:
     """Row of the inputs: all that another program needs, in SI units."""
     viscosity, coefficient, density = OILS[table["oil"]]
-    hot = "slide_to_roll_ratio" in table
     return {
-        "geometry": table["geometry"],
+        "geometry": "line",
         "moes_m": table["moes_m"],
         "moes_l": table["moes_l"],
         "reduced_modulus": table["reduced_modulus"],
         "radius_x": RADIUS,
-        "radius_y": table.get("radius_y"),
-        "load": table.get("load", table.get("load_per_length")),
+        "load": table["load_per_length"],
         "entrainment_speed": table["entrainment_speed"],
         "slide_to_roll_ratio": table.get("slide_to_roll_ratio", 0.0),
         "oil": table["oil"],
@@ -365,7 +348,7 @@ def _inputs(table: Table) -> Table:
         "density_law": density,
         "waviness_amplitude": table.get("waviness_amplitude", 0.0),
         "waviness_wavelength": table.get("waviness_wavelength"),
-        "thermal": int(hot),
+        "thermal": int("slide_to_roll_ratio" in table),
     }
 
 
@@ -382,8 +365,6 @@ def _text(value: Any) -> str:
     """Value as text."""
     if value is None:
         return ""
-    if isinstance(value, list):
-        return "x".join(str(each) for each in value)
     return f"{value:.7g}" if isinstance(value, float) else str(value)
 
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import signal
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
@@ -34,7 +33,7 @@ from tests.helpers.mixed_films import (
 )
 
 from benchmarks.mixed import head, percent, row
-from benchmarks.mixed_store import GivenUpError
+from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
 from ehlectric.arrays import Array
 from ehlectric.film.flow import (
@@ -259,19 +258,11 @@ Record = dict[str, str]
 
 def limited(seconds: float, problem: FilmProblem, known: list[GridSolution]) -> list[GridSolution]:
     """Solutions on all grids above the known one; none if they take more processor time than they may."""
-
-    def give_up(*_: Any) -> None:
-        raise GivenUpError
-
-    signal.signal(signal.SIGPROF, give_up)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
-        with quiet_solution():
+        with processor_limit(seconds), quiet_solution():
             return nested_iteration(problem, None, known)
     except GivenUpError:
         return []
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
 
 
 def solved(series: Series, limit: float) -> Iterator[Record]:

@@ -30,10 +30,8 @@ EFFECTS: dict[str, dict[str, Any]] = {
     GREASED: {"supply": "grease", "summit_height": 0.0},
     BEST: {"supply": "grease", "summit_height": 2.0},
 }
-TEMPERATURE, WARMER = (
-    60.0,
-    40.0,
-)  # oil at the low speed [degC], and how much hotter it may be at the high one [K]
+# Oil at the low speed [degC], and how much hotter it may be at the high one [K].
+TEMPERATURE, WARMER = 60.0, 40.0
 
 
 @lru_cache(maxsize=256)

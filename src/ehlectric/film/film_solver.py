@@ -200,11 +200,6 @@ class StarvedSolution(RefinedSolution):
         return self.last is not self.flooded
 
     @property
-    def whole_problem(self) -> FilmProblem:
-        """Problem over the whole domain; that of a patch has the domain and the load of the patch."""
-        return self.problem if self.patch is None else self.patch.problem
-
-    @property
     def fraction(self) -> Array | None:
         """Part of the gap that oil fills, shape (nx, ny); None for a flooded film."""
         return self.last.fraction if self.starved else None

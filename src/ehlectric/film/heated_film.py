@@ -717,9 +717,8 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
     """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
     heat on this grid: guesses that are further away may take minutes to fail.
     """
-    iteration, careful = replace(flooded.iteration, most_loops=_LOOPS), list[Solver]()
-    if iteration.physics.thermal is not None:
-        careful = [_solver(replace(iteration, careful=True))]
+    iteration = replace(flooded.iteration, most_loops=_LOOPS)
+    hot = iteration.physics.thermal is not None
     return StarvedProblem(
         iteration.problem,
         iteration.posed,
@@ -727,7 +726,7 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
         _solver(iteration),
         cold=cold,
         with_heat=True,
-        careful=tuple(careful),
+        careful=_solver(replace(iteration, careful=True)) if hot else None,
     )
 
 

@@ -338,7 +338,10 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
 
 
 def open_state(level: Level, coarse: GridSolution) -> State:
-    """The same without contact pressure, with a gap of at least half of the thinnest one of the solution."""
+    """State on a grid with the pressure of a coarser solution and without contact.
+
+    Its thinnest gap is at least half of that of the coarser solution.
+    """
     return interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
 
 

@@ -157,7 +157,7 @@ class StarvedProblem:
     with_heat: bool = False  # whether ``film`` finds films with heat or shear
     # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
-    careful: tuple[Solver, ...] = ()  # slower solvers, which are tried where ``film`` finds no film with heat
+    careful: Solver | None = None  # slower solver, which is tried where ``film`` finds no film with heat
 
     @property
     def order(self) -> int:
@@ -228,9 +228,10 @@ class StarvedProblem:
             guesses.insert(0 if cold.touches else len(guesses), self._follow(cold, fall))
             scheme = replace(self, first_order=cold.content.supply.first_order)
         guesses.append(self._from_dry(layer))
-        for solver in (self.film, *self.careful):
-            for guess in guesses:
-                yield replace(scheme, film=solver)._under(layer, guess)
+        for solver in (self.film, self.careful):
+            if solver is not None:
+                for guess in guesses:
+                    yield replace(scheme, film=solver)._under(layer, guess)
         if self.flooded.status == "converged":
             yield scheme._under(layer, self._from_flooded(layer))
             yield from scheme._in_steps(layer)

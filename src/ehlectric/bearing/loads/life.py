@@ -12,17 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-MILLION = 1e6
-
-# Exponents of the life over the load.
-BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
+_MILLION = 1e6
 
 # Speed [rpm] at which the rated viscosity changes its law, and the constants of both [mm^2/s].
 _SLOW = 1000.0
 _RATED_SLOW, _RATED_FAST = 45000.0, 4500.0
 
 # Viscosity ratios for which the life modification factor holds, and those at which its formula changes.
-LOWEST_RATIO, HIGHEST_RATIO = 0.1, 4.0
+_LOWEST_RATIO, _HIGHEST_RATIO = 0.1, 4.0
 _CHANGES = (0.4, 1.0)
 
 # Largest life modification factor, and largest part of contamination, fatigue limit and load in it.
@@ -63,7 +60,7 @@ MODIFICATIONS = {
 }
 
 
-def basic_life(rating: float, load: float, exponent: float = BALL_EXPONENT) -> float:
+def basic_life(rating: float, load: float, exponent: float = 3.0) -> float:
     """Basic rating life L_10 = (C/P)^p of ISO 281 [revolutions]. ``rating``, basic dynamic load rating C [N];
     ``load``, equivalent dynamic load P [N]; ``exponent`` p, 3 for balls and 10/3 for rollers.
 
@@ -72,7 +69,7 @@ def basic_life(rating: float, load: float, exponent: float = BALL_EXPONENT) -> f
     >>> basic_life(29_100.0, 2_910.0)
     1000000000.0
     """
-    return float(MILLION * (rating / load) ** exponent)
+    return float(_MILLION * (rating / load) ** exponent)
 
 
 def rated_viscosity(speed: float, pitch_diameter: float) -> float:
@@ -129,9 +126,9 @@ def life_factor(kind: str, viscosity_ratio: float, load_part: float) -> float:
     >>> round(life_factor("radial ball", 1.0, 0.1), 4)
     2.4305
     """
-    if viscosity_ratio < LOWEST_RATIO:
+    if viscosity_ratio < _LOWEST_RATIO:
         raise ValueError(f"got a viscosity ratio of {viscosity_ratio:.3g}; ISO 281 has a factor from 0.1 on")
-    law, ratio = MODIFICATIONS[kind], min(viscosity_ratio, HIGHEST_RATIO)
+    law, ratio = MODIFICATIONS[kind], min(viscosity_ratio, _HIGHEST_RATIO)
     place = sum(ratio >= change for change in _CHANGES)
     oil = (law.most - law.factors[place] / ratio ** _POWERS[place]) ** law.bracket
     bracket = 1.0 - oil * (min(load_part, _MOST_LOAD_PART) / law.thrust) ** law.load
@@ -226,7 +223,7 @@ def reference_life(
     spent = (inner / ratings.inner) ** slope + (outer / ratings.outer) ** slope
     if spent == 0.0:
         return math.inf
-    return float(MILLION * spent ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
+    return float(_MILLION * spent ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
 
 
 def _power_mean(loads: ArrayLike, power: float) -> float:
