@@ -99,33 +99,30 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
     if axes.ratio is None:
         return 0
     load, lubricant, ratio = (float(axis[index]) for axis, index in zip(axes.nodes, at, strict=True))
-    between, light, ball = at[1] % 2 == 1, load <= _LIGHT, ratio >= _BALLS
-    if ratio < 1.0 or ratio in _SPARSE:
-        return None if between or load not in _SPARSE_LOADS[ratio] else _SPARSE.get(ratio, 4)
-    # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
-    if light:
-        return 1 if ball and ratio < _NARROW else 5
-    if between:
-        return 8 if ball and lubricant > _HIGH else None
+    between, ball = at[1] % 2 == 1, ratio in _BALLS
+    if ratio in _SPARSE_LOADS:
+        rank = None if between or load not in _SPARSE_LOADS[ratio] else 3
+    elif between:
+        # Only light contacts, and those near the largest Hertz pressure, change fast with Y.
+        near = ball and (load <= _LIGHT or lubricant > _HIGH)
+        rank = 4 if load <= _LIGHTEST else 2 if near else None
+    else:
+        every_second = load <= _LIGHT or ball or at[0] % 2 == 0
+        rank = (0 if ball else 1) if every_second else None
     # The thinnest films take longest.
-    wide, narrow = not ball, ratio > _NARROW and lubricant > _LONG
-    if load > _HEAVY and (lubricant < _LOW or (load > _HEAVIEST and (wide or narrow))):
-        return 9
-    return 4 if not ball else 6 if _HEAVY < load < _HEAVIEST else 0
+    return None if rank is None else rank + 5 if load > _HEAVY else rank
 
 
-# Load group up to which every lubricant coordinate is solved, and the coordinate beyond which this holds for
-# all loads; least ratio of the semi-axes of the balls of bearings, which come first; lubricant coordinate
-# below which no bearing is, and load groups beyond which films are thin, and thinnest; ratio above balls.
-_LIGHT, _HIGH, _BALLS = 130.0, 70.0, 4.0
-_LOW, _HEAVY, _HEAVIEST, _NARROW, _LONG = 9.0, 3000.0, 10000.0, 12.0, 50.0
+# Load group up to which all loads and, for balls of bearings, all lubricant coordinates are solved, and that
+# up to which they are for all ratios of the semi-axes; lubricant coordinate beyond which balls have all of
+# them; load group beyond which films are thinnest; ratios of the semi-axes of balls.
+_LIGHT, _LIGHTEST, _HIGH, _HEAVY, _BALLS = 130.0, 10.0, 70.0, 5000.0, (4.5, 9.5)
 
-# Ratios of the semi-axes that are solved for few load groups, with their rank, and these load groups. Films
-# change slowly with the ratio, but the side lobes of heavily loaded contacts do not.
-_SPARSE = {1.4: 4, 3.0: 0, 6.5: 0}
-_FEW = (5.5, 20.0, 130.0, 500.0, 2500.0)
-_WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0)
-_SPARSE_LOADS = {0.25: _WIDE, 0.5: _WIDE, 1.4: _FEW, 3.0: _FEW, 6.5: (*_FEW, 12000.0)}
+# Load groups that are solved for some ratios of the semi-axes. Films change slowly with the ratio, but the
+# side lobes of heavily loaded contacts do not.
+_FEW = (3.0, 5.5, 20.0, 130.0, 500.0, 2500.0, 12000.0)
+_WIDE = (3.0, 5.5, 10.0, 20.0, 45.0, 130.0, 500.0, 2500.0)
+_SPARSE_LOADS = {0.25: _WIDE, 0.5: _WIDE, 1.4: _FEW, 3.0: _FEW, 6.5: _FEW}
 
 # Relative distance within which a contact is at a node.
 _ALIKE = 1e-6
@@ -136,7 +133,7 @@ _LOADS = (*_SMALL, 250.0, 500.0, 1100.0, 2500.0, 5500.0, 12000.0)
 
 POINTS = Axes(
     np.array(_LOADS),
-    np.append(np.geomspace(5.0, 112.0, 9), 175.0),
+    np.concatenate([[0.6, 1.0, 1.75, 2.9], np.geomspace(5.0, 112.0, 9), [175.0]]),
     np.array([0.25, 0.5, 1.0, 1.4, 2.0, 3.0, 4.5, 6.5, 9.5, 20.0]),
 )
 LINES = Axes(np.geomspace(0.2, 800.0, 25), np.geomspace(1.5, 112.0, 19))

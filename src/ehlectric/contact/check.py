@@ -24,6 +24,7 @@ from ehlectric.contact.contact_refinement import Reach, reach_of
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.far_field import MOST_OUTSIDE
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import FilmProblem
@@ -142,9 +143,6 @@ _UPSTREAM, _DOWNSTREAM, _SIDEWAYS = 6.0, 2.0, 3.0
 FARTHEST = {"line": (300.0, 0.0), "point": (48.0, 24.0)}
 MOST_STEPS = 3
 
-# Loss of the film above which no domain that is taken here is large enough.
-_HOPELESS = {"line": math.inf, "point": 1.0}
-
 # Nodes in a half-width or semi-axis of the first grid, along and across, and the least number of nodes.
 _DENSITY = {"line": (16, 0, 401), "point": (8, 16, 129)}
 
@@ -158,7 +156,7 @@ def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact
     case, grid, loss = contact.case, contact.case.grid, film.domain_loss
     if not film.converged or loss is None or grid.target is None or loss <= grid.target:
         return None
-    if contact.rough or case.inlet is not None or loss > _HOPELESS[contact.conditions.geometry]:
+    if contact.rough or case.inlet is not None:
         return None
     larger = _larger(contact, film, loss, grid.target)
     if larger is None:
@@ -179,6 +177,9 @@ def _larger(
     geometry = conditions.geometry
     upstream, sideways = FARTHEST[geometry]
     factor = min(_MOST, max(_LEAST, math.cbrt(loss / (_AIM * target))))
+    if geometry == "point":
+        # The load outside of the domain falls with its size.
+        factor = max(factor, (film.load_deficit or 0.0) / (_AIM * MOST_OUTSIDE))
     length = math.sqrt(2.0 * film.central_thickness / film.scales.thickness)
     start, end = grid.ends
     inlet = min(upstream, max(factor * -start, _UPSTREAM * length))

@@ -29,7 +29,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem, OilSupply, Scales
 from ehlectric.formulas.film_line import CentralThickness, moes
-from ehlectric.formulas.film_point import nijenbanning_venner_moes
+from ehlectric.formulas.film_point import load_exponent, nijenbanning_venner_moes
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.oil import Oil
 from ehlectric.surfaces.generated_profiles import Domain
@@ -179,6 +179,7 @@ def point_film_problem(
             symmetric=_symmetric(setup, conditions, rough),
         ),
         added_gap=_added_gap(conditions, rough),
+        load_exponent=load_exponent(conditions.contact),
     )
 
 

@@ -34,6 +34,7 @@ from ehlectric.discharge.film_breakdown import field_flags
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning, raised
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
+from ehlectric.film.far_field import with_far_field
 from ehlectric.film.newton import Progress
 from ehlectric.film.problem import FilmProblem, OnGrid
 from ehlectric.lubricant.oil import Oil
@@ -264,10 +265,12 @@ def _on_large_domain(
 def _posed(contact: PreparedContact, default: PreparedContact, setup: Setup) -> FilmProblem:
     """Film problem of a contact on a domain that is larger than the ``default`` one.
 
-    What the ambient pressure carries on the default domain is part of the load, as in the paper.
+    What the ambient pressure carries on the default domain is part of the load, as in the paper. The oil
+    outside of the domain of a point contact carries its part of the load.
     """
     area = default.film_problem(Setup.of(default.case)).area
-    return contact.film_problem(setup).bearing_ambient_pressure_on(area)
+    problem = contact.film_problem(setup).bearing_ambient_pressure_on(area)
+    return problem if problem.width is None else with_far_field(problem)
 
 
 def _field_warnings(

@@ -5,13 +5,12 @@ of the domain.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
 from scipy.ndimage import maximum_filter
 
-from ehlectric.arrays import Array, Numbers, as_float
+from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
@@ -20,10 +19,6 @@ from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas.polynomials import gauss_legendre
-
-# Loss of the film of a point contact over the load that is missing outside of its domain, by ln H.
-_LOAD_AT = np.log([1.0, 4.6])
-_LOST_BY_LOAD = (0.05, 1.6)
 
 # Factor by which the change of the minimum from the coarser grid exceeds its error on the finer one, with the
 # scheme of third order; see ``of_three_grids``.
@@ -183,8 +178,7 @@ def upstream_deficits(
 
     ``fluid``, lubricant over dimensionless pressure; ``pressure`` and ``mass``, pressure P and oil mass rho
     H, dimensionless, shape (nx, ny). Returns share of the reduced pressure on the line Y = 0, and share of
-    the load of a line contact, both from 0 to 1; 0 for an invalid iterate; the load of point contacts is that
-    of ``point_load_deficit``.
+    the load of a line contact, both from 0 to 1; 0 for an invalid iterate.
 
     The reduced pressure is the integral of dP/eta. It follows from the Reynolds equation integrated once,
     dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q. Upstream of the domain P is taken as ambient and
@@ -202,7 +196,7 @@ def upstream_deficits(
     middle = int(np.argmin(np.abs(mesh.y)))
     x, pressure, mass = mesh.x, pressure[:, middle], mass[:, middle]
     flow = float(mass[np.argmax(pressure)])
-    inside = _reduced_pressure(fluid, pressure)
+    inside = reduced_pressure(fluid, pressure)
     # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
     points, weights = gauss_legendre(_POINTS)
     t = 0.5 * (points + 1.0)
@@ -216,91 +210,10 @@ def upstream_deficits(
     return before / (before + inside), missing / (1.0 + missing)
 
 
-def _reduced_pressure(fluid: Fluid, pressure: Array) -> float:
+def reduced_pressure(fluid: Fluid, pressure: Array) -> float:
     """Largest reduced pressure, the integral of dP/eta, on a line along x with the pressure P (nx,)."""
     fluidity = np.exp(-fluid.log_viscosity(np.maximum(pressure, fluid.ambient_pressure))[0])
     return float(np.max(np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure))))
-
-
-def lost_by_load(thickness: Numbers) -> Numbers:
-    """Relative loss of the film of a point contact over ``point_load_deficit``, by the central film H.
-
-    The load that is missing falls with the size of the domain, and not with its cube as the pressure does.
-    It decides where the bodies hardly deform: a ball with H = 4.6 lost 31, 48 and 59 % on domains of 24, 12
-    and 6 semi-axes (extrapolated from 24 and 48), and one with H = 0.9 no more than the missing pressure
-    explains.
-    """
-    at = np.log(np.maximum(thickness, 1e-12))
-    return as_float(np.interp(at, _LOAD_AT, _LOST_BY_LOAD))
-
-
-def point_load_deficit(problem: FilmProblem) -> float:
-    """Load that oil would carry upstream of the domain of a point contact and beside it, over its load.
-
-    The Kapitza pressure of ``side_deficit``, for a parabolic gap, is integrated over the half-plane X < 0
-    outside of the domain. With the angle t from the inlet in the plane of X and sqrt(Rx/Ry) Y, and R(t) from
-    the centre to the edge of the domain, it is 4 lambda/((3 + 2 k) sqrt(k)) times the integral of cos(t)/R(t)
-    with k = Rx/Ry.
-    """
-    assert problem.width is not None
-    missing = missing_load(
-        problem.geometry.radius_ratio,
-        (-problem.inlet, problem.width.side),
-        problem.fluid.velocity_parameter,
-    )
-    return float(missing / problem.geometry.load)
-
-
-def missing_load(ratio: Numbers, domain: tuple[Numbers, Numbers], velocity_parameter: Numbers) -> Numbers:
-    """Load of ``point_load_deficit`` without its division by the load of the contact, dimensionless.
-
-    ``ratio``, k = Rx/Ry; ``domain``, length of the inlet and half of the width of the domain in b; all of
-    shape (...).
-    """
-    inlet, side = domain[0], np.sqrt(ratio) * domain[1]
-    cotangents, ahead, beside = _reach_sums()
-    # Nodes whose ray leaves the domain at the inlet.
-    number = np.searchsorted(cotangents, inlet / side)
-    integral = beside[number] / side + ahead[number] / inlet
-    return 4.0 * velocity_parameter / ((3.0 + 2.0 * ratio) * np.sqrt(ratio)) * integral
-
-
-@lru_cache(maxsize=1)
-def _reach_sums() -> tuple[Array, Array, Array]:
-    """Cotangents of the angles of the nodes, increasing, and the parts of the integral of cos(t)/R(t).
-
-    A ray with a cotangent above the inlet over the side ends at the inlet, R = inlet/cos(t), and another one
-    at the side, R = side/sin(t). Returns for each number of the smallest cotangents that end at the side the
-    sum of the others times the inlet, and the sum of these times the side.
-    """
-    points, weights = gauss_legendre(_POINTS)
-    angle = np.abs(0.5 * np.pi * points)
-    weights = 0.5 * np.pi * weights * np.cos(angle)
-    cotangents = np.cos(angle) / np.sin(angle)
-    order = np.argsort(cotangents)
-    ahead, beside = ((weights * part)[order] for part in (np.cos(angle), np.sin(angle)))
-    at_inlet = np.append(np.cumsum(ahead[::-1])[::-1], 0.0)
-    return cotangents[order], at_inlet, np.append(0.0, np.cumsum(beside))
-
-
-def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:
-    """Share of the reduced pressure that is missing because the domain's sides are at ambient pressure.
-    ``pressure`` and ``thickness``, pressure P and film thickness H, dimensionless, shape (nx, ny). Returns
-    share of the reduced pressure, from 0 to 1; 0 for an invalid iterate.
-
-    For H = X^2/2 + (Rx/Ry) Y^2/2 + const the reduced pressure is -lambda X/((3 + 2 Rx/Ry) H^2), an exact
-    solution of the Reynolds equation for constant density, without cavitation (P. Kapitza, Zh. Tekh. Fiz. 25
-    (1955) 747). Its largest value on the sides is compared with the largest reduced pressure, the integral of
-    dP/eta, on the line Y = 0.
-    """
-    fluid = problem.fluid
-    if not np.all(np.isfinite(pressure)):
-        return 0.0
-    middle = pressure[:, int(np.argmin(np.abs(mesh.y)))]
-    inside = _reduced_pressure(fluid, middle)
-    upstream = np.maximum(-mesh.x, 0.0) / (3.0 + 2.0 * problem.geometry.radius_ratio)
-    outside = float(np.max(fluid.velocity_parameter * upstream / thickness[:, -1] ** 2))
-    return outside / (outside + inside)
 
 
 # Distance from a position, in spacings of the coarser grid, within which values are compared.

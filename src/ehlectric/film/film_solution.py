@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.film_error import max_pressure_error, point_load_deficit, upstream_deficits
+from ehlectric.film.far_field import load_deficit, pressure_deficit
+from ehlectric.film.film_error import max_pressure_error, upstream_deficits
 from ehlectric.film.film_solver import RefinedSolution, Starvation, StarvedSolution
 from ehlectric.film.hot_oil import HeatedFilm
 from ehlectric.film.mesh import Mesh, at_centre
@@ -162,7 +163,9 @@ def _deficits(found: RefinedSolution) -> tuple[float, float | None]:
     problem, level, state = found.whole_problem, found.whole.level, found.whole.state
     mass = found.whole.final.coefficients.density * state.thickness
     upstream, load = upstream_deficits(problem.fluid, problem.geometry, level.mesh, state.pressure, mass)
-    return upstream, load if problem.width is None else point_load_deficit(problem)
+    if problem.width is None:
+        return upstream, load
+    return pressure_deficit(problem, upstream), load_deficit(problem)
 
 
 def mass_residual(found: RefinedSolution) -> float:

@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.film.far_field import side_deficit
 from ehlectric.film.film_error import (
     LEAST_UNSEEN,
     UNSEEN,
     expected_error,
     richardson,
     rough_film_error,
-    side_deficit,
     upstream_deficits,
 )
 from ehlectric.film.mesh import Mesh, at_centre

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
-from ehlectric.film.film_error import lost_by_load, side_deficit
+from ehlectric.film.far_field import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
 from ehlectric.film.heated_film import heated_result, solve_heated_film
@@ -148,13 +148,27 @@ class PointFilm(FilmSolution):
     # Share of the reduced pressure that is missing because the sides of the domain are at ambient pressure.
     # None for an instant of a transient film.
     side_deficit: float | None = field(default=None, metadata=number())
+    # Exponent with which the expected film falls over the load. None where it is not known.
+    load_exponent: float | None = field(default=None, metadata=number())
 
     @classmethod
     def of(
-        cls, film: FilmSolution, *, y: Array, semi_axis_y: float, side_deficit: float | None = None
+        cls,
+        film: FilmSolution,
+        *,
+        y: Array,
+        semi_axis_y: float,
+        side_deficit: float | None = None,
+        load_exponent: float | None = None,
     ) -> PointFilm:
         """Film of a point contact from a ``FilmSolution`` with nodal values (nx, ny)."""
-        return cls(**vars(film), y=y, semi_axis_y=semi_axis_y, side_deficit=side_deficit)
+        return cls(
+            **vars(film),
+            y=y,
+            semi_axis_y=semi_axis_y,
+            side_deficit=side_deficit,
+            load_exponent=load_exponent,
+        )
 
     @property
     def axes(self) -> tuple[Array, ...]:
@@ -173,7 +187,8 @@ class PointFilm(FilmSolution):
         central = self.central_thickness if flooded is None else flooded
         thickness = central / self.scales.thickness
         lost = lost_film(thickness, self.inlet_deficit, self.side_deficit)
-        return max(lost, float(lost_by_load(thickness)) * (self.load_deficit or 0.0))
+        by_load = float(lost_by_load(self.load_deficit or 0.0, self.load_exponent or 0.0))
+        return 1.0 - max(0.0, 1.0 - lost) * (1.0 - by_load)
 
     @property
     def minimum_position(self) -> tuple[float, float]:
@@ -266,6 +281,7 @@ def _point_film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
         stationary_film(found, mesh.mirrored),
         y=problem.scales.length * y,
         semi_axis_y=semi_axis_across(problem),
+        load_exponent=problem.load_exponent,
         side_deficit=found.side_deficit
         if isinstance(found, StarvedSolution)
         else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),

@@ -288,7 +288,8 @@ def levels_of(problem: FilmProblem) -> list[Level]:
         )
     if problem.edge_pressure is None:
         return levels
-    return [replace(levels[0], edge_excess=problem.edge_excess(levels[0].mesh)), *levels[1:]]
+    load = geometry.load - problem.outside_load
+    return [replace(level, load=load, edge_excess=problem.edge_excess(level.mesh)) for level in levels]
 
 
 @lru_cache(maxsize=_GRIDS_KEPT)

@@ -62,7 +62,9 @@ class FilmProblem:
     function of X (nx,) and Y (ny,) -> H (nx, ny); ``source``, right side of the Reynolds equation: function
     of X (nx,) and Y (ny,) -> (nx, ny); zero by default; ``edge_pressure``, pressure P on the edges of the
     domain, in place of ambient pressure: function of X (nx,) and Y (ny,) -> (nx, ny), of which only the edges
-    count; ``boundary_film``, thickness H_s of the boundary film at which the surfaces touch, dimensionless;
+    count; ``outside_load``, load that oil outside of the domain carries, part of that of the geometry;
+    ``load_exponent``, exponent with which the expected film of a point contact falls over the load;
+    ``boundary_film``, thickness H_s of the boundary film at which the surfaces touch, dimensionless;
     ``hardness``, largest pressure over p_h where the surfaces touch; above it asperities are flattened;
     ``on_grid``, function that is called after each grid of a refinement: grid, discretisation error or None
     -> None.
@@ -82,6 +84,8 @@ class FilmProblem:
     added_gap: Callable[[Array, Array], Array] | None = None
     source: Callable[[Array, Array], Array] | None = None
     edge_pressure: Callable[[Array, Array], Array] | None = None
+    outside_load: float = 0.0
+    load_exponent: float = 0.0
     target_error: float | None = None
     most_nodes: int = 10_000_001
     boundary_film: float = 0.0

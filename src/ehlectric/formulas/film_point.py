@@ -7,7 +7,7 @@ entrainment, the y axis across it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -175,6 +175,28 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     s = 1.5 * (1.0 + np.exp(-1.2 * ei / np.where(ep > 0.0, ep, 1.0)))
     h = (isoviscous ** (2 * s / 3) + below_both(rp, ep, 8) ** s) ** (1.0 / s)
     return CentralThickness(central_thickness=as_float(h * contact.radius_x * np.sqrt(2.0 * contact._u)))
+
+
+# Relative step of the load in the derivative of a formula.
+_STEP = 1e-3
+
+
+def load_exponent(contact: PointContact) -> Numbers:
+    """Exponent with which the formula of Nijenbanning, Venner and Moes falls over the load, -d ln h/d ln F.
+
+    It is 2 for rigid bodies with an isoviscous lubricant, and 2/15 to 1/12 for heavily loaded ones.
+
+    Examples
+    --------
+    >>> light = PointContact(10e-3, 10e-3, 226e9, 1e-6, 2.0, 0.04, 0.0)
+    >>> round(load_exponent(light), 2), round(load_exponent(replace(light, load=1e3)), 2)
+    (2.0, 0.13)
+    """
+    less, more = (
+        nijenbanning_venner_moes(replace(contact, load=contact.load * factor)).central_thickness
+        for factor in (1.0 / (1.0 + _STEP), 1.0 + _STEP)
+    )
+    return as_float(np.log(less / more) / (2.0 * np.log1p(_STEP)))
 
 
 FORMULAS = {

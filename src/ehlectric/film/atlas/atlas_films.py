@@ -14,7 +14,7 @@ from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_groups import Ellipse, Groups, lubricant_coordinate
 from ehlectric.film.atlas.atlas_table import NAMES, Table, table
-from ehlectric.film.film_error import lost_by_load, missing_load
+from ehlectric.film.far_field import left_of_load, lost_by_load, missing_load
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz import axis_ratio
@@ -297,7 +297,7 @@ def _domain_error(groups: Groups, where: Mask) -> Numbers:
         light = Groups(load_group, lubricant_group, ellipse.ratio, ellipse)
         load = 2.0 * np.pi * ellipse.ratio / 3.0
         missing = missing_load(1.0 / light.radius_ratio, light.domain, light.velocity_parameter) / load
-        lost[where] = lost_by_load(light.formula / light.thickness_unit) * missing
+        lost[where] = lost_by_load(left_of_load(missing), light.load_exponent)
     return lost
 
 

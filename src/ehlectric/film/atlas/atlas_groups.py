@@ -27,11 +27,12 @@ from scipy.special import elliprd
 
 from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.film.deflection import point_geometry
+from ehlectric.film.far_field import with_far_field
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas.film_line import LineContact, moes
-from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
+from ehlectric.formulas.film_point import PointContact, load_exponent, nijenbanning_venner_moes
 
 # Speed parameter eta0 u_s/(E' R) with which formulas in SI units are evaluated; it cancels.
 _U = 1e-11
@@ -139,13 +140,21 @@ class Groups:
     @cached_property
     def formula(self) -> Numbers:
         """Central film in Moes' unit by the formula of Moes, or of Nijenbanning, Venner and Moes."""
-        speed, coefficient = 0.5 * _U, self.moes_l / _U**0.25
         if self.ratio is None:
-            line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, speed, 1.0, coefficient)
+            line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, 0.5 * _U, 1.0, self.moes_l / _U**0.25)
             return moes(line).central_thickness / _U**0.5
-        load = self.moes_m * _U**0.75
-        point = PointContact(1.0, self.radius_ratio, 1.0, load, speed, 1.0, coefficient)
-        return nijenbanning_venner_moes(point).central_thickness / _U**0.5
+        return nijenbanning_venner_moes(self._point).central_thickness / _U**0.5
+
+    @property
+    def _point(self) -> PointContact:
+        """Point contact of radius and modulus 1 with these groups."""
+        load, coefficient = self.moes_m * _U**0.75, self.moes_l / _U**0.25
+        return PointContact(1.0, self.radius_ratio, 1.0, load, 0.5 * _U, 1.0, coefficient)
+
+    @property
+    def load_exponent(self) -> Numbers:
+        """Exponent with which the film of a point contact falls over the load, by the formula."""
+        return load_exponent(self._point)
 
     @property
     def domain(self) -> tuple[Numbers, Numbers]:
@@ -200,7 +209,7 @@ def film_problem(
     load = (groups._q * groups.moes_m) ** (1.0 / 3.0)
     compliance = 3.0 / math.pi**2 / k * groups.moes_m ** (1.0 / 3.0) * groups._q ** (-2.0 / 3.0) / load
     geometry = point_geometry(radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance)
-    return replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side))
+    return with_far_field(replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side)))
 
 
 def _over(law: Callable[..., Any], pressure: float) -> Callable[[Array], tuple[Array, Array]]:
