@@ -22,7 +22,7 @@ from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film
 from ehlectric.film.atlas.atlas_groups import Groups, lubricant_coordinate
 from ehlectric.film.atlas.atlas_table import NAMES
-from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson
+from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, incompressible
 from ehlectric.lubricant.viscosity import roelands
 
 LIBRARY = ("e-axle-fluid", "fva-3", "iso-vg-32", "iso-vg-46", "m100", "mobil-shc-320")
@@ -62,8 +62,17 @@ def oils(rng):
 
 DATA = Path(__file__).parent / "data"
 
-# Load groups and ratios of the semi-axes that are drawn: round and narrow contacts, and wide ones.
-RANGES = {"points": ((3.1, 11500.0), (1.0, 19.0)), "wide": ((3.1, 19.0), (0.26, 1.0))}
+# Load groups, lubricant coordinates and ratios of the semi-axes that are drawn: round and narrow contacts,
+# wide ones, those with thin oils, and those with oils that are not compressed.
+RANGES = {
+    "points": ((3.1, 11500.0), (5.2, 108.0), (1.0, 19.0)),
+    "wide": ((3.1, 2400.0), (5.2, 108.0), (0.26, 1.0)),
+    "thin": ((3.1, 2400.0), (0.62, 5.2), (1.0, 19.0)),
+    "incompressible": ((3.1, 2400.0), (2.0, 108.0), (1.0, 19.0)),
+}
+
+# Moes' groups M and L of the lines that are drawn.
+LINES = ((0.3, 500.0), (0.5, 45.0))
 
 
 def drawn(rng, kind):
@@ -73,10 +82,10 @@ def drawn(rng, kind):
         return math.exp(rng.uniform(math.log(least), math.log(most)))
 
     if kind == "lines":
-        return Groups(between(0.3, 500.0), between(1.5, 45.0))
-    loads, ratios = RANGES[kind]
+        return Groups(between(*LINES[0]), between(*LINES[1]))
+    loads, lubricants, ratios = RANGES[kind]
     load = between(*loads)
-    return groups_of(load, between(5.2, 108.0) / load ** (1.0 / 6.0), between(*ratios))
+    return groups_of(load, between(*lubricants) / load ** (1.0 / 6.0), between(*ratios))
 
 
 def contact(number, kind, laws):
@@ -84,7 +93,8 @@ def contact(number, kind, laws):
     rng = np.random.default_rng([15, number])
     groups, oil = drawn(rng, kind), int(rng.integers(len(laws)))
     pressure = groups.hertz_number / OilGroups.of(*laws[oil]).alpha
-    return (groups, oil) if 0.1e9 < pressure < 4e9 and groups.hertz_number < 100.0 else None
+    least = 0.01e9 if kind in ("thin", "lines") else 0.1e9
+    return (groups, oil) if least < pressure < 4e9 and groups.hertz_number < 100.0 else None
 
 
 def solve(kind, count, laws, chosen):
@@ -159,6 +169,8 @@ def main():
     parser.add_argument("--each", action="store_true", help="print the contacts that are off most")
     chosen = parser.parse_args()
     laws = oils(np.random.default_rng(15))
+    if chosen.kind == "incompressible":
+        laws = [(viscosity, incompressible) for viscosity, _ in laws]
     solve(chosen.kind, chosen.number, laws, chosen)
     rows = solved(chosen.kind)
     pairs = [(row, compared(row, laws[row["oil"]])) for row in rows]
@@ -169,7 +181,7 @@ def main():
     if chosen.each:
         for row, pair in sorted(kept, key=lambda each: -max(abs(each[1][0][0]), abs(each[1][1][0])))[:12]:
             groups = Groups(row["m"], row["l"], row["k"])
-            at = f"N {groups.load_group:7.1f} Y {lubricant_coordinate(groups):6.1f} k {row['k']:5.2f}"
+            at = f"N {groups.load_group:7.1f} Y {lubricant_coordinate(groups):6.1f} k {groups.ratio or math.nan:5.2f}"
             print(
                 at,
                 *(

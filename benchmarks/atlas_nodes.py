@@ -136,7 +136,8 @@ POINTS = Axes(
     np.concatenate([[0.6, 1.0, 1.75, 2.9], np.geomspace(5.0, 112.0, 9), [175.0]]),
     np.array([0.25, 0.5, 1.0, 1.4, 2.0, 3.0, 4.5, 6.5, 9.5, 20.0]),
 )
-LINES = Axes(np.geomspace(0.2, 800.0, 25), np.geomspace(1.5, 112.0, 19))
+# The lower six Y go on from the others with the same ratio.
+LINES = Axes(np.geomspace(0.2, 800.0, 25), 112.0 * (1.5 / 112.0) ** (np.arange(24, -1, -1) / 18.0))
 
 _MIDDLE = np.zeros(())
 

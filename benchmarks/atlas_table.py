@@ -40,26 +40,37 @@ def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
 
     Notes
     -----
-    The second axis is filled first, then the third and the first one. The numbers are those of a cubic spline
-    through the solved nodes of the line. To the errors of the neighbours a fifth of the error is added that a
+    The second axis is filled first, then the first one of the planes that are mostly solved, the third, and
+    the first one of all others. The numbers are those of a cubic spline through the solved nodes of the line.
+    To the errors of the neighbours a fifth of the error is added that a
     spline through every second solved node has.
     """
     _fill_lines(values, errors, solved, logs, 1)
     if solved.ndim == 3:
-        _fill_planes(values, errors, solved, logs)
+        full = _full_planes(solved)
+        for plane in full:
+            at = (slice(None), slice(None), plane)
+            _fill_lines(values[at], errors[at], solved[at], logs, 0)
+        _fill_planes(values, errors, solved, logs, full)
         _fill_lines(values, errors, solved, logs, 2)
     _fill_lines(values, errors, solved, logs, 0)
 
 
-def _fill_planes(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
-    """Fill planes of the third axis that are solved for few nodes of the first one.
+def _full_planes(solved: Mask) -> NDArray[np.intp]:
+    """Planes of the third axis that are solved for most nodes of the first one."""
+    share = solved.mean(axis=(0, 1))
+    return np.flatnonzero(share > _FULL * np.max(share))
+
+
+def _fill_planes(
+    values: Array, errors: Array, solved: Mask, logs: list[Array], full: NDArray[np.intp]
+) -> None:
+    """Fill planes of the third axis that are solved for few nodes of the first one, beside the full ones.
 
     A spline along the third axis through the other planes is off by little, and this changes slowly along the
     first axis: the difference at the solved nodes is interpolated, and kept beyond the last of them, where it
     is added to the error.
     """
-    share = solved.mean(axis=(0, 1))
-    full = np.flatnonzero(share > _FULL * np.max(share))
     for plane in np.setdiff1d(np.arange(full[0], full[-1]), full):
         for j in range(solved.shape[1]):
             line, x = (slice(None), j, plane), logs[2]
@@ -205,7 +216,7 @@ def stored(groups: Groups, numbers: Array) -> Array:
     """
     logs = np.log(np.maximum(numbers[:_PLACES], 1e-12))
     logs[_PRESSURE] = max(logs[_PRESSURE], np.log(_LEAST_PRESSURE))
-    peak = numbers[_PRESSURE] * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
+    peak = max(0.0, numbers[_PRESSURE]) * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
     logs[_ZONE] -= logs[_CENTRAL] - np.log(groups.formula)
     logs[_CENTRAL] -= float(np.log(reference_laws()[1](np.array([peak]))[0][0]))
     logs[[_CENTRAL, _MINIMUM, _MEAN]] -= np.log(groups.formula)

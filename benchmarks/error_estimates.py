@@ -1,6 +1,6 @@
-"""Estimated errors of films beside their true ones: 500 lines, 100 rough and 100 hot lines.
+"""Estimated errors of films beside their true ones: 500 lines, 100 points, 100 rough and 100 hot lines.
 
-python -m benchmarks.error_estimates FOLDER [--kinds line rough hot]
+python -m benchmarks.error_estimates FOLDER [--kinds line point rough hot]
 
 The contacts are those of the open benchmark, and more of each sequence. FOLDER has their films of
 ``benchmarks.open_benchmark``, which count as the truth, and gets those that it lacks. Each contact is solved
@@ -23,7 +23,7 @@ from ehlectric import ConvergenceError, solve
 DATA = Path(__file__).parent / "data" / "error_estimates.csv"
 
 # Contacts of each class, and the error of the film that a user asks for.
-NUMBERS = {"line": 500, "rough": 100, "hot": 100}
+NUMBERS = {"line": 500, "point": 100, "rough": 100, "hot": 100}
 ASKED = 1e-2
 
 _FILMS = {"central": "central_thickness", "minimum": "minimum_thickness"}

@@ -26,6 +26,7 @@ from scipy.stats import qmc
 from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case, ConvergenceError, solve
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.viscosity import roelands_exponent
 from ehlectric.version import __version__
 
@@ -65,6 +66,7 @@ ROUGH_INLET = -30.0  # of rough contacts, in half-widths
 LIMIT = 150.0  # processor time of a candidate [s]
 
 NODES = 201  # of a profile
+ENDS = ((-2.0, 1.5), (-1.5, 1.5))  # of the profiles along x and y, in semi-axes
 
 Table = dict[str, Any]
 
@@ -76,7 +78,7 @@ class Class:
     number: int
     seed: int
     ranges: dict[str, tuple[float, float]]  # all are drawn evenly in their logarithm
-    make: Callable[[dict[str, float], str], Table]
+    make: Callable[[dict[str, float], str], Table]  # inputs of a contact from its numbers and its oil
     error: float  # of the film, over its thickness
 
 
@@ -88,23 +90,32 @@ def speed_of(moes_l: float, modulus: float, viscosity: float, coefficient: float
     return 0.5 * (moes_l / (coefficient * modulus)) ** 4 * modulus * RADIUS / viscosity
 
 
-def _contact(at: dict[str, float], oil: str) -> Table:
-    """Modulus, speed and load of a contact from Moes' groups."""
+def _rolling(at: dict[str, float], oil: str) -> tuple[Table, float]:
+    """Modulus and speed of a contact from Moes' L, and the speed parameter 2 eta u/(E' R)."""
     viscosity, coefficient, _ = OILS[oil]
     speeds = {modulus: speed_of(at["moes_l"], modulus, viscosity, coefficient) for modulus in MODULI}
     modulus = next((modulus for modulus in MODULI if speeds[modulus] > SPEEDS[0]), MODULI[-1])
     speed = speeds[modulus]
-    doubled = 2.0 * viscosity * speed / (modulus * RADIUS)
-    return {
-        "reduced_modulus": modulus,
-        "entrainment_speed": speed,
-        "load_per_length": at["moes_m"] * doubled**0.5 * modulus * RADIUS,
-    }
+    contact = {"reduced_modulus": modulus, "entrainment_speed": speed}
+    return contact, 2.0 * viscosity * speed / (modulus * RADIUS)
+
+
+def _line(at: dict[str, float], oil: str) -> Table:
+    """Smooth line contact."""
+    contact, speed = _rolling(at, oil)
+    return contact | {"load_per_length": at["moes_m"] * speed**0.5 * contact["reduced_modulus"] * RADIUS}
+
+
+def _point(at: dict[str, float], oil: str) -> Table:
+    """Smooth point contact, with its ratio of the radii across and along entrainment."""
+    contact, speed = _rolling(at, oil)
+    load = at["moes_m"] * speed**0.75 * contact["reduced_modulus"] * RADIUS**2
+    return contact | {"radius_y": at["radii"] * RADIUS, "load": load}
 
 
 def _rough(at: dict[str, float], oil: str) -> Table:
     """Line contact with a wavy surface 1 at rest: amplitude over the film, wavelength over the half-width."""
-    contact = _contact(at, oil)
+    contact = _line(at, oil)
     half_width = np.sqrt(8.0 * contact["load_per_length"] * RADIUS / (np.pi * contact["reduced_modulus"]))
     film = _guess(contact, oil)
     return contact | {
@@ -115,7 +126,7 @@ def _rough(at: dict[str, float], oil: str) -> Table:
 
 def _hot(at: dict[str, float], oil: str) -> Table:
     """Line contact with heat and shear, of surfaces that slide."""
-    return _contact(at, oil) | {"slide_to_roll_ratio": at["slip"], "temperature": TEMPERATURE}
+    return _line(at, oil) | {"slide_to_roll_ratio": at["slip"], "temperature": TEMPERATURE}
 
 
 def _guess(contact: Table, oil: str) -> float:
@@ -128,7 +139,10 @@ def _guess(contact: Table, oil: str) -> float:
 
 
 CLASSES: dict[str, Class] = {
-    "line": Class(100, 11, {"moes_m": (3.0, 300.0), "moes_l": (1.0, 20.0)}, _contact, 1e-4),
+    "line": Class(100, 11, {"moes_m": (3.0, 300.0), "moes_l": (1.0, 20.0)}, _line, 1e-4),
+    "point": Class(
+        100, 12, {"moes_m": (5.0, 700.0), "moes_l": (1.0, 18.0), "radii": (0.5, 20.0)}, _point, 1e-3
+    ),
     "rough": Class(
         20,
         13,
@@ -162,8 +176,12 @@ def drawn_of(kind: str, number: int) -> Iterator[tuple[str, Table]]:
 def case_of(table: Table, error: float | None) -> Case:
     """Case of a contact; ``error`` of the film to solve to, None without a grid."""
     viscosity, coefficient, density = OILS[table["oil"]]
-    contact: Table = {"geometry": "line", "reduced_radius": RADIUS}
-    contact |= {key: table[key] for key in ("reduced_modulus", "entrainment_speed", "load_per_length")}
+    contact: Table = {key: table[key] for key in ("reduced_modulus", "entrainment_speed")}
+    if geometry_of(table) == "point":
+        contact |= {"geometry": "point", "radius_x": RADIUS, "radius_y": table["radius_y"]}
+        contact["load"] = table["load"]
+    else:
+        contact |= {"reduced_radius": RADIUS, "load_per_length": table["load_per_length"]}
     lubricant: Table = {
         "viscosity_law": "roelands",
         "pressure_viscosity_coefficient": coefficient,
@@ -196,23 +214,34 @@ def case_of(table: Table, error: float | None) -> Case:
     return Case.from_dict(whole)
 
 
+def geometry_of(table: Table) -> str:
+    """Geometry of a contact, line or point."""
+    return "point" if "radius_y" in table else "line"
+
+
 def _real(table: Table) -> bool:
     """Whether speed and Hertz pressure of a contact are within their bounds."""
     if table["entrainment_speed"] > SPEEDS[1]:
         return False
-    pressure = KINDS["line"].resolve(case_of(table, None)).max_pressure
+    pressure = KINDS[geometry_of(table)].resolve(case_of(table, None)).max_pressure
     return bool(PRESSURES[0] < pressure < PRESSURES[1])
 
 
 def solved(table: Table, error: float) -> tuple[Table, np.ndarray]:
-    """Results of a contact, and its profile: position over the half-width, pressure [Pa], film [m]."""
+    """Results of a contact, and its profiles along x and, of a point, along y, shape (3 or 6, n).
+
+    A row of positions over the semi-axis is followed by pressure [Pa] and film [m], axis by axis.
+    """
     start = process_time()
     result = solve(case_of(table, error))
     summary = result.summary()
     film, field, dry = summary["film"], summary["field"], summary["hertz"]
     heat = film if "slide_to_roll_ratio" in table else {}
+    point = geometry_of(table) == "point"
+    axes = [dry["semi_axis_x"], dry["semi_axis_y"]] if point else [dry["half_width"]]
     row = {
-        "half_width": dry["half_width"],
+        "half_width": axes[0],
+        "semi_axis_y": axes[1] if point else None,
         "hertz_pressure": dry["max_pressure"],
         "central_film": film["central_thickness"],
         "minimum_film": film["minimum_thickness"],
@@ -224,17 +253,27 @@ def solved(table: Table, error: float) -> tuple[Table, np.ndarray]:
         "traction_coefficient": heat.get("traction_coefficient"),
         "temperature_rise": heat.get("max_temperature_rise"),
         "temperature_rise_error": heat.get("temperature_rise_error"),
-        "capacitance": field["capacitance_per_length"],
+        "capacitance": field["capacitance" if point else "capacitance_per_length"],
         "max_field": field["max_strength"],
         "max_field_error": field["max_strength_error"],
         "nodes": film["nodes"],
         "seconds": process_time() - start,
         "warnings": ";".join(summary["warning_codes"]),
     }
-    along = np.linspace(-2.0, 1.5, NODES)
-    pressure, thickness = result.film.pressure, result.film.thickness
-    profile = [np.interp(along * dry["half_width"], result.film.x, each) for each in (pressure, thickness)]
-    return row, np.array([along, *profile])
+    profiles = []
+    for axis, (length, ends) in enumerate(zip(axes, ENDS, strict=False)):
+        at = np.linspace(*ends, NODES)
+        lines = [_along(result.film, axis, each) for each in (result.film.pressure, result.film.thickness)]
+        profiles += [at, *(np.interp(length * at, result.film.axes[axis], line) for line in lines)]
+    return row, np.array(profiles)
+
+
+def _along(film: Film | PointFilm, axis: int, values: np.ndarray) -> np.ndarray:
+    """Nodal values along an axis of the contact, through its middle."""
+    if values.ndim == 1:
+        return values
+    middle = [int(np.argmin(np.abs(nodes))) for nodes in film.axes]
+    return values[:, middle[1]] if axis == 0 else values[middle[0]]
 
 
 def class_of(name: str) -> str:
@@ -310,14 +349,15 @@ def write(folder: Path, target: Path = TARGET) -> None:
             continue
         row, profile = _read(_path(folder, name))
         results.append({"name": name, **row})
-        lines += [(name, *values) for values in profile.T.tolist()]
+        for axis, rows in zip("xy", np.split(profile, len(profile) // 3), strict=False):
+            lines += [(name, axis, *values) for values in rows.T.tolist()]
         inputs.append({"name": name, **_inputs(table)})
     _write_rows(target / "contacts.csv", inputs)
     _write_rows(target / "results.csv", results)
     with (target / "profiles.csv").open("w", newline="", encoding="utf-8") as file:
         file.write("name,axis,position,pressure,film\n")
-        for name, position, pressure, film in lines:
-            file.write(f"{name},x,{position:.4f},{pressure:.6g},{film:.6g}\n")
+        for name, axis, position, pressure, film in lines:
+            file.write(f"{name},{axis},{position:.4f},{pressure:.6g},{film:.6g}\n")
     files = ("contacts.csv", "results.csv", "profiles.csv", "compare.py")
     manifest = {
         "title": "Open benchmark of elastohydrodynamic films with their electric field",
@@ -333,12 +373,13 @@ def _inputs(table: Table) -> Table:
     """Row of the inputs: all that another program needs, in SI units."""
     viscosity, coefficient, density = OILS[table["oil"]]
     return {
-        "geometry": "line",
+        "geometry": geometry_of(table),
         "moes_m": table["moes_m"],
         "moes_l": table["moes_l"],
         "reduced_modulus": table["reduced_modulus"],
         "radius_x": RADIUS,
-        "load": table["load_per_length"],
+        "radius_y": table.get("radius_y"),
+        "load": table["load" if geometry_of(table) == "point" else "load_per_length"],
         "entrainment_speed": table["entrainment_speed"],
         "slide_to_roll_ratio": table.get("slide_to_roll_ratio", 0.0),
         "oil": table["oil"],

@@ -18,7 +18,10 @@ version = release = __version__
 
 # make pages leaves out what takes minutes: scripts of the gallery, and figures and tables of solved cases.
 WHOLE = os.environ.get("EHLECTRIC_PAGES") != "only"
-COMPUTED = ["example_figures", "measured_figures", "oil_figures", "paper_tables", "sheared_figures"]
+COMPUTED = [
+    *("example_figures", "life_figures", "measured_figures", "oil_figures", "paper_tables"),
+    "sheared_figures",
+]
 
 extensions = [
     *(COMPUTED if WHOLE else ["stand_ins"]),

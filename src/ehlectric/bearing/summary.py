@@ -32,6 +32,7 @@ from ehlectric.bearing.impedance import (
     shaft_path,
 )
 from ehlectric.bearing.loads.totals import mechanics_of
+from ehlectric.bearing.rating_life import life_of
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
@@ -76,8 +77,8 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
 
 
 def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dict[str, dict[str, Any]]:
-    """Tables ``lubricant``, ``bearing`` and ``mechanics`` of summary.json, with numbers and texts of shape
-    (...); None for what no point has. ``duty`` is that of the solution, where it is already known.
+    """Tables ``lubricant``, ``bearing``, ``mechanics`` and ``life`` of summary.json, numbers and texts of
+    shape (...); None for what no point has. ``duty`` is that of the solution, where it is known.
     """
     case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
     return {
@@ -90,6 +91,7 @@ def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dic
         },
         "bearing": clearances_of(conditions) | _totals(solution, duty or duty_of(solution)),
         "mechanics": mechanics_of(solution.positions[0].equilibrium),
+        "life": life_of(solution),
     }
 
 

@@ -1,5 +1,5 @@
-"""Tables of a bearing file: bearing with fits, load and speed, lubricant over temperature, motor, heat and
-summits.
+"""Tables of a bearing file: bearing with fits, load and speed, lubricant over temperature, motor, heat,
+summits and life.
 """
 
 from __future__ import annotations
@@ -96,6 +96,16 @@ class Summits(Table, book="bearing.summits"):
         takes = "one of the two, as it follows from bandwidth"
         self.check_one_of(("height_deviation", "bandwidth"), takes)
         return self
+
+
+class Life(Table, book="bearing.life"):
+    """Contamination, ratings and fatigue load limit of a bearing, for its rating life."""
+
+    contamination_factor: float
+    fatigue_load_limit: float | None = None
+    dynamic_rating: float | None = None
+    static_rating: float | None = None
+    roughened_rq: float | None = None
 
 
 ROLLERS = "cylindrical roller"
@@ -207,6 +217,7 @@ class Bearing(Table, book="bearing"):
     film_factor: Annotated[float | str, BeforeValidator(partial(_word_or_part, FILM_FACTORS))] = DEFAULT_FILM
     supply: Annotated[float | str, BeforeValidator(partial(_word_or_part, SUPPLY_CONSTANTS))] = "flooded"
     fits: Fits | None = None
+    life: Life | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -427,6 +438,7 @@ class BearingKeys(TypedDict, total=False):
     fits: Keys
     parallel_capacitance: Value
     coating: Keys
+    life: Keys
 
 
 def check_heat(bearing: Bearing, oil: Lubricant) -> None:

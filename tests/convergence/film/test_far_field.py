@@ -40,7 +40,9 @@ def test_load_outside_of_a_wide_domain():
     """Over Y = -S to S, upstream of X = -A with S >> A, the pressure 4 lambda/(5 R^3) cos t carries
     2 pi lambda/(5 A) in all."""
     problem = replace(rigid(0.1, 10.0), inlet=-5.0, width=Width(nodes=129, side=5e3))
-    assert load_outside(problem) * problem.geometry.load == pytest.approx(2.0 * np.pi * 0.1 / (5.0 * 5.0), rel=2e-3)
+    assert load_outside(problem) * problem.geometry.load == pytest.approx(
+        2.0 * np.pi * 0.1 / (5.0 * 5.0), rel=2e-3
+    )
 
 
 def test_rigid_ball_on_any_domain():
@@ -72,7 +74,14 @@ LAWS = reference_laws()
 
 @each(
     ("load", "lubricant", "ratio"),
-    [(3.0, 0.5, 1.0), (5.0, 2.3, 1.24), (5.0, 2.3, 4.0), (10.0, 0.5, 1.0), (10.0, 10.0, 1.0), (60.0, 3.0, 8.0)],
+    [
+        (3.0, 0.5, 1.0),
+        (5.0, 2.3, 1.24),
+        (5.0, 2.3, 4.0),
+        (10.0, 0.5, 1.0),
+        (10.0, 10.0, 1.0),
+        (60.0, 3.0, 8.0),
+    ],
 )
 def test_smaller_domains(load, lubricant, ratio):
     """A domain of half the size: the far field leaves a third of what ambient edges lose, or 0.1 %.

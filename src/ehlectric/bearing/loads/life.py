@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ehlectric.arrays import Array, Numbers, as_float
+
 _MILLION = 1e6
 
 # Speed [rpm] at which the rated viscosity changes its law, and the constants of both [mm^2/s].
@@ -72,6 +74,47 @@ def basic_life(rating: float, load: float, exponent: float = 3.0) -> float:
     return float(_MILLION * (rating / load) ** exponent)
 
 
+# Radial and axial load factors X and Y of single-row ball bearings, and the ratio e of axial and radial load
+# up to which only the radial load counts: over f_0 F_a/C_0 of deep-groove bearings and of contact angles of
+# 15 degrees, and over the contact angle [degrees]. Tables of ISO 281:2007 as makers' catalogues print them.
+_AXIAL = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
+_DEEP_X, _DEEP_E = 0.56, (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
+_DEEP_Y = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
+_AXIAL_15 = (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35, 7.14)
+_X_15, _E_15 = 0.44, (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56, 0.56)
+_Y_15 = (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00, 1.00)
+_ANGLES = (20.0, 25.0, 30.0, 35.0, 40.0, 45.0)
+_ANGLE_X, _ANGLE_E = (0.43, 0.41, 0.39, 0.37, 0.35, 0.33), (0.57, 0.68, 0.80, 0.95, 1.14, 1.34)
+_ANGLE_Y = (1.00, 0.87, 0.76, 0.66, 0.57, 0.50)
+
+
+def equivalent_load(radial: float, axial: float, contact_angle: float, axial_part: float) -> float:
+    """Equivalent dynamic load P of a radial ball bearing with one row by ISO 281 [N]: X F_r + Y F_a where F_a
+    is above e F_r, else F_r.
+
+    ``radial`` F_r and ``axial`` F_a [N]; ``contact_angle`` [rad], 0 of deep-groove bearings; ``axial_part``,
+    f_0 F_a/C_0. NaN for contact angles above 45 degrees, and between 0 and 15, which the tables do not have.
+    Between 15 and 45 degrees X, Y and e are interpolated.
+
+    Examples
+    --------
+    >>> equivalent_load(1000.0, 200.0, 0.0, 1.38), round(equivalent_load(1000.0, 500.0, 0.0, 1.38), 3)
+    (1000.0, 1285.0)
+    """
+    degrees = math.degrees(contact_angle)
+    if degrees > _ANGLES[-1] + 1e-6 or 1e-6 < degrees < 15.0 - 1e-6:
+        return math.nan
+    if degrees <= 1e-6:
+        x, y, e = _DEEP_X, *(np.interp(axial_part, _AXIAL, values) for values in (_DEEP_Y, _DEEP_E))
+    else:
+        narrow = _X_15, *(float(np.interp(axial_part, _AXIAL_15, values)) for values in (_Y_15, _E_15))
+        x, y, e = (
+            np.interp(degrees, (15.0, *_ANGLES), (first, *rest))
+            for first, rest in zip(narrow, (_ANGLE_X, _ANGLE_Y, _ANGLE_E), strict=True)
+        )
+    return float(x * radial + y * axial) if axial > e * radial else radial
+
+
 def rated_viscosity(speed: float, pitch_diameter: float) -> float:
     """Kinematic viscosity nu_1 that ISO 281 asks for [m^2/s]: 45000 n^-0.83 D^-0.5 mm^2/s below 1000 rpm, and
     4500 n^-0.5 D^-0.5 above. ``speed`` n [rpm]; ``pitch_diameter`` D [m], in millimetres in the formula.
@@ -114,20 +157,16 @@ def fatigue_load_limit(static_rating: float, pitch_diameter: float, *, rollers: 
 def life_factor(kind: str, viscosity_ratio: float, load_part: float) -> float:
     """Life modification factor a_ISO of ISO 281 for a reliability of 90 %, at most 50. ``kind``, a name of
     ``MODIFICATIONS``; ``viscosity_ratio`` kappa, which counts as 4 above 4; ``load_part``, e_C C_u/P with the
-    contamination factor, the fatigue load limit and the load, which counts as 5 above 5.
-
-    Raises
-    ------
-    ValueError
-        If the viscosity ratio is below 0.1, where the standard has no factor.
+    contamination factor, the fatigue load limit and the load, which counts as 5 above 5. NaN for a viscosity
+    ratio below 0.1, where the standard has no factor.
 
     Examples
     --------
     >>> round(life_factor("radial ball", 1.0, 0.1), 4)
     2.4305
     """
-    if viscosity_ratio < _LOWEST_RATIO:
-        raise ValueError(f"got a viscosity ratio of {viscosity_ratio:.3g}; ISO 281 has a factor from 0.1 on")
+    if not viscosity_ratio >= _LOWEST_RATIO or math.isnan(load_part):
+        return math.nan
     law, ratio = MODIFICATIONS[kind], min(viscosity_ratio, _HIGHEST_RATIO)
     place = sum(ratio >= change for change in _CHANGES)
     oil = (law.most - law.factors[place] / ratio ** _POWERS[place]) ** law.bracket
@@ -139,18 +178,18 @@ def life_factor(kind: str, viscosity_ratio: float, load_part: float) -> float:
 
 @dataclass(frozen=True)
 class ElementRatings:
-    """Dynamic load ratings of one rolling element with each ring [N]."""
+    """Dynamic load ratings of one rolling element with each ring [N], of shape (...)."""
 
-    inner: float
-    outer: float
+    inner: Numbers
+    outer: Numbers
 
 
 def ball_ratings(
-    rating: float,
+    rating: Numbers,
     elements: int,
-    ratio: float,
-    grooves: tuple[float, float],
-    contact_angle: float = 0.0,
+    ratio: Numbers,
+    grooves: tuple[Numbers, Numbers],
+    contact_angle: Numbers = 0.0,
 ) -> ElementRatings:
     """Ratings of a ball with both rings, Q_ci and Q_ce of ISO/TS 16281, from that of the bearing.
 
@@ -170,14 +209,14 @@ def ball_ratings(
     inner, outer = grooves
     shape = inner / outer * (2.0 * outer - 1.0) / (2.0 * inner - 1.0)
     c = 1.044 * ((1.0 - ratio) / (1.0 + ratio)) ** 1.72 * shape**0.41
-    each = rating / elements / math.cos(contact_angle) ** 0.7
+    each = rating / elements / np.cos(contact_angle) ** 0.7
     return ElementRatings(
-        inner=each / 0.407 * (1.0 + c ** (10.0 / 3.0)) ** 0.3,
-        outer=each / 0.389 * (1.0 + c ** (-10.0 / 3.0)) ** 0.3,
+        inner=as_float(each / 0.407 * (1.0 + c ** (10.0 / 3.0)) ** 0.3),
+        outer=as_float(each / 0.389 * (1.0 + c ** (-10.0 / 3.0)) ** 0.3),
     )
 
 
-def roller_ratings(rating: float, elements: int, ratio: float) -> ElementRatings:
+def roller_ratings(rating: Numbers, elements: int, ratio: Numbers) -> ElementRatings:
     """Ratings of a roller with both rings by ISO/TS 16281, from that of the bearing, without slices.
 
     Q_ci = C/(0.378 Z) (1 + c^(9/2))^(2/9) and Q_ce = C/(0.364 Z) (1 + c^(-9/2))^(2/9) with
@@ -200,11 +239,11 @@ def roller_ratings(rating: float, elements: int, ratio: float) -> ElementRatings
 
 def reference_life(
     loads: tuple[ArrayLike, ArrayLike], ratings: ElementRatings, *, rollers: bool = False
-) -> float:
-    """Basic reference rating life L_10r of ISO/TS 16281 [revolutions]; infinite without load.
+) -> Numbers:
+    """Basic reference rating life L_10r of ISO/TS 16281 [revolutions], shape (...); infinite without load.
 
-    The inner ring turns under a load that stands still. ``loads``, of all elements with the inner and the
-    outer ring [N], shape (n,) each, zeros included.
+    The inner ring turns under a load that stands still. ``loads``, of all n elements with the inner and the
+    outer ring [N], shape (..., n) each, zeros included.
 
     Balls: ((Q_ci/Q_ei)^(-10/3) + (Q_ce/Q_ee)^(-10/3))^(-9/10) with the mean of power 3 of the loads with the
     turning and of power 10/3 of those with the standing ring. Rollers: powers 9/2, 8/9, 4 and 9/2, so that
@@ -221,11 +260,11 @@ def reference_life(
     turning, standing, slope = (4.0, 4.5, 4.5) if rollers else (3.0, 10.0 / 3.0, 10.0 / 3.0)
     inner, outer = _power_mean(loads[0], turning), _power_mean(loads[1], standing)
     spent = (inner / ratings.inner) ** slope + (outer / ratings.outer) ** slope
-    if spent == 0.0:
-        return math.inf
-    return float(_MILLION * spent ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
+    with np.errstate(divide="ignore"):
+        return as_float(_MILLION * np.asarray(spent) ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
 
 
-def _power_mean(loads: ArrayLike, power: float) -> float:
-    """Mean of a power of the loads of all elements [N]."""
-    return float(np.mean(np.asarray(loads, dtype=float) ** power) ** (1.0 / power))
+def _power_mean(loads: ArrayLike, power: float) -> Array:
+    """Mean of a power of the loads of all elements, the last axis [N]."""
+    mean: Array = np.mean(np.asarray(loads, dtype=float) ** power, axis=-1) ** (1.0 / power)
+    return mean

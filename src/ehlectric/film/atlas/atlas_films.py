@@ -122,6 +122,10 @@ _OIL = {
     "outlet": ((0.246, 0.176, 0.108, 0.011, 0.050), (-0.782, -0.315, -0.160, 0.005, -0.089)),
 }
 
+# Group L below which the changes fall in proportion to it: at L = 0 the film knows no law of the oil. Of 300
+# line contacts with L from 0.5 to 45, of which 68 have less, 97 % are then within the stated error.
+_LEAST_FITTED = 1.5
+
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
 # contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
 # twice as large, and that of the central film four times: the spike of the pressure passes the centre there.
@@ -306,7 +310,9 @@ class _Change:
 
     def __init__(self, groups: Groups, oil: OilGroups) -> None:
         reference = reference_groups()
-        self._lubricant, self._load = np.log(groups.moes_l / 10.0), np.log(groups.line_load / 50.0)
+        fitted = np.maximum(groups.moes_l, _LEAST_FITTED)
+        self._lubricant, self._load = np.log(fitted / 10.0), np.log(groups.line_load / 50.0)
+        self._part = groups.moes_l / fitted
         self._shape = oil.shape - reference.shape
         self._compressibility = oil.compressibility - reference.compressibility
 
@@ -317,7 +323,7 @@ class _Change:
             for shape, compressibility in zip(*_OIL[name], strict=True)
         )
         constant, slope = one + lubricant * self._lubricant, load + both * self._lubricant
-        return np.exp(constant + self._load * (slope + square * self._load))
+        return np.exp(self._part * (constant + self._load * (slope + square * self._load)))
 
 
 def _ratio(density: Callable[..., Any], pressure: Numbers) -> Numbers:

@@ -1,0 +1,117 @@
+"""Rating life in the results of a bearing, against numbers by hand and printed ratings."""
+
+import numpy as np
+import pytest
+
+from ehlectric.bearing.loads.life import equivalent_load, life_factor
+from ehlectric.bearing.rating_life import KEYS
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.errors import InputError
+from ehlectric.sweep.evaluation import evaluate
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.each import each
+
+CLEAN = {"bearing__life": {"contamination_factor": 0.5}}
+# NSK's catalogue of the 6208.
+PRINTED = {"contamination_factor": 0.5, "dynamic_rating": "29.1 kN", "static_rating": "17.9 kN"}
+
+
+def life(tables=BALLS, **changes):
+    solution = solve_bearing(bearing_case(tables, contacts="atlas", **changes), workers=1)
+    return solution.summary(probable=False)["life"]
+
+
+def test_without_its_table_there_is_no_life():
+    assert life() == dict.fromkeys(KEYS)
+
+
+def test_ball_bearing_by_hand():
+    """6208 under 1800 N and 300 N: F_a/F_r = 0.167 is below e = 0.19, so P = F_r. L_10 = (29.1/1.8)^3
+    million turns, at 3000 rpm 180 000 an hour."""
+    found = life(bearing__life=PRINTED, bearing__inner_speed="3000 rpm")
+    assert found["equivalent_load"] == 1800.0
+    hours = (29.1 / 1.8) ** 3 * 1e6 / 180e3
+    assert found["basic_life"] == pytest.approx(3600.0 * hours, rel=1e-9)
+    assert found["fatigue_load_limit"] == pytest.approx(17_900.0 / 22.0, rel=1e-9)
+    factor = life_factor("radial ball", found["film_viscosity_ratio"], 0.5 * 17_900.0 / 22.0 / 1800.0)
+    assert found["film_life_factor"] == pytest.approx(factor, rel=1e-9)
+    assert found["film_modified_life"] == pytest.approx(factor * found["basic_life"], rel=1e-9)
+
+
+def test_own_ratings_are_the_printed_ones_within_a_per_cent():
+    own, printed = life(**CLEAN), life(bearing__life=PRINTED)
+    assert own["dynamic_rating"] == pytest.approx(printed["dynamic_rating"], rel=0.01)
+    assert own["static_rating"] == pytest.approx(printed["static_rating"], rel=0.01)
+
+
+@each(("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})])
+def test_reference_life_is_near_the_basic_one(tables, power, changes):
+    """Half of the ring is loaded without clearance, as ISO 281 takes it.
+
+    With rollers the reference life falls with the power 4 of the load and the basic one with 10/3.
+    """
+    found = life(tables, **CLEAN, bearing__radial_clearance="0 um", bearing__inner_speed="500 rpm", **changes)
+    steeper = (found["dynamic_rating"] / found["equivalent_load"]) ** power
+    assert found["reference_life"] == pytest.approx(steeper * found["basic_life"], rel=0.15)
+
+
+def test_clearance_shortens_the_reference_life_only():
+    tight, loose = (life(**CLEAN, bearing__radial_clearance=play) for play in ("0 um", "40 um"))
+    assert loose["basic_life"] == tight["basic_life"]
+    assert loose["reference_life"] < 0.95 * tight["reference_life"]
+
+
+def test_roughened_raceways_shorten_the_life():
+    smooth, rough = (
+        life(bearing__life={"contamination_factor": 0.5, "roughened_rq": rq}) for rq in ("0.03 um", "0.5 um")
+    )
+    # The roughness of the case itself is 0.03 um.
+    assert smooth["roughened_life"] == pytest.approx(smooth["reference_modified_life"], rel=1e-9)
+    assert rough["roughened_life"] < 0.3 * smooth["roughened_life"]
+
+
+@each(
+    ("degrees", "axial", "part", "expected"),
+    [
+        (0.0, 300.0, 1.38, 1000.0),  # below e = 0.30
+        (0.0, 500.0, 1.38, 560.0 + 1.45 * 500.0),
+        (0.0, 500.0, 6.89, 560.0 + 500.0),
+        (15.0, 600.0, 1.43, 440.0 + 1.19 * 600.0),
+        (40.0, 1000.0, 1.0, 1000.0),  # below e = 1.14
+        (40.0, 2000.0, 1.0, 350.0 + 0.57 * 2000.0),
+        (30.0, 1000.0, 1.0, 390.0 + 760.0),
+    ],
+)
+def test_equivalent_load_of_the_printed_tables(degrees, axial, part, expected):
+    assert equivalent_load(1000.0, axial, np.deg2rad(degrees), part) == pytest.approx(expected, rel=1e-9)
+
+
+@each("degrees", [10.0, 50.0])
+def test_contact_angles_without_a_table_have_no_load(degrees):
+    assert np.isnan(equivalent_load(1000.0, 500.0, np.deg2rad(degrees), 1.0))
+
+
+def test_many_points_are_single_ones():
+    case = bearing_case(BALLS, contacts="atlas", **CLEAN)
+    loads = [900.0, 1800.0, 5000.0]
+    found = evaluate(case, {"bearing.radial_load": loads})
+    for index, load in enumerate(loads):
+        one = life(**CLEAN, bearing__radial_load=load)
+        for key in ("equivalent_load", "basic_life", "reference_modified_life", "film_life_factor"):
+            assert found[f"life.{key}"].values[index] == pytest.approx(one[key], rel=1e-6), (load, key)
+
+
+@each(
+    ("table", "key"),
+    [
+        ({}, "bearing.life.contamination_factor"),
+        ({"contamination_factor": 0.0}, "bearing.life.contamination_factor"),
+        ({"contamination_factor": 1.2}, "bearing.life.contamination_factor"),
+        ({"contamination_factor": 0.5, "dynamic_rating": "-1 kN"}, "bearing.life.dynamic_rating"),
+        ({"contamination_factor": 0.5, "rating": "1 kN"}, "bearing.life.rating"),
+    ],
+)
+def test_wrong_tables_name_their_key(table, key):
+    with pytest.raises(InputError) as error:
+        bearing_case(BALLS, bearing__life=table)
+    assert error.value.key == key
