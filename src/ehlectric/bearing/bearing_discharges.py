@@ -79,6 +79,16 @@ def shaft_voltage(solution: BearingSolution) -> Numbers | None:
     return None if motor is None or ratio is None else ratio * motor.common_mode_voltage
 
 
+def edge_current(solution: BearingSolution) -> Numbers | None:
+    """Peak capacitive current through the bearing at an edge of the inverter, C BVR dv/dt [A]; None without
+    the slope of the common-mode voltage, and where ``bearing_voltage_ratio`` is None.
+    """
+    motor, ratio = solution.case.motor, bearing_voltage_ratio(solution)
+    if motor is None or motor.voltage_slope is None or ratio is None:
+        return None
+    return shaft_capacitance(solution) * ratio * motor.voltage_slope
+
+
 def film_voltage(solution: BearingSolution) -> Numbers | None:
     """Part of the shaft voltage across the films, from ring to ring [V]; None as ``shaft_voltage``."""
     return known(mul, film_share(solution), shaft_voltage(solution))
@@ -281,10 +291,19 @@ def conducting_areas(solution: BearingSolution) -> Array:
     return np.minimum(inner, outer)
 
 
+# Apparent current density [A/m^2] below which life was shortened by white etching cracks under some
+# conditions, doi:10.3390/lubricants11040164.
+WHITE_ETCHING = 1e3
+
+
 def current_flags(solution: BearingSolution) -> Iterator[Flag]:
-    """Warning of an apparent current density above the lowest of the published limits."""
+    """Warning of an apparent current density above the lowest of the published limits, or so low that only
+    white etching cracks are known of it.
+    """
     density = bearing_costs(solution).current_density
     if density is not None:
+        low = np.logical_and(density > 0.0, density < WHITE_ETCHING)
+        yield Flag.of(low, "white-etching", density=1e-6 * density)
         yield Flag.of(
             density > CURRENT_DENSITY_LIMITS[0],
             "current-density-high",

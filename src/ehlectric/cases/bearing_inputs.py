@@ -68,6 +68,7 @@ class Motor(Table, book="motor"):
     second_bearing_capacitance: float | None = None
     switching_frequency: float | None = None
     rise_time: float | None = None
+    voltage_slope: float | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -322,7 +323,7 @@ class Bearing(Table, book="bearing"):
         if self.coating is None:
             return math.inf
         diameters = {"inner": self.bore, "outer": self.outer_diameter}
-        return self.coating.capacitance(self.coating.area_on(diameters, self.width))
+        return self.coating.capacitance_on(diameters, self.width)
 
     def _check_kind(self) -> None:
         rollers = self.kind == ROLLERS
