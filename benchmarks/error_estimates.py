@@ -1,4 +1,4 @@
-"""Estimated errors of films beside their true ones: 500 lines, 100 points, 100 rough and 100 hot lines.
+"""Estimated errors of films beside their true ones: 500 lines, 134 points, 100 rough and 100 hot lines.
 
 python -m benchmarks.error_estimates FOLDER [--kinds line point rough hot]
 
@@ -23,7 +23,7 @@ from ehlectric import ConvergenceError, solve
 DATA = Path(__file__).parent / "data" / "error_estimates.csv"
 
 # Contacts of each class, and the error of the film that a user asks for.
-NUMBERS = {"line": 500, "point": 100, "rough": 100, "hot": 100}
+NUMBERS = {"line": 500, "point": 134, "rough": 100, "hot": 100}
 ASKED = 1e-2
 
 _FILMS = {"central": "central_thickness", "minimum": "minimum_thickness"}

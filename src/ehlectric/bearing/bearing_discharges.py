@@ -80,13 +80,14 @@ def shaft_voltage(solution: BearingSolution) -> Numbers | None:
 
 
 def edge_current(solution: BearingSolution) -> Numbers | None:
-    """Peak capacitive current through the bearing at an edge of the inverter, C BVR dv/dt [A]; None without
-    the slope of the common-mode voltage, and where ``bearing_voltage_ratio`` is None.
+    """Peak capacitive current through films and coating at an edge of the inverter, C BVR dv/dt [A]; None
+    without the slope of the common-mode voltage, and where ``bearing_voltage_ratio`` is None.
     """
     motor, ratio = solution.case.motor, bearing_voltage_ratio(solution)
     if motor is None or motor.voltage_slope is None or ratio is None:
         return None
-    return shaft_capacitance(solution) * ratio * motor.voltage_slope
+    own = shaft_capacitance(solution) - shaft_path(solution).parallel
+    return own * ratio * motor.voltage_slope
 
 
 def film_voltage(solution: BearingSolution) -> Numbers | None:
@@ -292,7 +293,7 @@ def conducting_areas(solution: BearingSolution) -> Array:
 
 
 # Apparent current density [A/m^2] below which life was shortened by white etching cracks under some
-# conditions, doi:10.3390/lubricants11040164.
+# conditions, doi:10.3390/lubricants11040164. A thousandth of it is taken as no current.
 WHITE_ETCHING = 1e3
 
 
@@ -302,7 +303,7 @@ def current_flags(solution: BearingSolution) -> Iterator[Flag]:
     """
     density = bearing_costs(solution).current_density
     if density is not None:
-        low = np.logical_and(density > 0.0, density < WHITE_ETCHING)
+        low = np.logical_and(density > 1e-3 * WHITE_ETCHING, density < WHITE_ETCHING)
         yield Flag.of(low, "white-etching", density=1e-6 * density)
         yield Flag.of(
             density > CURRENT_DENSITY_LIMITS[0],

@@ -7,6 +7,7 @@ load, and of discharges only through a rougher surface; there is no law of erosi
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -32,6 +33,7 @@ from ehlectric.bearing.loads.ratings import (
     static_factor,
 )
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
+from ehlectric.errors import Flag
 from ehlectric.quantities.units import rpm
 
 _TURN = 2.0 * math.pi
@@ -42,6 +44,10 @@ KEYS = (
     *("basic_life", "modified_life", "film_modified_life"),
     *("reference_life", "reference_modified_life", "roughened_life"),
 )
+
+# Least viscosity ratio that has a factor, largest load over the dynamic rating, and grooves over the ball
+# diameter up to which ISO 281 rates a bearing.
+_LEAST_RATIO, _MOST_LOAD, _GROOVES = 0.1, 0.5, (0.52 + 1e-9, 0.53 + 1e-9)
 
 # Functions of single bearings, at many points.
 _basic_life = np.vectorize(basic_life, otypes=[float])
@@ -98,9 +104,34 @@ def life_of(solution: BearingSolution) -> dict[str, Numbers | None]:
         "roughened_life": None,
     }
     if life.roughened_rq is not None:
-        rougher = _film_ratio(solution.least_film / life.roughened_rq)
+        rougher = _film_ratio(solution.least_film / np.maximum(life.roughened_rq, bearing.composite_rq))
         found["roughened_life"] = _life_factor(kind, rougher, clean / same) * reference
     return {key: None if found[key] is None else as_float(np.asarray(found[key])) for key in KEYS}
+
+
+def life_flags(solution: BearingSolution) -> Iterator[Flag]:
+    """Notes of inputs for which the rating lives have no value, or are beyond what the standards cover."""
+    bearing, life = solution.case.bearing, life_of(solution)
+    if bearing.life is None:
+        return
+    dynamic, static, limit, load, film = (
+        np.asarray(life[key], dtype=float)
+        for key in (
+            *("dynamic_rating", "static_rating", "fatigue_load_limit", "equivalent_load"),
+            "film_viscosity_ratio",
+        )
+    )
+    yield Flag.of(np.isnan(load), "life-outside", "angle")
+    yield Flag.of(film < _LEAST_RATIO, "life-outside", "oil", ratio=film)
+    yield Flag.of(load > _MOST_LOAD * dynamic, "life-outside", "load", part=load / dynamic)
+    yield Flag.of(limit > static, "life-outside", "limit", limit=limit, static=static)
+    given = bearing.life.static_rating is not None and bearing.life.fatigue_load_limit is not None
+    yield Flag.of(solution.conditions.ceramic and not given, "life-outside", "ceramic")
+    inner, outer = (
+        0.0 if groove is None else groove for groove in (bearing.inner_groove, bearing.outer_groove)
+    )
+    wide = np.logical_or(inner > _GROOVES[0], outer > _GROOVES[1])
+    yield Flag.of(wide & (bearing.life.dynamic_rating is None), "life-outside", "grooves")
 
 
 def ratings_of(solution: BearingSolution) -> tuple[Numbers, Numbers]:

@@ -23,6 +23,7 @@ from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_f
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.rating_life import life_flags
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     CONDUCTING,
@@ -233,6 +234,7 @@ def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield from _coating_flags(solution, shaft)
     yield from leakage_flags(solution)
     yield from current_flags(solution)
+    yield from life_flags(solution)
     yield Flag.of(scattered & insulating(solution), "weibull-voltage")
 
 

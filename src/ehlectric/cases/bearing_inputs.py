@@ -314,7 +314,23 @@ class Bearing(Table, book="bearing"):
         if not library.solid(self.ring_material)["conducting"]:
             raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
         self.coating_capacitance()
+        if self.coating is not None and self.coating.over_moulded and self.fits is not None:
+            raise InputError.worded(
+                "fits",
+                "is not computed for an over-moulded ring, whose seat is a polymer; give radial_clearance",
+            )
+        self._check_roughened()
         return self
+
+    def _check_roughened(self) -> None:
+        """Check that discharges roughen the raceways, and do not smooth them."""
+        rough = None if self.life is None else self.life.roughened_rq
+        if rough is not None and rough < self.composite_rq:
+            raise InputError(
+                "life.roughened_rq",
+                got=f"{1e6 * rough:.4g} µm",
+                takes=f"at least composite_rq, {1e6 * self.composite_rq:.4g} µm",
+            )
 
     def coating_capacitance(self) -> float:
         """Capacitance of the coating [F]; infinite without a coating. Raises InputError where a coating is

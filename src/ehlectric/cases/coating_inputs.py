@@ -60,11 +60,11 @@ class Coating(Table, book="bearing.coating"):
     def _check(self) -> Self:
         self.check_one_of(("strength", "breakdown_voltage"), "one of the two")
         if self.over_moulded and (self.ring != "outer" or self.area is not None):
-            got = "area" if self.area is not None else "the inner ring"
+            got = "true beside area" if self.area is not None else "true with ring 'inner'"
             takes = (
-                "an outer ring, whose bearing.outer_diameter and bearing.width are those without the layer"
+                "ring 'outer' without area: bearing.outer_diameter and bearing.width are those of the steel"
             )
-            raise InputError("over_moulded", got=f"it with {got}", takes=takes)
+            raise InputError("over_moulded", got=got, takes=takes)
         return self
 
     @property
@@ -132,5 +132,8 @@ class Coating(Table, book="bearing.coating"):
         diameter = diameters[self.ring]
         if diameter is None or width is None:
             of_ring = {"inner": "bore", "outer": "outer_diameter"}[self.ring]
+            if self.over_moulded:
+                key = of_ring if diameter is None else "width"
+                raise InputError.missing(key, "outer_diameter and width, which an over-moulded ring needs")
             raise InputError.missing("coating.area", f"it, or bearing.{of_ring} and bearing.width")
         return math.pi * diameter * width

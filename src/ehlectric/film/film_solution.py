@@ -75,8 +75,8 @@ class FilmSolution(Values):
     # Share of the reduced pressure that is missing because it would build up upstream of the domain. None for
     # an instant of a transient film.
     inlet_deficit: float | None = field(default=None, metadata=number())
-    # Share of the load of a line contact that oil would carry without an end of the inlet; load that it would
-    # carry outside of the domain of a point contact, over its load. None of starved films.
+    # Share of the load that is missing as oil would carry it outside of the domain; with the oil around the
+    # domain of a point contact, what is not known of its load. None of starved films.
     load_deficit: float | None = field(default=None, metadata=number())
     # Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
     # highest peak of the pressure. None if there is no estimate.

@@ -109,9 +109,41 @@ def test_many_points_are_single_ones():
         ({"contamination_factor": 1.2}, "bearing.life.contamination_factor"),
         ({"contamination_factor": 0.5, "dynamic_rating": "-1 kN"}, "bearing.life.dynamic_rating"),
         ({"contamination_factor": 0.5, "rating": "1 kN"}, "bearing.life.rating"),
+        ({"contamination_factor": 0.5, "roughened_rq": "0.01 um"}, "bearing.life.roughened_rq"),
     ],
 )
 def test_wrong_tables_name_their_key(table, key):
     with pytest.raises(InputError) as error:
         bearing_case(BALLS, bearing__life=table)
     assert error.value.key == key
+
+
+@each(
+    ("changes", "text"),
+    [
+        ({"bearing__inner_groove": 0.54}, "grooves up to 0.52"),
+        ({"bearing__element_material": "silicon-nitride"}, "steel elements"),
+        ({"bearing__radial_load": "15 kN"}, "of the dynamic rating"),
+        ({"bearing__life": PRINTED | {"fatigue_load_limit": "40 kN"}}, "above the static rating"),
+        ({"bearing__composite_rq": "2 um"}, "viscosity ratio of"),
+    ],
+)
+def test_what_the_standards_do_not_cover_is_said(changes, text):
+    case = bearing_case(BALLS, contacts="atlas", **(CLEAN | changes))
+    summary = solve_bearing(case, workers=1).summary(probable=False)
+    assert "life-outside" in summary["warning_codes"]
+    assert any(text in told for told in summary["warnings"])
+
+
+def test_an_over_moulded_ring_has_no_fits():
+    fits = {"shaft_interference": "10 um", "housing_interference": "0 um", "housing_material": "aluminium"}
+    with pytest.raises(InputError, match="over-moulded"):
+        bearing_case(
+            BALLS,
+            bearing__coating="over-moulded",
+            bearing__outer_diameter="80 mm",
+            bearing__width="18 mm",
+            bearing__bore="40 mm",
+            bearing__radial_clearance=None,
+            bearing__fits=fits | {"unmounted_clearance": "20 um", "housing_diameter": "120 mm"},
+        )
