@@ -25,6 +25,7 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_class,
     with_clearance,
 )
+from ehlectric.cases.library.designations import read_designation
 from ehlectric.cases.oil_inputs import library_choice, library_name
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
@@ -165,6 +166,21 @@ def _fill(value: Any) -> float | str:
 _Material = Annotated[str, library_choice(partial(library.solid_names, rolling=True))]
 
 
+def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Table whose ``base`` is a name of the library, where it is the designation of a maker.
+
+    A class of clearance in the designation holds where the table has no clearance of its own.
+    """
+    base, names = table["base"], library.bearing_names()
+    found = read_designation(base, names) if isinstance(base, str) and base not in names else None
+    if found is None:
+        return table
+    own = any(table.get(key) is not None for key in ("radial_clearance", "clearance_class", "contact_angle"))
+    if found.clearance_class is None or own:
+        return {**table, "base": found.name}
+    return {**table, "base": found.name, "clearance_class": found.clearance_class}
+
+
 def _bearing_name(base: Any) -> str:
     """Name of a bearing of the library; the error for another name tells how to do without the library."""
     names = library.bearing_names()
@@ -229,8 +245,8 @@ class Bearing(Table, book="bearing"):
         table = with_class(table)
         if table.get("base") is None:
             return with_clearance(table)
-        name = _bearing_name(table["base"])
-        base = library.bearing(name)
+        table = _with_designation(table)
+        base = library.bearing(_bearing_name(table["base"]))
         if table.get("clearance_class") is not None or table.get("fits") is not None:
             base.pop("radial_clearance", None)
         return with_clearance({**base, **table})

@@ -1,0 +1,91 @@
+"""Designations of makers, such as "NU 208 ECP" or "6208-2RS1/C3": the bearing of the library and its class.
+
+Suffixes of seals, shields, cages, tolerances and fillings say nothing of the internal geometry, and are read
+over; ``suffixes.csv`` has them. Others are refused, as they may change the geometry or the insulation.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import get_args
+
+from ehlectric.cases.library.bearing_catalogue import ClearanceClass
+from ehlectric.errors import InputError, shown
+
+# Letters of a bearing type before the number, the number, and what stands behind it.
+_DESIGNATION = re.compile(r"([A-Z]{0,3})\s*-?\s*(\d{4,5}|\d{3})\s*-?\s*(.*)")
+_SEPARATORS = re.compile(r"[\s/.,+-]+")
+
+_CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
+
+# Suffixes of insulation, which a bearing file has in other keys.
+_INSULATED = {
+    "VL0241": "coating", "VL2071": "coating", "J20A": "coating", "J20AA": "coating", "J20B": "coating",
+    "J20C": "coating", "HC5": "element_material", "HC4": "element_material", "HC": "element_material",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Designation:
+    """Bearing of the library, and its class of clearance before mounting, where the text has one."""
+
+    name: str
+    clearance_class: ClearanceClass | None
+
+
+@cache
+def suffixes() -> dict[str, str]:
+    """Suffixes that say nothing of the internal geometry, with their meaning."""
+    path = resources.files("ehlectric.cases.library").joinpath("suffixes.csv")
+    return {row["suffix"]: row["meaning"] for row in csv.DictReader(path.read_text("utf-8").splitlines())}
+
+
+def read_designation(text: str, names: Sequence[str]) -> Designation | None:
+    """Bearing of the library with a maker's designation; None where the library has no such bearing.
+
+    ``names``, names of the library, as "nu-208" or "7208-b". Raises InputError for a suffix that is not
+    known, and for one of an insulated ring or ceramic elements.
+
+    Examples
+    --------
+    >>> read_designation("NU 208 ECP/C3", ["nu-208"])
+    Designation(name='nu-208', clearance_class='C3')
+    """
+    found = _DESIGNATION.fullmatch(text.strip().upper())
+    if found is None:
+        return None
+    letters, number, rest = found.groups()
+    stem = "-".join(part for part in (letters, number) if part).lower()
+    parts = [part for part in _SEPARATORS.split(rest) if part]
+    name = stem if stem in names else None
+    if name is None and parts:
+        # The first letter of an angular-contact bearing is its contact angle: 7208 BEP.
+        angle, more = parts[0][0], parts[0][1:]
+        name = f"{stem}-{angle.lower()}" if f"{stem}-{angle.lower()}" in names else None
+        parts = [*([more] if more else []), *parts[1:]]
+    if name is None:
+        return None
+    classes = [own for own in _CLASSES if own in parts for _ in range(parts.count(own))]
+    for part in parts:
+        _check_suffix(text, part)
+    if len(classes) > 1:
+        raise InputError("base", got=shown(text), takes="one class of clearance, C2, CN, C3, C4 or C5")
+    return Designation(name, classes[0] if classes else None)
+
+
+def _check_suffix(text: str, part: str) -> None:
+    """Refuse a suffix that may change the geometry or the insulation."""
+    if part in _INSULATED:
+        given = "silicon-nitride" if _INSULATED[part] == "element_material" else "the coating of your ring"
+        takes = f"the designation without {part}, and {_INSULATED[part]} = {given!r}"
+        raise InputError("base", got=shown(text), takes=takes)
+    if part not in suffixes() and part not in _CLASSES:
+        takes = (
+            f"a designation without {part!r}, which is no suffix that is known: it may change the geometry"
+        )
+        raise InputError("base", got=shown(text), takes=takes)

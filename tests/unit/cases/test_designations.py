@@ -1,0 +1,70 @@
+"""Designations of makers, read as bearings of the library with their class of clearance."""
+
+import pytest
+
+from ehlectric.cases import library
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.library.designations import read_designation, suffixes
+from ehlectric.errors import InputError
+from tests.helpers.each import each
+
+NAMES = library.bearing_names()
+REST = {"radial_load": "1 kN", "inner_speed": "3000 rpm", "temperature": "70 degC", "composite_rq": "0.03 um"}
+OIL = {"base": "paper"}
+
+
+@each(
+    ("text", "name", "clearance"),
+    [
+        ("6208-C3", "6208", "C3"),
+        ("6208-2RS1/C3", "6208", "C3"),
+        ("6208 2Z", "6208", None),
+        ("6310 ZZ C4", "6310", "C4"),
+        ("NU 208 ECP", "nu-208", None),
+        ("nu208ecp/c3", "nu-208", "C3"),
+        ("NU-215-EM", "nu-215", None),
+        ("7208 BEP", "7208-b", None),
+        ("7208-B", "7208-b", None),
+        ("7208 C TVP P5", "7208-c", None),
+    ],
+)
+def test_designations(text, name, clearance):
+    found = read_designation(text, NAMES)
+    assert (found.name, found.clearance_class) == (name, clearance)
+
+
+@each("text", ["6999", "HK 2020", "32208", "bearing", "", "7208 X"])
+def test_bearings_that_the_library_lacks(text):
+    assert read_designation(text, NAMES) is None
+
+
+@each(
+    ("text", "message"),
+    [
+        ("6208 XYZ", "'XYZ'"),
+        ("6208/VL0241", "coating"),
+        ("6208 HC5", "element_material"),
+        ("6208 C3 C4", "one class"),
+    ],
+)
+def test_suffixes_that_may_change_the_bearing_are_refused(text, message):
+    with pytest.raises(InputError, match=message):
+        read_designation(text, NAMES)
+
+
+def test_every_suffix_has_a_meaning():
+    assert all(suffixes().values())
+    assert {"2RS", "ECP", "TN9"} <= set(suffixes())
+
+
+def test_a_file_with_a_designation():
+    """C3 of a bore of 40 mm is 15 to 33 um before mounting, 24 in the middle."""
+    case = BearingCase.of(base="6208-2Z/C3", lubricant=OIL, **REST)
+    assert case.bearing.base == "6208"
+    assert case.bearing.clearance_class == "C3"
+    assert case.bearing.radial_clearance == pytest.approx(24e-6)
+    assert BearingCase.from_dict(case.to_dict()) == case
+    own = BearingCase.of(base="6208-2Z/C3", radial_clearance="10 um", lubricant=OIL, **REST)
+    assert own.bearing.radial_clearance == pytest.approx(10e-6)
+    with pytest.raises(InputError, match="a name of the library"):
+        BearingCase.of(base="32208", lubricant=OIL, **REST)
