@@ -142,12 +142,15 @@ def test_outside_the_atlas_the_film_is_by_formula_and_says_so(tables, load, off)
 def test_numbers_have_no_step_at_the_edge_of_the_atlas(tables):
     ring = ring_of(bearing_case(tables), speed=SPEED)
     (edge,) = _edges(contact_of(ring, np.array([0.5])), np.array([True]))
-    inside, outside = (quick_contact(ring, edge * part, "atlas") for part in (1.001, 0.98))
+    parts = (1.03, 1.001, 0.98)
+    before, inside, outside = (quick_contact(ring, edge * part, "atlas") for part in parts)
     codes = [[one.code for one in found.warnings] for found in (inside, outside)]
     assert ["atlas-left" in found for found in codes] == [False, True]
     for name in (*NUMBERS, "hertz"):
-        one, other = (getattr(found.values, name) for found in (inside, outside))
-        assert one == pytest.approx(other, rel=0.04), name
+        # The numbers go on by the power of the load that they have inside.
+        above, one, other = (getattr(found.values, name) for found in (before, inside, outside))
+        power = np.log(one / above) / np.log(parts[1] / parts[0])
+        assert other == pytest.approx(one * (parts[2] / parts[1]) ** power, rel=0.02), name
 
 
 def test_light_contacts_outside_the_atlas_are_a_note_and_do_not_count():
