@@ -12,7 +12,7 @@ from benchmarks.open_benchmark import TARGET, class_of, drawn_of
 from ehlectric.lubricant.density import incompressible
 from tests.helpers.each import each
 
-LEAST = {"line": 500, "point": 100, "rough": 80, "hot": 20}
+LEAST = {"line": 500, "point": 100, "rough": 95, "hot": 90}
 
 
 def estimates():

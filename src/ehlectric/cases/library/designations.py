@@ -81,8 +81,8 @@ def read_designation(text: str, names: Sequence[str]) -> Designation | None:
 def _check_suffix(text: str, part: str) -> None:
     """Refuse a suffix that may change the geometry or the insulation."""
     if part in _INSULATED:
-        given = "silicon-nitride" if _INSULATED[part] == "element_material" else "the coating of your ring"
-        takes = f"the designation without {part}, and {_INSULATED[part]} = {given!r}"
+        given = {"element_material": "'silicon-nitride'", "coating": "that of the ring, such as 'alumina'"}
+        takes = f"the designation without {part}, and bearing.{_INSULATED[part]}: {given[_INSULATED[part]]}"
         raise InputError("base", got=shown(text), takes=takes)
     if part not in suffixes() and part not in _CLASSES:
         takes = (
