@@ -181,7 +181,8 @@ def main():
     if chosen.each:
         for row, pair in sorted(kept, key=lambda each: -max(abs(each[1][0][0]), abs(each[1][1][0])))[:12]:
             groups = Groups(row["m"], row["l"], row["k"])
-            at = f"N {groups.load_group:7.1f} Y {lubricant_coordinate(groups):6.1f} k {groups.ratio or math.nan:5.2f}"
+            ratio = groups.ratio or math.nan
+            at = f"N {groups.load_group:7.1f} Y {lubricant_coordinate(groups):6.1f} k {ratio:5.2f}"
             print(
                 at,
                 *(
