@@ -60,6 +60,12 @@ def oils(rng):
     return made
 
 
+def laws_of(kind):
+    """Laws of the oils of a kind of contacts, by their number."""
+    laws = oils(np.random.default_rng(15))
+    return [(viscosity, incompressible) for viscosity, _ in laws] if kind == "incompressible" else laws
+
+
 DATA = Path(__file__).parent / "data"
 
 # Load groups, lubricant coordinates and ratios of the semi-axes that are drawn: round and narrow contacts,
@@ -168,9 +174,7 @@ def main():
     parser.add_argument("--until", help="time of the day, UTC, at which to stop solving, such as 18:05")
     parser.add_argument("--each", action="store_true", help="print the contacts that are off most")
     chosen = parser.parse_args()
-    laws = oils(np.random.default_rng(15))
-    if chosen.kind == "incompressible":
-        laws = [(viscosity, incompressible) for viscosity, _ in laws]
+    laws = laws_of(chosen.kind)
     solve(chosen.kind, chosen.number, laws, chosen)
     rows = solved(chosen.kind)
     pairs = [(row, compared(row, laws[row["oil"]])) for row in rows]

@@ -107,8 +107,9 @@ def _rank(axes: Axes, at: tuple[int, ...]) -> int | None:
         near = ball and (load <= _LIGHT or lubricant > _HIGH)
         rank = 4 if load <= _LIGHTEST else 2 if near else None
     else:
-        every_second = load <= _LIGHT or ball or at[0] % 2 == 0
-        rank = (0 if ball else 1) if every_second else None
+        # Of the heavy contacts of other ratios, every second load is enough.
+        wanted = load <= _LIGHT or ball or at[0] % 2 == 0
+        rank = (0 if ball else 1) if wanted else None
     # The thinnest films take longest.
     return None if rank is None else rank + 5 if load > _HEAVY else rank
 

@@ -42,8 +42,8 @@ def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) 
     -----
     The second axis is filled first, then the first one of the planes that are mostly solved, the third, and
     the first one of all others. The numbers are those of a cubic spline through the solved nodes of the line.
-    To the errors of the neighbours a fifth of the error is added that a
-    spline through every second solved node has.
+    To the errors of the neighbours a fifth of the error is added that a spline through every second solved
+    node has.
     """
     _fill_lines(values, errors, solved, logs, 1)
     if solved.ndim == 3:

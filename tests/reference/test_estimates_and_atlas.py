@@ -1,7 +1,6 @@
 """Stated errors of films, and films of the atlas, beside contacts that were solved for the comparison."""
 
 import csv
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +8,6 @@ from benchmarks import atlas
 from benchmarks.error_estimates import DATA, compared
 from benchmarks.open_benchmark import TARGET, class_of, drawn_of
 
-from ehlectric.lubricant.density import incompressible
 from tests.helpers.each import each
 
 LEAST = {"line": 500, "point": 100, "rough": 95, "hot": 90}
@@ -53,9 +51,7 @@ def test_estimates_are_those_of_the_program(name):
 )  # fmt: skip
 def test_films_of_the_atlas_keep_their_stated_error(kind, least, median):
     """95 % of central, minimum and mean films of each class, of the points that are in the atlas."""
-    laws = atlas.oils(np.random.default_rng(15))
-    if kind == "incompressible":
-        laws = [(viscosity, incompressible) for viscosity, _ in laws]
+    laws = atlas.laws_of(kind)
     rows = atlas.solved(kind)
     pairs = [atlas.compared(row, laws[row["oil"]]) for row in rows]
     known = np.array([pair for pair in pairs if pair is not None])[:, :3]
@@ -67,7 +63,7 @@ def test_films_of_the_atlas_keep_their_stated_error(kind, least, median):
 
 def test_classes_of_the_points():
     """Light and heavy, slender and wide contacts each keep their stated error in 95 % of the films."""
-    laws = atlas.oils(np.random.default_rng(15))
+    laws = atlas.laws_of("points")
     rows = [row for kind in ("points", "wide", "thin") for row in atlas.solved(kind)]
     found = [(row, atlas.compared(row, laws[row["oil"]])) for row in rows]
     found = [(row, np.array(pair)[:3]) for row, pair in found if pair is not None]
@@ -78,4 +74,3 @@ def test_classes_of_the_points():
         "light": loads < 20.0, "heavy": loads > 500.0, "slender": ratios > 6.0, "wide": ratios < 1.0,
     }.items():  # fmt: skip
         assert np.all(kept[part].mean(axis=0) >= 0.95), (name, kept[part].mean(axis=0), part.sum())
-    assert Path(atlas.DATA).is_dir()

@@ -7,25 +7,30 @@ load, and of discharges only through a rougher surface; there is no law of erosi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.bearing.loads.geometry import BallBearing
+from ehlectric.arrays import Numbers, as_float
+from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.life import (
+    LOWEST_RATIO,
     ElementRatings,
     ball_ratings,
     basic_life,
     equivalent_load,
     fatigue_load_limit,
     life_factor,
+    load_of_life,
     rated_viscosity,
     reference_life,
     roller_ratings,
     viscosity_ratio_of_film,
 )
 from ehlectric.bearing.loads.ratings import (
+    RATED_GROOVES,
     ball_dynamic_rating,
     ball_static_rating,
     roller_dynamic_rating,
@@ -33,132 +38,185 @@ from ehlectric.bearing.loads.ratings import (
     static_factor,
 )
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
+from ehlectric.cases.bearing_inputs import Bearing, Life
 from ehlectric.errors import Flag
 from ehlectric.quantities.units import rpm
 
 _TURN = 2.0 * math.pi
 
-KEYS = (
-    *("dynamic_rating", "static_rating", "fatigue_load_limit", "equivalent_load"),
-    *("viscosity_ratio", "film_viscosity_ratio", "life_factor", "film_life_factor"),
-    *("basic_life", "modified_life", "film_modified_life"),
-    *("reference_life", "reference_modified_life", "roughened_life"),
-)
+# Largest load over the dynamic rating for which ISO 281 holds.
+_MOST_LOAD = 0.5
 
-# Least viscosity ratio that has a factor, largest load over the dynamic rating, and grooves over the ball
-# diameter up to which ISO 281 rates a bearing.
-_LEAST_RATIO, _MOST_LOAD, _GROOVES = 0.1, 0.5, (0.52 + 1e-9, 0.53 + 1e-9)
+# Relative excess of a groove over the rated one that is rounding.
+_ROUNDING = 1e-9
 
-# Functions of single bearings, at many points.
-_basic_life = np.vectorize(basic_life, otypes=[float])
-_equivalent_load = np.vectorize(equivalent_load, otypes=[float])
-_fatigue_load_limit = np.vectorize(fatigue_load_limit, otypes=[float])
-_life_factor = np.vectorize(life_factor, otypes=[float])
-_rated_viscosity = np.vectorize(rated_viscosity, otypes=[float])
-_film_ratio = np.vectorize(viscosity_ratio_of_film, otypes=[float])
-_static_factor = np.vectorize(static_factor, otypes=[float])
-_RATINGS = {
-    True: tuple(np.vectorize(rating, otypes=[float]) for rating in (ball_dynamic_rating, ball_static_rating)),
-    False: tuple(
-        np.vectorize(rating, otypes=[float]) for rating in (roller_dynamic_rating, roller_static_rating)
+
+def _at_points(law: Callable[..., float]) -> Callable[..., Numbers]:
+    """Function of a single bearing, at many points."""
+    at_points = np.vectorize(law, otypes=[float])
+    return lambda *values, **options: as_float(at_points(*values, **options))
+
+
+_basic_life, _load_of_life = _at_points(basic_life), _at_points(load_of_life)
+_life_factor, _film_ratio = _at_points(life_factor), _at_points(viscosity_ratio_of_film)
+
+
+@dataclass(frozen=True)
+class _Rules:
+    """Rules of the standards that differ between bearings with balls and with rollers."""
+
+    kind: str  # name of the life modification factor
+    rollers: bool
+    exponent: float  # of the basic life over the load
+    dynamic: Callable[..., Numbers]  # basic dynamic rating [N] from ``size``
+    static: Callable[..., Numbers]  # basic static rating [N] from ``size``
+    # Number, diameter and pitch diameter of the elements, and contact angle of balls or length of rollers.
+    size: Callable[[Bearing], tuple[Numbers, ...]]
+    equivalent: Callable[[Bearing, Numbers], Numbers]  # equivalent load [N], from the static rating [N]
+    ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
+
+
+def _angle(bearing: Bearing) -> Numbers:
+    """Nominal contact angle of a ball bearing [rad]; 0 of a deep-groove one."""
+    return 0.0 if bearing.contact_angle is None else bearing.contact_angle
+
+
+def _ratio(bearing: Bearing) -> Numbers:
+    """Diameter of the elements, along the contact angle of balls, over that of the pitch circle."""
+    return bearing.element_diameter * np.cos(_angle(bearing)) / bearing.pitch_diameter
+
+
+def _equivalent_of_balls(bearing: Bearing, static: Numbers) -> Numbers:
+    axial_part = _at_points(static_factor)(_ratio(bearing)) * bearing.axial_load / static
+    loads = bearing.radial_load, bearing.axial_load
+    return _at_points(equivalent_load)(*loads, _angle(bearing), axial_part)
+
+
+def _ratings_of_balls(bearing: Bearing, dynamic: Numbers) -> ElementRatings:
+    assert bearing.inner_groove is not None and bearing.outer_groove is not None
+    grooves = bearing.inner_groove, bearing.outer_groove
+    return ball_ratings(dynamic, bearing.elements, _ratio(bearing), grooves, _angle(bearing))
+
+
+def _size(bearing: Bearing, last: Any) -> tuple[Numbers, ...]:
+    return bearing.elements, bearing.element_diameter, bearing.pitch_diameter, last
+
+
+_RULES: dict[type, _Rules] = {
+    BallBearing: _Rules(
+        kind="radial ball",
+        rollers=False,
+        exponent=3.0,
+        dynamic=_at_points(ball_dynamic_rating),
+        static=_at_points(ball_static_rating),
+        size=lambda bearing: _size(bearing, _angle(bearing)),
+        equivalent=_equivalent_of_balls,
+        ratings=_ratings_of_balls,
+    ),
+    RollerBearing: _Rules(
+        kind="radial roller",
+        rollers=True,
+        exponent=10.0 / 3.0,
+        dynamic=_at_points(roller_dynamic_rating),
+        static=_at_points(roller_static_rating),
+        size=lambda bearing: _size(bearing, bearing.roller_length),
+        equivalent=lambda bearing, _static: bearing.radial_load,
+        ratings=lambda bearing, dynamic: roller_ratings(dynamic, bearing.elements, _ratio(bearing)),
     ),
 }
 
 
-def life_of(solution: BearingSolution) -> dict[str, Numbers | None]:
-    """Ratings [N], viscosity ratios, factors and lives [s] of a bearing, by the keys of ``life`` in
-    summary.json, of shape (...); NaN where a number has no value, None without the table ``bearing.life``.
-    """
-    bearing, geometry = solution.case.bearing, solution.conditions.geometry
-    life = bearing.life
-    if life is None:
-        return dict.fromkeys(KEYS)
-    balls = isinstance(geometry, BallBearing)
-    kind, exponent = ("radial ball", 3.0) if balls else ("radial roller", 10.0 / 3.0)
-    dynamic, static = ratings_of(solution)
-    limit = life.fatigue_load_limit
-    if limit is None:
-        limit = _fatigue_load_limit(static, geometry.pitch_diameter, rollers=not balls)
-    load = _load(solution, static)
-    turns, found = bearing.inner_speed / _TURN, {"dynamic_rating": dynamic, "static_rating": static}
-    ratios = {"": _viscosity_ratio(solution), "film_": _film_ratio(lambda_ratio(solution))}
-    clean = life.contamination_factor * limit
-    factors = {name: _life_factor(kind, ratio, clean / load) for name, ratio in ratios.items()}
-    basic = _basic_life(dynamic, load, exponent) / turns
-    reference = _reference_revolutions(solution, dynamic) / turns
+@dataclass(frozen=True)
+class RatedLoads:
+    """Ratings of a bearing and its load, of shape (...) [N]."""
+
+    dynamic_rating: Numbers  # given, or of the geometry by ISO 281
+    static_rating: Numbers  # given, or of the geometry by ISO 76
+    fatigue_load_limit: Numbers
+    equivalent_load: Numbers  # NaN for a contact angle that the tables do not have
+
+
+@dataclass(frozen=True)
+class RatingLife(RatedLoads):
+    """Ratings, viscosity ratios, factors and lives of a bearing, of shape (...); NaN where there is none."""
+
+    # viscosity_ratio and film_viscosity_ratio: viscosity ratios by the oil at the temperature of the bearing,
+    # and by the thinnest film over the roughness; the factors and the lives [s] that follow.
+    viscosity_ratio: Numbers
+    film_viscosity_ratio: Numbers
+    life_factor: Numbers
+    film_life_factor: Numbers
+    basic_life: Numbers
+    modified_life: Numbers
+    film_modified_life: Numbers
+    # reference_life, reference_modified_life and roughened_life: by the loads of the elements [s].
+    reference_life: Numbers
+    reference_modified_life: Numbers
+    roughened_life: Numbers | None  # None where no roughness after discharges is given
+
+
+# Keys of ``life`` in summary.json.
+KEYS = tuple(field.name for field in fields(RatingLife))
+
+
+def life_summary(solution: BearingSolution) -> dict[str, Numbers | None]:
+    """Rating lives by the keys of ``life`` in summary.json; None without the table ``bearing.life``."""
+    life = solution.case.bearing.life
+    return dict.fromkeys(KEYS) if life is None else vars(_life_of(solution, life))
+
+
+def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
+    """Rating lives of a bearing with the inputs of its table ``life``."""
+    bearing, rules, rated = solution.case.bearing, _rules(solution), _rated(solution, life)
+    turns = bearing.inner_speed / _TURN
+    clean, of_film = life.contamination_factor * rated.fatigue_load_limit, lambda_ratio(solution)
+
+    def factor(ratio: Numbers, load: Numbers) -> Numbers:
+        return _life_factor(rules.kind, ratio, clean / load)
+
+    by_oil, by_film = _viscosity_ratio(solution), _film_ratio(of_film)
+    factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
+    basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
+    at = solution.positions[0].equilibrium
+    elements = rules.ratings(bearing, rated.dynamic_rating)
+    revolutions = reference_life((at.inner_load, at.outer_load), elements, rollers=rules.rollers)
+    reference = revolutions / turns
     # The load of which the reference life is the basic life.
-    same = dynamic * (reference * turns / 1e6) ** (-1.0 / exponent)
-    of_film = _life_factor(kind, ratios["film_"], clean / same)
-    found |= {
-        "fatigue_load_limit": limit,
-        "equivalent_load": load,
-        "viscosity_ratio": ratios[""],
-        "film_viscosity_ratio": ratios["film_"],
-        "life_factor": factors[""],
-        "film_life_factor": factors["film_"],
-        "basic_life": basic,
-        "modified_life": factors[""] * basic,
-        "film_modified_life": factors["film_"] * basic,
-        "reference_life": reference,
-        "reference_modified_life": of_film * reference,
-        "roughened_life": None,
-    }
+    same = _load_of_life(rated.dynamic_rating, revolutions, rules.exponent)
+    rougher = None
     if life.roughened_rq is not None:
-        rougher = _film_ratio(solution.least_film / np.maximum(life.roughened_rq, bearing.composite_rq))
-        found["roughened_life"] = _life_factor(kind, rougher, clean / same) * reference
-    return {key: None if found[key] is None else as_float(np.asarray(found[key])) for key in KEYS}
-
-
-def life_flags(solution: BearingSolution) -> Iterator[Flag]:
-    """Notes of inputs for which the rating lives have no value, or are beyond what the standards cover."""
-    bearing, life = solution.case.bearing, life_of(solution)
-    if bearing.life is None:
-        return
-    dynamic, static, limit, load, film = (
-        np.asarray(life[key], dtype=float)
-        for key in (
-            *("dynamic_rating", "static_rating", "fatigue_load_limit", "equivalent_load"),
-            "film_viscosity_ratio",
-        )
+        # Points of a sweep may have a rougher surface than that.
+        rq = np.maximum(life.roughened_rq, bearing.composite_rq)
+        rougher = factor(_film_ratio(solution.least_film / rq), same) * reference
+    return RatingLife(
+        **vars(rated),
+        viscosity_ratio=by_oil,
+        film_viscosity_ratio=by_film,
+        life_factor=factors[0],
+        film_life_factor=factors[1],
+        basic_life=basic,
+        modified_life=factors[0] * basic,
+        film_modified_life=factors[1] * basic,
+        reference_life=reference,
+        reference_modified_life=factor(by_film, same) * reference,
+        roughened_life=rougher,
     )
-    yield Flag.of(np.isnan(load), "life-outside", "angle")
-    yield Flag.of(film < _LEAST_RATIO, "life-outside", "oil", ratio=film)
-    yield Flag.of(load > _MOST_LOAD * dynamic, "life-outside", "load", part=load / dynamic)
-    yield Flag.of(limit > static, "life-outside", "limit", limit=limit, static=static)
-    given = bearing.life.static_rating is not None and bearing.life.fatigue_load_limit is not None
-    yield Flag.of(solution.conditions.ceramic and not given, "life-outside", "ceramic")
-    inner, outer = (
-        0.0 if groove is None else groove for groove in (bearing.inner_groove, bearing.outer_groove)
-    )
-    wide = np.logical_or(inner > _GROOVES[0], outer > _GROOVES[1])
-    yield Flag.of(wide & (bearing.life.dynamic_rating is None), "life-outside", "grooves")
 
 
-def ratings_of(solution: BearingSolution) -> tuple[Numbers, Numbers]:
-    """Basic dynamic and static load rating [N], given, or of the geometry by ISO 281 and ISO 76."""
-    bearing, geometry = solution.case.bearing, solution.conditions.geometry
-    assert bearing.life is not None
-    balls = isinstance(geometry, BallBearing)
-    last = (bearing.contact_angle or 0.0) if balls else bearing.roller_length
-    of_geometry = (bearing.elements, bearing.element_diameter, bearing.pitch_diameter, last)
-    given = (bearing.life.dynamic_rating, bearing.life.static_rating)
-    dynamic, static = (
-        rating(*of_geometry) if one is None else one
-        for rating, one in zip(_RATINGS[balls], given, strict=True)
-    )
-    return dynamic, static
+def _rules(solution: BearingSolution) -> _Rules:
+    return _RULES[type(solution.conditions.geometry)]
 
 
-def _load(solution: BearingSolution, static: Numbers) -> Array:
-    """Equivalent dynamic load of ISO 281 [N], shape (...)."""
-    bearing = solution.case.bearing
-    radial, axial = np.abs(bearing.radial_load), np.abs(bearing.axial_load)
-    if not isinstance(solution.conditions.geometry, BallBearing):
-        return np.asarray(radial, dtype=float)
-    angle = bearing.contact_angle or 0.0
-    factor = _static_factor(bearing.element_diameter * np.cos(angle) / bearing.pitch_diameter)
-    found: Array = _equivalent_load(radial, axial, angle, factor * axial / static)
-    return found
+def _rated(solution: BearingSolution, life: Life) -> RatedLoads:
+    """Ratings and load of a bearing."""
+    bearing, rules = solution.case.bearing, _rules(solution)
+    size = rules.size(bearing)
+    dynamic: Numbers = rules.dynamic(*size) if life.dynamic_rating is None else life.dynamic_rating
+    static: Numbers = rules.static(*size) if life.static_rating is None else life.static_rating
+    limit: Numbers | None = life.fatigue_load_limit
+    if limit is None:
+        limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
+    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static))
 
 
 def _viscosity_ratio(solution: BearingSolution) -> Numbers:
@@ -168,22 +226,29 @@ def _viscosity_ratio(solution: BearingSolution) -> Numbers:
     bearing, oil = solution.case.bearing, solution.conditions.oil
     if oil.density is None:
         return math.nan
-    rated: Array = _rated_viscosity(rpm(bearing.inner_speed), bearing.pitch_diameter)
+    rated = _at_points(rated_viscosity)(rpm(bearing.inner_speed), bearing.pitch_diameter)
     return oil.viscosity / oil.density / rated
 
 
-def _reference_revolutions(solution: BearingSolution, dynamic: Numbers) -> Numbers:
-    """Basic reference rating life by the loads of the elements [revolutions], shape (...)."""
-    bearing, geometry = solution.case.bearing, solution.conditions.geometry
-    equilibrium = solution.positions[0].equilibrium
-    loads = equilibrium.inner_load, equilibrium.outer_load
-    ratio = bearing.element_diameter / bearing.pitch_diameter
-    if isinstance(geometry, BallBearing):
-        assert bearing.inner_groove is not None and bearing.outer_groove is not None
-        angle = bearing.contact_angle or 0.0
-        grooves = bearing.inner_groove, bearing.outer_groove
-        each = ball_ratings(dynamic, bearing.elements, ratio * np.cos(angle), grooves, angle)
-    else:
-        each = roller_ratings(dynamic, bearing.elements, ratio)
-    each = ElementRatings(np.asarray(each.inner), np.asarray(each.outer))
-    return reference_life(loads, each, rollers=not isinstance(geometry, BallBearing))
+def life_flags(solution: BearingSolution) -> Iterator[Flag]:
+    """Notes of inputs for which the rating lives have no value, or are beyond what the standards cover."""
+    bearing = solution.case.bearing
+    life = bearing.life
+    if life is None:
+        return
+    rated, film = _rated(solution, life), _film_ratio(lambda_ratio(solution))
+    limit, static = rated.fatigue_load_limit, rated.static_rating
+    part = rated.equivalent_load / rated.dynamic_rating
+    yield Flag.of(np.isnan(part), "life-outside", "angle")
+    yield Flag.of(film < LOWEST_RATIO, "life-outside", "oil", ratio=film)
+    yield Flag.of(part > _MOST_LOAD, "life-outside", "load", part=part)
+    yield Flag.of(limit > static, "life-outside", "limit", limit=limit, static=static)
+    given = life.static_rating is not None and life.fatigue_load_limit is not None
+    yield Flag.of(solution.conditions.ceramic and not given, "life-outside", "ceramic")
+    grooves = (bearing.inner_groove, bearing.outer_groove)
+    wide = [
+        groove > most * (1.0 + _ROUNDING)
+        for groove, most in zip(grooves, RATED_GROOVES, strict=True)
+        if groove is not None
+    ]
+    yield Flag.of(np.any(wide, axis=0) & (life.dynamic_rating is None), "life-outside", "grooves")

@@ -33,7 +33,7 @@ from ehlectric.bearing.impedance import (
     shaft_path,
 )
 from ehlectric.bearing.loads.totals import mechanics_of
-from ehlectric.bearing.rating_life import life_of
+from ehlectric.bearing.rating_life import life_summary
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
@@ -92,7 +92,7 @@ def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dic
         },
         "bearing": clearances_of(conditions) | _totals(solution, duty or duty_of(solution)),
         "mechanics": mechanics_of(solution.positions[0].equilibrium),
-        "life": life_of(solution),
+        "life": life_summary(solution),
     }
 
 

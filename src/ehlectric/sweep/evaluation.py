@@ -44,10 +44,10 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dat
     -------
     xarray.Dataset
         Dataset over ``point`` in SI units. Its coordinates are the inputs; its variables are the numbers of
-        the tables ``bearing``, ``lubricant`` and ``mechanics`` of summary.json by dotted key, NaN where a
-        point has none, but not those with the key of an input. ``converged`` tells whether a point has a
-        result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined by
-        "; ". Variables of a drive begin with the end of their bearing, as in
+        the tables ``bearing``, ``lubricant``, ``mechanics`` and ``life`` of summary.json by dotted key, NaN
+        where a point has none, but not those with the key of an input. ``converged`` tells whether a point
+        has a result, ``reason`` why it has none, and ``warning_codes`` has the codes of its warnings, joined
+        by "; ". Variables of a drive begin with the end of their bearing, as in
         ``drive_end.bearing.capacitance``.
 
     Raises

@@ -21,7 +21,7 @@ _SLOW = 1000.0
 _RATED_SLOW, _RATED_FAST = 45000.0, 4500.0
 
 # Viscosity ratios for which the life modification factor holds, and those at which its formula changes.
-_LOWEST_RATIO, _HIGHEST_RATIO = 0.1, 4.0
+LOWEST_RATIO, _HIGHEST_RATIO = 0.1, 4.0
 _CHANGES = (0.4, 1.0)
 
 # Largest life modification factor, and largest part of contamination, fatigue limit and load in it.
@@ -72,6 +72,17 @@ def basic_life(rating: float, load: float, exponent: float = 3.0) -> float:
     1000000000.0
     """
     return float(_MILLION * (rating / load) ** exponent)
+
+
+def load_of_life(rating: float, life: float, exponent: float = 3.0) -> float:
+    """Load [N] of which a life [revolutions] is the basic rating life, C (10^6/L)^(1/p).
+
+    Examples
+    --------
+    >>> round(load_of_life(29_100.0, 1e9), 3)
+    2910.0
+    """
+    return float(rating * (_MILLION / life) ** (1.0 / exponent))
 
 
 # Radial and axial load factors X and Y of single-row ball bearings, and the ratio e of axial and radial load
@@ -165,7 +176,7 @@ def life_factor(kind: str, viscosity_ratio: float, load_part: float) -> float:
     >>> round(life_factor("radial ball", 1.0, 0.1), 4)
     2.4305
     """
-    if not viscosity_ratio >= _LOWEST_RATIO or math.isnan(load_part):
+    if not viscosity_ratio >= LOWEST_RATIO or math.isnan(load_part):
         return math.nan
     law, ratio = MODIFICATIONS[kind], min(viscosity_ratio, _HIGHEST_RATIO)
     place = sum(ratio >= change for change in _CHANGES)

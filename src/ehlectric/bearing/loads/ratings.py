@@ -15,7 +15,10 @@ _MILLIMETRES = 1e3
 # ISO 76 limits the Hertz pressure of the most loaded ball [MPa]. Its ball carries 5 times the mean load.
 _STATIC_PRESSURE = 4200.0
 _MOST_LOADED = 5.0
-_STATIC_INNER, _STATIC_OUTER = 0.52, 0.53
+
+# Radii of the inner and the outer groove over the ball diameter, of which both standards have their ratings:
+# at most these.
+RATED_GROOVES = 0.52, 0.53
 
 # Young's modulus 207 GPa and Poisson's ratio 0.3 of both bodies [MPa].
 _MODULUS = 2.07e5 / (1.0 - 0.3**2)
@@ -52,7 +55,7 @@ def static_factor(ratio: float) -> float:
     14.0
     """
     loads = []
-    for side, groove in ((1.0, _STATIC_INNER), (-1.0, _STATIC_OUTER)):
+    for side, groove in zip((1.0, -1.0), RATED_GROOVES, strict=True):
         along = 2.0 + side * 2.0 * ratio / (1.0 - side * ratio)
         across = 2.0 - 1.0 / groove
         loads.append(point_load(_STATIC_PRESSURE, 1.0 / along, 1.0 / across, _MODULUS))

@@ -12,16 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from typing import get_args
 
-from ehlectric.cases.library.bearing_catalogue import ClearanceClass
+from ehlectric.cases.library.bearing_catalogue import CLASSES, ClearanceClass
 from ehlectric.errors import InputError, shown
 
 # Letters of a bearing type before the number, the number, and what stands behind it.
 _DESIGNATION = re.compile(r"([A-Z]{0,3})\s*-?\s*(\d{4,5}|\d{3})\s*-?\s*(.*)")
 _SEPARATORS = re.compile(r"[\s/.,+-]+")
-
-_CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 # Suffixes of insulation, which a bearing file has in other keys.
 _INSULATED = {
@@ -70,7 +67,7 @@ def read_designation(text: str, names: Sequence[str]) -> Designation | None:
         parts = [*([more] if more else []), *parts[1:]]
     if name is None:
         return None
-    classes = [own for own in _CLASSES if own in parts for _ in range(parts.count(own))]
+    classes = [own for part in parts for own in CLASSES if own == part]
     for part in parts:
         _check_suffix(text, part)
     if len(classes) > 1:
@@ -84,7 +81,7 @@ def _check_suffix(text: str, part: str) -> None:
         given = {"element_material": "'silicon-nitride'", "coating": "that of the ring, such as 'alumina'"}
         takes = f"the designation without {part}, and bearing.{_INSULATED[part]}: {given[_INSULATED[part]]}"
         raise InputError("base", got=shown(text), takes=takes)
-    if part not in suffixes() and part not in _CLASSES:
+    if part not in suffixes() and part not in CLASSES:
         takes = (
             f"a designation without {part!r}, which is no suffix that is known: it may change the geometry"
         )
