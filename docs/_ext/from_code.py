@@ -7,6 +7,7 @@ ends the build.
 
 from __future__ import annotations
 
+import csv
 import inspect
 import math
 import re
@@ -25,7 +26,6 @@ from sphinx.errors import ExtensionError
 
 import ehlectric
 from ehlectric import Case, solve
-from ehlectric.bearing.loads import ratings
 from ehlectric.cases import contact_inputs, library, roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.amounts import Amount, Amounts, Count
@@ -35,6 +35,7 @@ from ehlectric.cases.library.library_oils import Grade, Source
 from ehlectric.cases.oil_inputs import LAWS
 from ehlectric.commands.command_line import app as commands
 from ehlectric.errors import CODES
+from ehlectric.formulas import load_ratings as ratings
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.quantities.units import printed
@@ -203,6 +204,7 @@ def _write(app: Sphinx) -> None:
     pages |= {f"library_{kind}": _library(kind) for kind in ("solids", "coatings")}
     pages |= {"catalogue": _catalogue()}
     pages["catalogue_sources"] = _catalogue_sources()
+    pages["estimated_bearings"] = _estimated_bearings(Path(app.srcdir) / "data" / "estimated_bearings.csv")
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
     pages["warning_codes"] = table_text(
@@ -308,6 +310,27 @@ def _deviation(relative: float) -> str:
     rounded = round(100.0 * relative, 1)
     text = f"{rounded:+.1f}".replace("-", "\N{MINUS SIGN}") if rounded else "0"
     return f"{text}\N{NO-BREAK SPACE}%"
+
+
+def _estimated_bearings(path: Path) -> str:
+    """Bearings of the library beside their estimates, with errors in per cent."""
+    with path.open(encoding="utf-8") as file:
+        found = list(csv.DictReader(file))
+    head = ["bearing", "known elements", "source", "estimated", "pitch", "length", "capacitance", "breakdown"]
+    errors = ("pitch_error", "length_error", "capacitance_error", "breakdown_error")
+    return table_text(
+        head,
+        [
+            [
+                f"`{row['bearing']}`",
+                f"{row['elements']} × {float(row['diameter']):.5g}",
+                row["known"],
+                f"{row['estimated_elements']} × {float(row['estimated_diameter']):.5g}",
+                *(_deviation(0.01 * float(row[name])) if row[name] else "" for name in errors),
+            ]
+            for row in found
+        ],
+    )
 
 
 def _catalogue_sources() -> str:

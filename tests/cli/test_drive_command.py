@@ -123,6 +123,11 @@ def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
             'current = "10 A"',
             "breakdown.extinction_current: got 10 A through",
         ),
+        (
+            "[breakdown]",
+            'grounding_ring_table = { speed = ["9 rpm", "0 rpm"], resistance = [5, 1] }\n[breakdown]',
+            "circuit.grounding_ring_table.speed: got",
+        ),
         ('.toml"', '.toml"\nbearing.composite_rq = "1 um"', "drive_end.bearing.contact_resistance: missing"),
     ],
 )

@@ -47,7 +47,7 @@ def spoiled(text, changes):
 
 REFUSED = {
     "E1": ({'"3000 rpm"': "3000"}, ["bearing.inner_speed: ", "3000 rpm", "3000 rad/s", "28648 rpm"]),
-    "E3": ({'base = "6208"': 'base = "6308-2Z"'}, ["bearing.base: ", "'6308-2Z'", "'6308'"]),
+    "E3": ({'base = "6208"': 'base = "6398-2Z"'}, ["bearing.base: ", "'6398-2Z'", "'63"]),
     "E4": (
         {'base = "6208"\n': ""},
         [

@@ -7,6 +7,8 @@ from typing import Any
 
 from ehlectric.app.answers import Choice
 from ehlectric.cases import library
+from ehlectric.cases.bearing_inputs import base_of
+from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import data_file
 
 # Headings in the lists, by kind of bearing or of oil, and by coated ring.
@@ -15,8 +17,11 @@ _HEADINGS: dict[str, str] = data_file("ehlectric.quantities", "form_fields.toml"
 
 @cache
 def bearing(name: str) -> dict[str, Any]:
-    """Table of a bearing of the library, with texts as its file has them; empty for another name."""
-    return library.bearing(name) if name in library.bearing_names() else {}
+    """Table of a bearing of the library, or of the designation of a maker; empty for another name."""
+    try:
+        return base_of({"base": name})[1]
+    except InputError:
+        return {}
 
 
 @cache

@@ -192,8 +192,8 @@ def strength_per_volt(solution: BearingSolution) -> Numbers | None:
         np.max(share * ring.values.strength_per_volt / ring.part_left(solution.summits), axis=-1)
         for position, circuit in zip(solution.positions, solution.circuits(), strict=True)
         for share, ring in (
-            (circuit.inner_share, position.inner),
-            (1.0 - circuit.inner_share, position.outer),
+            (position.inner_share(circuit), position.inner),
+            (1.0 - position.inner_share(circuit), position.outer),
         )
     ]
     return where(insulating(solution), np.max(strengths, axis=0))
@@ -463,8 +463,7 @@ def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:
     fill = solution.case.bearing.fill
     values = []
     for position in solution.positions:
-        inner, outer = ((ring.capacitance(fill), ring.oil_capacitance(fill)) for ring in position.rings)
-        values.append(leakage_conductance(inner, outer, tau))
+        values.append(leakage_conductance(*position.capacitances(fill), tau))
     return np.mean(values, axis=0)
 
 

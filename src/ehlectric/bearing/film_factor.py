@@ -22,7 +22,8 @@ from ehlectric.bearing.loads.geometry import Geometry, rolling_speeds
 from ehlectric.bearing.ring_contacts import Contact, RingContacts, check_contact, error_of_contact
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
+from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.cases.case_oil import Lubricant, temperature_coefficient, viscosity_follows
 from ehlectric.cases.contact_inputs import Body as BodyTable
 from ehlectric.cases.film_inputs import thermal_properties
@@ -59,7 +60,7 @@ def half_time(solution: BearingSolution) -> Numbers | None:
     All contacts are taken as loaded like the most loaded one, so that real films decay more slowly.
     """
     bearing = solution.case.bearing
-    if bearing.supply == "flooded" or bearing.kind == ROLLERS:
+    if bearing.supply == "flooded" or has_rollers(bearing.kind):
         return None
     times = []
     for ring, state in zip((solution.inner, solution.outer), solution.positions[0].rings, strict=True):

@@ -52,8 +52,9 @@ _STEP, _STEP_SQUARE = 0.125, 2.0**-8
 # Box of the variables of a table: least and largest value of each.
 _Box = tuple[tuple[float, ...], tuple[float, ...]]
 
-# Radii of ball, groove and pitch [m], angle of the shoulder [rad], and whether the raceway is the outer one.
-_Size = tuple[float, float, float, float, bool]
+# Radii of ball, groove and pitch [m], angle of the shoulder [rad], whether the raceway is the outer one, and
+# the angle at which its groove begins [rad], None where it is symmetric.
+_Size = tuple[float, float, float, float, bool, float | None]
 
 
 # Raceways of which the points are kept: those of both rings of some bearings.
@@ -102,10 +103,11 @@ class _Contacts:
         """Dimensions of the raceway; None where they vary."""
         race = self.race
         lengths = (race.ball_radius, race.groove_radius, race.pitch_radius, race.shoulder_angle)
-        if any(np.ndim(length) for length in lengths):
+        if any(np.ndim(length) for length in (*lengths, race.begins)):
             return None
         ball, groove, pitch, shoulder = (float(length) for length in lengths)
-        return ball, groove, pitch, shoulder, race.outer
+        first = None if race.first_angle is None else float(race.first_angle)
+        return ball, groove, pitch, shoulder, race.outer, first
 
     def row(self, numbers: Numbers) -> Array:
         """Numbers of all contacts in one row, shape (m,)."""
@@ -137,8 +139,9 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
     edge, middle = b * unit.ratio * side, films * contacts.of_point(race.radius_x) / b**2
     found, left = np.full(b.shape, np.nan), np.isfinite(edge * middle * inlet * outlet)
     left &= contacts.of_point(contacts.race.holds)
-    reach = edge / contacts.of_point(contacts.race.groove_radius) + angles[contacts.point]
-    inside = left & (reach < contacts.of_point(contacts.race.shoulder_angle))
+    reach, at = edge / contacts.of_point(contacts.race.groove_radius), angles[contacts.point]
+    inside = left & (at + reach < contacts.of_point(contacts.race.shoulder_angle))
+    inside &= at - reach > contacts.of_point(contacts.race.begins)
     for state, rows in _states(law.states((inlet, outlet, side), unit), inside):
         if size is None:
             break
@@ -259,13 +262,18 @@ def _box(variables: tuple[Array, ...]) -> _Box:
     return tuple(low), tuple(high)
 
 
+def _race(size: _Size, square: Array) -> Raceway:
+    """Raceway of one size at squares of contact angles [rad^2]."""
+    ball, groove, pitch, shoulder, outer, first = size
+    return Raceway(ball, groove, pitch, shoulder, np.sqrt(np.maximum(0.0, square)), outer, first)
+
+
 @lru_cache(maxsize=128)
 def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> SmoothTable | None:
     """Capacitance around films [F] over squared angle, and logarithms of side, domain and film."""
 
     def capacitance(at: Array) -> Array:
-        ball, groove, pitch, shoulder, outer = size
-        race = Raceway(ball, groove, pitch, shoulder, np.sqrt(np.maximum(0.0, at[0])), outer)
+        race = _race(size, at[0])
         unit = UnitContact.of(race.radius_x, np.broadcast_to(race.radius_y, at[0].shape))
         length, middle = _length_and_middle(state, at[2], at[3])
         inlet, outlet, side = law.ends(state, length, unit)
@@ -306,8 +314,7 @@ def _rigid(size: _Size, box: _Box) -> SmoothTable | None:
     """Logarithm of the capacitance of rigid balls [F] over squared angle and logarithm of the gap."""
 
     def logarithm(at: Array) -> Array:
-        ball, groove, pitch, shoulder, outer = size
-        race = Raceway(ball, groove, pitch, shoulder, np.sqrt(np.maximum(0.0, at[0])), outer)
+        race = _race(size, at[0])
         return np.asarray(np.log(groove_capacitance(race, np.exp(at[1]))))
 
     return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), _RELATIVE)

@@ -49,9 +49,13 @@ class Raceway:
     ball_radius: Numbers
     groove_radius: Numbers
     pitch_radius: Numbers  # distance R_o from the axis of the bearing to the centre of the ball [m]
-    shoulder_angle: Numbers  # angle psi at which the groove ends, on both sides of its bottom [rad]
+    # Angle psi at which the groove ends, beyond the contact [rad].
+    shoulder_angle: Numbers
     contact_angle: Numbers  # angle psi of the contact, alpha [rad]
     outer: bool
+    # Angle psi at which the groove begins [rad]; None where that is on the other side of its bottom, as far
+    # as it ends.
+    first_angle: Numbers | None = None
 
     @classmethod
     def of(
@@ -63,13 +67,17 @@ class Raceway:
         *,
         outer: bool,
         contact_angle: Numbers = 0.0,
+        bottom_angle: float = 0.0,
+        first_angle: Numbers | None = None,
     ) -> Raceway:
         """Raceway of a bearing from the dimensions that catalogues state.
 
         ``element_diameter`` and ``pitch_diameter``, diameter D of the balls, and diameter of the circle of
-        their centres [m]; ``contact_angle``, contact angle from the radial direction [rad]; all of shape
-        (...). Raises InputError where a groove radius is too small, a shoulder height is out of range, or the
-        groove of a single point ends before the contact. ``holds`` tells the latter for arrays.
+        their centres [m]; ``contact_angle`` and ``bottom_angle``, angles of the contact and of the bottom of
+        the groove from the radial direction [rad]; ``first_angle``, angle from the bottom at which the groove
+        begins [rad], None for the shoulder on the other side; all of shape (...). Raises InputError where a
+        groove radius is too small, a shoulder height is out of range, or the groove of a single point ends
+        before the contact. ``holds`` tells the latter for arrays.
 
         Examples
         --------
@@ -81,18 +89,23 @@ class Raceway:
         """
         _check_groove(groove, shoulder_height)
         shoulder = np.arccos(1.0 - shoulder_height / groove)
+        begins = first_angle
+        if bottom_angle:
+            begins = bottom_angle - shoulder if first_angle is None else bottom_angle + first_angle
         race = cls(
             0.5 * element_diameter,
             groove * element_diameter,
             0.5 * pitch_diameter,
-            shoulder,
+            bottom_angle + shoulder,
             contact_angle,
             outer,
+            begins,
         )
         if np.ndim(race.holds) == 0 and not race.holds:
+            low, high = np.degrees(race.begins), np.degrees(race.shoulder_angle)
             raise InputError(
                 "contact_angle",
-                f"must be below {np.degrees(shoulder):.1f} degrees, where a groove of shoulder_height "
+                f"must be between {low:.1f} and {high:.1f} degrees, where a groove of shoulder_height "
                 f"{shoulder_height:g} ends; got {np.degrees(contact_angle):.1f} degrees",
             )
         return race
@@ -100,8 +113,16 @@ class Raceway:
     @property
     def holds(self) -> Mask:
         """Whether the contact is in the groove, shape (...)."""
-        inside: Mask = np.abs(self.contact_angle) < self.shoulder_angle
+        angle = self.contact_angle
+        if self.first_angle is None:
+            angle = np.abs(angle)
+        inside: Mask = (angle > self.begins) & (angle < self.shoulder_angle)
         return inside
+
+    @property
+    def begins(self) -> Numbers:
+        """Angle psi at which the groove begins [rad]."""
+        return -self.shoulder_angle if self.first_angle is None else self.first_angle
 
     @property
     def radius_x(self) -> Numbers:
@@ -311,8 +332,8 @@ def groove_capacitance(
         steepness = np.abs(offset_centre(race, gap)) * race.groove_radius / race.ball_radius
         # Angle from the contact at which the gap is twice as large.
         scale = np.sqrt(2.0 * gap / np.maximum(steepness, 2.0 * gap))
-        ends = (sign * race.shoulder_angle - race.contact_angle for sign in (-1.0, 1.0))
-        u, weights = stretched(next(ends), next(ends), scale, _ACROSS)
+        ends = race.begins - race.contact_angle, race.shoulder_angle - race.contact_angle
+        u, weights = stretched(*ends, scale, _ACROSS)
         along = _along(race, gap, beside(race.contact_angle) + u, None, obliquity, None, _ALONG)
         charge: Array = np.add.reduce(weights * along, axis=-1)
         return charge
@@ -471,7 +492,7 @@ def missing_gap(race: Raceway, undeflected: Array, x: Array, y: Array) -> Callab
 
 def _in_groove(race: Raceway, *, shoulders: bool) -> Callable[[Numbers], Numbers]:
     """Function that moves an angle from the contact into the groove, if that has shoulders."""
-    low, high = -race.shoulder_angle - race.contact_angle, race.shoulder_angle - race.contact_angle
+    low, high = race.begins - race.contact_angle, race.shoulder_angle - race.contact_angle
     return lambda angle: np.minimum(np.maximum(angle, low), high) if shoulders else angle
 
 
@@ -485,7 +506,7 @@ def _sides(
     angle, within = race.contact_angle, _in_groove(race, shoulders=shoulders)
     focus = np.minimum(focus, _INSIDE * edge)
     scale = 0.5 * (edge - focus)
-    low = stretched(-race.shoulder_angle - angle + focus, within(-edge) + focus, scale, nodes)
+    low = stretched(race.begins - angle + focus, within(-edge) + focus, scale, nodes)
     high = stretched(within(edge) - focus, race.shoulder_angle - angle - focus, scale, nodes)
     middle = beside(angle)
     psi = middle - beside(focus) + low[0], middle + beside(focus) + high[0]

@@ -115,6 +115,7 @@ def mean_admittance(
     several elements close at once. The mean is that of the currents at a given sinusoidal voltage, so that a
     state has to last for many of its periods. What happens while a contact closes or opens is neglected:
     the charge of the film that passes through it, discharges as it opens, and the inductance of the path.
+    Both diagonals of a four-point contact bearing count as elements of their own here.
     """
     path, fill = shaft_path(solution), solution.case.bearing.fill
     omega = 2.0 * np.pi * frequency[:, np.newaxis]
@@ -200,7 +201,7 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
     fill = solution.case.bearing.fill
     y = np.zeros(frequency.shape, dtype=complex)
     for position in solution.positions:
-        inner, outer = ((ring.capacitance(fill), ring.oil_capacitance(fill)) for ring in position.rings)
+        inner, outer = position.capacitances(fill)
         y = y + leaking_admittance(inner, outer, tau, frequency)
     films = y / len(solution.positions)
     mean = None

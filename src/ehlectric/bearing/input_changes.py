@@ -7,15 +7,25 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ehlectric.arrays import Numbers
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.cases.case_oil import depends_on_temperature
 from ehlectric.cases.input_keys import input_of
 from ehlectric.cases.library.bearing_catalogue import clearance_range
+from ehlectric.cases.library.estimated_bearings import (
+    ESTIMATE_ERRORS,
+    estimated_geometry,
+    is_estimated,
+    series,
+)
 from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.rows import value_at
+from ehlectric.runtime.values import is_number
 
 # Changes of the inputs, either way: load relative to its value, temperature [K], clearance [m] and free
 # contact angle [rad], and these two relative to their value where they are small. Engineering judgement: what
@@ -47,6 +57,7 @@ _OF_CLEARANCE = _JUDGED + "fits and warm rings change the clearance"
 _OF_ANGLE = _JUDGED + "makers state nominal contact angles"
 _OF_LOAD = _JUDGED + "loads in operation differ from those of the design"
 _OF_SUMMITS = "contact of run-in surfaces is said to begin at lambda ratios from 1 to 3; measured at 2"
+_OF_ESTIMATE = "estimated from load ratings: error of leaving out known bearings"
 _OF_MOTOR = _JUDGED + "data sheets do not have it, and few measure it"
 
 
@@ -98,7 +109,7 @@ def temperature_is_unused(case: BearingCase) -> bool:
 
 
 def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Change]:
-    """Changes of strength, temperature, clearance or contact angle, load, summits, and motor."""
+    """Changes of strength, temperature, clearance or contact angle, load, geometry, summits, and motor."""
     bearing = case.bearing
     for key in STRENGTHS:
         strength = value_at(table, key)
@@ -115,10 +126,12 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
         at_40 = oil.at_40()
         yield Change(_AT_40, label, at_40, _part(at_40, GRADE_WIDTH), _OF_GRADE)
     yield from _clearance(bearing)
-    if bearing.contact_angle is not None:
+    # Cones of tapered rollers are ground to their angle; that of balls also follows from their clearance.
+    if bearing.contact_angle is not None and not has_rollers(bearing.kind):
         key, angle = "bearing.contact_angle", bearing.contact_angle
         yield Change(key, _label(key), angle, _around(angle, ANGLE), _OF_ANGLE)
     yield _load(bearing)
+    yield from _geometry(bearing)
     if bearing.summit_height > 0.0:
         # Smooth films, of a height of 0, are asked for as a bound.
         key, height = "bearing.summit_height", bearing.summit_height
@@ -167,6 +180,41 @@ def _clearance(bearing: Bearing) -> Iterator[Change]:
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
     label = f"{_label(key)} (limits of class {bearing.clearance_class})"
     yield Change(key, label, clearance, (limits.least, limits.most), _OF_CLASS)
+
+
+# Largest part of the distance of two elements on their pitch circle that an element fills.
+_FILLED = 0.99
+
+
+def _geometry(bearing: Bearing) -> Iterator[Change]:
+    """Changes of an estimated geometry by its error; none of dimensions that a file gives."""
+    for name in estimated_keys(bearing):
+        key, value = f"bearing.{name}", getattr(bearing, name)
+        low, high = _part(value, getattr(ESTIMATE_ERRORS[bearing.kind], name))
+        if name == "element_diameter":
+            pitch = (1.0 - ESTIMATE_ERRORS[bearing.kind].pitch_diameter) * bearing.pitch_diameter
+            high = max(min(high, _FILLED * pitch * math.sin(math.pi / bearing.elements)), value)
+        # The raceway under needles is known, so that their pitch circle follows their diameter.
+        both = ("element_diameter", "pitch_diameter") if name == "element_diameter" else ()
+        known = {f"bearing.{one}": getattr(bearing, one) for one in both if bearing.kind == "needle roller"}
+        yield Change(key, _label(key), value, (low, high), _OF_ESTIMATE, shifted=known)
+
+
+def estimated_keys(bearing: Bearing) -> tuple[str, ...]:
+    """Keys of a bearing whose values are estimated with an error, as neither file nor library has them."""
+    if bearing.base is None or not is_estimated(bearing.base):
+        return ()
+    given = (
+        (None, None) if bearing.life is None else (bearing.life.dynamic_rating, bearing.life.static_rating)
+    )
+    found = estimated_geometry(series()[bearing.base], *(one if is_number(one) else None for one in given))
+    error = ESTIMATE_ERRORS[bearing.kind]
+    return tuple(
+        name
+        for name in ("element_diameter", "pitch_diameter", "roller_length")
+        if getattr(error, name)
+        and np.allclose(getattr(bearing, name), getattr(found, name), rtol=1e-9, atol=0.0)
+    )
 
 
 def _part(value: float, part: float) -> tuple[float, float]:

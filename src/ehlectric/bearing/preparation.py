@@ -17,7 +17,7 @@ from ehlectric.bearing.conditions import BearingConditions, RingConditions, Soli
 from ehlectric.bearing.film_factor import factors_of, solved_contact
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.loads.totals import Equilibrium, check_balance, check_operation, mirrored
+from ehlectric.bearing.loads.totals import Equilibrium, check_balance, mirrored
 from ehlectric.bearing.mounted_clearance import mounted_clearance
 from ehlectric.bearing.quick_contacts import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import Contact, RingContacts
@@ -92,32 +92,39 @@ def groove_ratio(bearing: Bearing, *, inner: bool) -> Numbers:
     return math.inf if groove is None else groove
 
 
-def furthest_angle(at: Equilibrium, *, inner: bool) -> Numbers:
-    """Largest angle of the contacts with a ring that are not light, shape (...) [rad]."""
+def furthest_angle(geometry: Geometry, at: Equilibrium, *, inner: bool) -> Numbers:
+    """Largest angle from the bottom of the groove of the contacts with a ring that are not light, shape (...)
+    [rad].
+    """
     ring = at.ring(inner=inner)
     loaded = ring.load > _LIGHT * np.max(ring.load, axis=-1, keepdims=True)
-    return as_float(np.max(np.abs(ring.angle), axis=-1, where=loaded, initial=0.0))
+    aside = np.abs(ring.angle - geometry.bottom_angle)
+    return as_float(np.max(aside, axis=-1, where=loaded, initial=0.0))
 
 
-def beyond_shoulders(bearing: Bearing, at: Equilibrium) -> Mask:
+def beyond_shoulders(conditions: BearingConditions[Any], at: Equilibrium) -> Mask:
     """Whether the centre of a contact that is not light is beyond the shoulder of its groove, shape (...)."""
+    bearing, geometry = conditions.bearing, conditions.geometry
     inner, outer = (
-        furthest_angle(at, inner=inner) >= shoulder_angle(bearing, inner=inner) for inner in (True, False)
+        furthest_angle(geometry, at, inner=inner) >= shoulder_angle(bearing, inner=inner)
+        for inner in (True, False)
     )
     return np.asarray(inner | outer)
 
 
-def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
+def check_shoulders(conditions: BearingConditions[Any], at: Equilibrium) -> None:
     """Refuse ball contacts of a single bearing outside the groove. Raises InputError where the centre of a
     contact is beyond the shoulder.
     """
+    bearing, geometry = conditions.bearing, conditions.geometry
     for name, inner in (("inner", True), ("outer", False)):
-        furthest, end = furthest_angle(at, inner=inner), shoulder_angle(bearing, inner=inner)
+        furthest = furthest_angle(geometry, at, inner=inner)
+        end = shoulder_angle(bearing, inner=inner)
         if furthest >= end:
             raise InputError(
                 "bearing.shoulder_height",
                 got=f"{bearing.shoulder_height:g}, an {name} groove that ends {math.degrees(end):.1f} "
-                f"deg up, and a contact at {math.degrees(furthest):.1f} deg;",
+                f"deg up, and a contact {math.degrees(furthest):.1f} deg up;",
                 takes="a higher shoulder, a smaller contact angle, or less axial load",
             )
 
@@ -187,7 +194,7 @@ class PreparedBearing:
         refused = conditions.refused | too_light(conditions) | films_too_thick(self)
         refused = refused | np.equal(conditions.oil.alpha, 0.0)
         for at in self.equilibria:
-            refused = refused | np.logical_not(at.balanced) | beyond_shoulders(conditions.bearing, at)
+            refused = refused | np.logical_not(at.balanced) | beyond_shoulders(conditions, at)
         return np.asarray(refused)
 
 
@@ -278,16 +285,19 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
         cage = angles[:solved].reshape(-1, *(1 for _ in shape))
         operation = Operation(*duty, cage_angle=cage)
         if not shape:
-            check_operation(geometry, operation)
+            kind.check(geometry, operation)
         at = kind.equilibrium(geometry, operation, *solid)
         found = [at.at(k) for k in range(solved)]
         for one in found:
             check_balance(one)
-    mirrors = (
-        mirrored(found[positions - k], Operation(*duty, cage_angle=angles[k]).positions(bearing.elements))
-        for k in range(solved, positions)
-    )
-    return (*found, *mirrors)
+    # Rows of elements, or the two diagonals of each ball of a four-point contact bearing.
+    rows = found[0].position.shape[-1] // bearing.elements
+
+    def turned(k: int) -> Equilibrium:
+        angle = Operation(*duty, cage_angle=angles[k]).positions(bearing.elements, rows)
+        return mirrored(found[positions - k], angle, rows)
+
+    return (*found, *map(turned, range(solved, positions)))
 
 
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
@@ -306,7 +316,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     equilibria = equilibria_of(conditions, positions)
     if not case.shape:
         for at in equilibria:
-            check_shoulders(conditions.bearing, at)
+            check_shoulders(conditions, at)
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":

@@ -27,7 +27,7 @@ from ehlectric.bearing.ring_contacts import (
     without_regime,
 )
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import ROLLERS
+from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
@@ -55,7 +55,7 @@ def formula_factor(kind: str) -> float:
     >>> formula_factor("deep-groove ball"), formula_factor("cylindrical roller")
     (1.3, 1.4)
     """
-    return _FORMULA_OF_ROLLERS if kind == ROLLERS else _FORMULA_OF_BALLS
+    return _FORMULA_OF_ROLLERS if has_rollers(kind) else _FORMULA_OF_BALLS
 
 
 def is_quick(case: object) -> bool:

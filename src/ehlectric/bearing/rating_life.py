@@ -8,38 +8,45 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Numbers, as_float
-from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.life import (
     LOWEST_RATIO,
     ElementRatings,
     ball_ratings,
     basic_life,
     equivalent_load,
+    equivalent_load_of_pair,
+    equivalent_load_of_rollers,
     fatigue_load_limit,
     life_factor,
     load_of_life,
     rated_viscosity,
     reference_life,
     roller_ratings,
+    thrust_ratings,
     viscosity_ratio_of_film,
 )
-from ehlectric.bearing.loads.ratings import (
+from ehlectric.bearing.solution import BearingSolution, lambda_ratio
+from ehlectric.cases.bearing_inputs import Bearing, Life
+from ehlectric.errors import Flag
+from ehlectric.formulas.load_ratings import (
     RATED_GROOVES,
+    THRUST_GROOVE,
     ball_dynamic_rating,
     ball_static_rating,
     roller_dynamic_rating,
     roller_static_rating,
     static_factor,
+    thrust_ball_dynamic_rating,
+    thrust_ball_static_rating,
+    thrust_roller_dynamic_rating,
+    thrust_roller_static_rating,
 )
-from ehlectric.bearing.solution import BearingSolution, lambda_ratio
-from ehlectric.cases.bearing_inputs import Bearing, Life
-from ehlectric.errors import Flag
 from ehlectric.quantities.units import rpm
 
 _TURN = 2.0 * math.pi
@@ -54,7 +61,13 @@ _ROUNDING = 1e-9
 def _at_points(law: Callable[..., float]) -> Callable[..., Numbers]:
     """Function of a single bearing, at many points."""
     at_points = np.vectorize(law, otypes=[float])
-    return lambda *values, **options: as_float(at_points(*values, **options))
+
+    def law_at_points(*values: Numbers, **options: Any) -> Numbers:
+        # A comparison with NaN, of a quantity that is not known, is not an error.
+        with np.errstate(invalid="ignore"):
+            return as_float(at_points(*values, **options))
+
+    return law_at_points
 
 
 _basic_life, _load_of_life = _at_points(basic_life), _at_points(load_of_life)
@@ -63,33 +76,75 @@ _life_factor, _film_ratio = _at_points(life_factor), _at_points(viscosity_ratio_
 
 @dataclass(frozen=True)
 class _Rules:
-    """Rules of the standards that differ between bearings with balls and with rollers."""
+    """Rules of the standards that differ between kinds of bearings; ratings are those of one track."""
 
-    kind: str  # name of the life modification factor
-    rollers: bool
-    exponent: float  # of the basic life over the load
-    dynamic: Callable[..., Numbers]  # basic dynamic rating [N] from ``size``
-    static: Callable[..., Numbers]  # basic static rating [N] from ``size``
-    # Number, diameter and pitch diameter of the elements, and contact angle of balls or length of rollers.
-    size: Callable[[Bearing], tuple[Numbers, ...]]
+    factor: str  # name of the life modification factor
+    dynamic: Callable[[Bearing], Numbers]  # basic dynamic rating [N]
+    static: Callable[[Bearing], Numbers]  # basic static rating [N]
     equivalent: Callable[[Bearing, Numbers], Numbers]  # equivalent load [N], from the static rating [N]
     ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
+    grooves: tuple[float, ...] = ()  # widest grooves over the ball diameter that have the ratings
+    tracks: int = 1  # tracks on each ring; two of a four-point contact bearing, which counts as two rows
+
+    @property
+    def rollers(self) -> bool:
+        """Whether the elements are rollers."""
+        return self.factor.endswith("roller")
+
+    @property
+    def exponent(self) -> float:
+        """Exponent of the basic life over the load."""
+        return 10.0 / 3.0 if self.rollers else 3.0
+
+    @property
+    def slope(self) -> float:
+        """Exponent of the dynamic rating over the number of tracks."""
+        return 7.0 / 9.0 if self.rollers else 0.7
 
 
 def _angle(bearing: Bearing) -> Numbers:
-    """Nominal contact angle of a ball bearing [rad]; 0 of a deep-groove one."""
+    """Nominal contact angle of a radial bearing [rad]; 0 where it has none."""
     return 0.0 if bearing.contact_angle is None else bearing.contact_angle
 
 
 def _ratio(bearing: Bearing) -> Numbers:
-    """Diameter of the elements, along the contact angle of balls, over that of the pitch circle."""
+    """Diameter of the elements, along the contact angle, over that of the pitch circle."""
     return bearing.element_diameter * np.cos(_angle(bearing)) / bearing.pitch_diameter
+
+
+def _sizes(bearing: Bearing) -> tuple[Numbers, ...]:
+    """Number, diameter and pitch diameter of the elements, and the length of rollers."""
+    length = () if bearing.roller_length is None else (bearing.roller_length,)
+    return bearing.elements, bearing.element_diameter, bearing.pitch_diameter, *length
+
+
+def _inclined(law: Callable[..., float]) -> Callable[[Bearing], Numbers]:
+    """Rating of a radial bearing, whose law takes its sizes and its contact angle."""
+    at_points = _at_points(law)
+    return lambda bearing: at_points(*_sizes(bearing), _angle(bearing))
+
+
+def _loads(bearing: Bearing) -> tuple[Numbers, Numbers]:
+    return bearing.radial_load, bearing.axial_load
 
 
 def _equivalent_of_balls(bearing: Bearing, static: Numbers) -> Numbers:
     axial_part = _at_points(static_factor)(_ratio(bearing)) * bearing.axial_load / static
-    loads = bearing.radial_load, bearing.axial_load
-    return _at_points(equivalent_load)(*loads, _angle(bearing), axial_part)
+    law = equivalent_load if bearing.pair is None else equivalent_load_of_pair
+    return _at_points(law)(*_loads(bearing), _angle(bearing), axial_part)
+
+
+def _equivalent_of_four_points(bearing: Bearing, static: Numbers) -> Numbers:
+    axial_part = _at_points(static_factor)(_ratio(bearing)) * bearing.axial_load / static
+    return _at_points(equivalent_load_of_pair)(*_loads(bearing), _angle(bearing), axial_part)
+
+
+def _equivalent_of_rollers(bearing: Bearing, _static: Numbers) -> Numbers:
+    return _at_points(equivalent_load_of_rollers)(*_loads(bearing), _angle(bearing), bearing.rows)
+
+
+def _axial(bearing: Bearing, _static: Numbers) -> Numbers:
+    return bearing.axial_load
 
 
 def _ratings_of_balls(bearing: Bearing, dynamic: Numbers) -> ElementRatings:
@@ -98,37 +153,55 @@ def _ratings_of_balls(bearing: Bearing, dynamic: Numbers) -> ElementRatings:
     return ball_ratings(dynamic, bearing.elements, _ratio(bearing), grooves, _angle(bearing))
 
 
-def _size(bearing: Bearing, last: Any) -> tuple[Numbers, ...]:
-    return bearing.elements, bearing.element_diameter, bearing.pitch_diameter, last
+def _ratings_of_rollers(bearing: Bearing, dynamic: Numbers) -> ElementRatings:
+    return roller_ratings(dynamic, bearing.elements, _ratio(bearing), _angle(bearing))
 
 
-_RULES: dict[type, _Rules] = {
-    BallBearing: _Rules(
-        kind="radial ball",
-        rollers=False,
-        exponent=3.0,
-        dynamic=_at_points(ball_dynamic_rating),
-        static=_at_points(ball_static_rating),
-        size=lambda bearing: _size(bearing, _angle(bearing)),
-        equivalent=_equivalent_of_balls,
-        ratings=_ratings_of_balls,
+_OF_BALLS = _Rules(
+    factor="radial ball",
+    dynamic=_inclined(ball_dynamic_rating),
+    static=_inclined(ball_static_rating),
+    equivalent=_equivalent_of_balls,
+    ratings=_ratings_of_balls,
+    grooves=RATED_GROOVES,
+)
+_OF_ROLLERS = _Rules(
+    factor="radial roller",
+    dynamic=_inclined(roller_dynamic_rating),
+    static=_inclined(roller_static_rating),
+    equivalent=_equivalent_of_rollers,
+    ratings=_ratings_of_rollers,
+)
+_RULES: dict[str, _Rules] = {
+    "deep-groove ball": _OF_BALLS,
+    "angular-contact ball": _OF_BALLS,
+    "four-point contact ball": replace(_OF_BALLS, equivalent=_equivalent_of_four_points, tracks=2),
+    "thrust ball": _Rules(
+        factor="thrust ball",
+        dynamic=lambda bearing: _at_points(thrust_ball_dynamic_rating)(*_sizes(bearing)),
+        static=lambda bearing: _at_points(thrust_ball_static_rating)(*_sizes(bearing)[:2]),
+        equivalent=_axial,
+        ratings=lambda bearing, dynamic: thrust_ratings(dynamic, bearing.elements, rollers=False),
+        grooves=(THRUST_GROOVE, THRUST_GROOVE),
     ),
-    RollerBearing: _Rules(
-        kind="radial roller",
-        rollers=True,
-        exponent=10.0 / 3.0,
-        dynamic=_at_points(roller_dynamic_rating),
-        static=_at_points(roller_static_rating),
-        size=lambda bearing: _size(bearing, bearing.roller_length),
-        equivalent=lambda bearing, _static: bearing.radial_load,
-        ratings=lambda bearing, dynamic: roller_ratings(dynamic, bearing.elements, _ratio(bearing)),
+    "cylindrical roller": _OF_ROLLERS,
+    "needle roller": _OF_ROLLERS,
+    "tapered roller": _OF_ROLLERS,
+    "thrust needle roller": _Rules(
+        factor="thrust roller",
+        dynamic=lambda bearing: _at_points(thrust_roller_dynamic_rating)(*_sizes(bearing)),
+        static=lambda bearing: _at_points(thrust_roller_static_rating)(
+            bearing.elements, bearing.element_diameter, bearing.roller_length
+        ),
+        equivalent=_axial,
+        ratings=lambda bearing, dynamic: thrust_ratings(dynamic, bearing.elements, rollers=True),
     ),
 }
 
 
 @dataclass(frozen=True)
 class RatedLoads:
-    """Ratings of a bearing and its load, of shape (...) [N]."""
+    """Ratings of a bearing, or of both bearings of a pair, and their load, of shape (...) [N]."""
 
     dynamic_rating: Numbers  # given, or of the geometry by ISO 281
     static_rating: Numbers  # given, or of the geometry by ISO 76
@@ -167,19 +240,21 @@ def life_summary(solution: BearingSolution) -> dict[str, Numbers | None]:
 
 def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
     """Rating lives of a bearing with the inputs of its table ``life``."""
-    bearing, rules, rated = solution.case.bearing, _rules(solution), _rated(solution, life)
+    bearing, rules, rated = solution.case.bearing, _RULES[solution.case.bearing.kind], _rated(solution, life)
     turns = bearing.inner_speed / _TURN
     clean, of_film = life.contamination_factor * rated.fatigue_load_limit, lambda_ratio(solution)
 
     def factor(ratio: Numbers, load: Numbers) -> Numbers:
-        return _life_factor(rules.kind, ratio, clean / load)
+        return _life_factor(rules.factor, ratio, clean / load)
 
     by_oil, by_film = _viscosity_ratio(solution), _film_ratio(of_film)
     factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
     basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
     at = solution.positions[0].equilibrium
-    elements = rules.ratings(bearing, rated.dynamic_rating)
-    revolutions = reference_life((at.inner_load, at.outer_load), elements, rollers=rules.rollers)
+    tracks = bearing.rows * rules.tracks
+    elements = rules.ratings(bearing, rated.dynamic_rating / tracks**rules.slope)
+    loads = at.inner_load, at.outer_load
+    revolutions = reference_life(loads, elements, rollers=rules.rollers, rows=tracks)
     reference = revolutions / turns
     # The load of which the reference life is the basic life.
     same = _load_of_life(rated.dynamic_rating, revolutions, rules.exponent)
@@ -203,16 +278,17 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
     )
 
 
-def _rules(solution: BearingSolution) -> _Rules:
-    return _RULES[type(solution.conditions.geometry)]
-
-
 def _rated(solution: BearingSolution, life: Life) -> RatedLoads:
-    """Ratings and load of a bearing."""
-    bearing, rules = solution.case.bearing, _rules(solution)
-    size = rules.size(bearing)
-    dynamic: Numbers = rules.dynamic(*size) if life.dynamic_rating is None else life.dynamic_rating
-    static: Numbers = rules.static(*size) if life.static_rating is None else life.static_rating
+    """Ratings and load of a bearing; those of both bearings of a pair, as of one with two rows."""
+    bearing = solution.case.bearing
+    rules = _RULES[bearing.kind]
+    one: Numbers | None = life.dynamic_rating
+    if one is None:
+        one = rules.tracks**rules.slope * rules.dynamic(bearing)
+    still: Numbers | None = life.static_rating
+    if still is None:
+        still = rules.tracks * rules.static(bearing)
+    dynamic, static = bearing.rows**rules.slope * one, bearing.rows * still
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
@@ -248,7 +324,7 @@ def life_flags(solution: BearingSolution) -> Iterator[Flag]:
     grooves = (bearing.inner_groove, bearing.outer_groove)
     wide = [
         groove > most * (1.0 + _ROUNDING)
-        for groove, most in zip(grooves, RATED_GROOVES, strict=True)
+        for groove, most in zip(grooves, _RULES[bearing.kind].grooves, strict=False)
         if groove is not None
     ]
     yield Flag.of(np.any(wide, axis=0) & (life.dynamic_rating is None), "life-outside", "grooves")

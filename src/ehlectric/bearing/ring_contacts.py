@@ -169,13 +169,18 @@ class RingContacts(Generic[G_co]):
         """Groove of the ring, with a ball at the contact angle."""
         geometry, shoulder_height = self.conditions.geometry, self.conditions.bearing.shoulder_height
         assert shoulder_height is not None
+        first = geometry.first_angles[0 if self.inner else 1]
+        # The halves of an arch are alike.
+        angle = self.angle if first is None else as_float(np.abs(self.angle))
         return Raceway.of(
             geometry.ball_diameter,
             geometry.pitch_diameter,
             geometry.inner_groove if self.inner else geometry.outer_groove,
             shoulder_height,
             outer=not self.inner,
-            contact_angle=self.angle,
+            contact_angle=angle,
+            bottom_angle=geometry.bottom_angle,
+            first_angle=first,
         )
 
     @cached_property
@@ -529,7 +534,13 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
 def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     """Raceway of one ring, with a roller on it."""
     radii = ring.radii
-    return RollerRaceway(radii.element_x, abs(radii.ring_x), outer=not ring.inner)
+    # The flat washer of a thrust bearing is a large circle.
+    race = np.minimum(abs(radii.ring_x), _FLAT * radii.element_x)
+    return RollerRaceway(radii.element_x, as_float(race), outer=not ring.inner)
+
+
+# Radius over that of the roller at which a raceway is flat: its curvature changes the gap by 1e-6.
+_FLAT = 1e6
 
 
 def rigid_ball(ring: RingContacts[BallBearing], gap: Numbers) -> Numbers:

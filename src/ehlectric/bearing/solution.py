@@ -16,7 +16,7 @@ from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import ROLLERS
+from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
@@ -152,6 +152,9 @@ class Position(Values):
     inner: RingState
     outer: RingState
     shape: Numbers | None = None  # shape parameter of a Weibull strength; None for a strength without scatter
+    # Contacts of an element with one ring: two of a four-point contact bearing, whose states have those of
+    # one diagonal after those of the other.
+    tracks: int = 1
 
     @property
     def rings(self) -> tuple[RingState, RingState]:
@@ -163,13 +166,49 @@ class Position(Values):
 
         ``summits``, height of the highest summits [m], shape (...), under which films break down.
         """
-        return Circuit(
-            self.inner.capacitance(fill),
-            self.outer.capacitance(fill),
-            self.inner.values.breakdown_voltage * self.inner.part_left(summits),
-            self.outer.values.breakdown_voltage * self.outer.part_left(summits),
-            self.shape,
+        (inner, _), (outer, _) = self.capacitances(fill)
+        first, second = (
+            self._weakest(ring.values.breakdown_voltage * ring.part_left(summits)) for ring in self.rings
         )
+        return Circuit(inner, outer, first, second, self.shape)
+
+    def capacitances(self, fill: Numbers | str) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Capacitances of each element to the inner and to the outer ring, and the parts of them in oil,
+        shape (..., elements) [F].
+
+        All contacts of an element with one ring are in parallel, as it conducts.
+        """
+        inner, outer = (
+            (self.summed(ring.capacitance(fill)), self.summed(ring.oil_capacitance(fill)))
+            for ring in self.rings
+        )
+        return inner, outer
+
+    def inner_share(self, circuit: Circuit) -> Array:
+        """Share of the bearing voltage on each contact with the inner ring, shape (..., n)."""
+        return np.asarray(np.concatenate([circuit.inner_share] * self.tracks, axis=-1))
+
+    def summed(self, values: Array) -> Array:
+        """Sum over the contacts of each element with a ring, shape (..., elements)."""
+        if self.tracks == 1:
+            return values
+        return np.asarray(np.sum(values.reshape(*values.shape[:-1], self.tracks, -1), axis=-2))
+
+    def _weakest(self, voltages: Array) -> Array:
+        """Breakdown voltage of the contacts of each element with a ring together, which have the same
+        voltage, shape (..., elements) [V]: that of the weaker one, or less where their strength scatters.
+        """
+        if self.tracks == 1:
+            return voltages
+        each: Array = voltages.reshape(*voltages.shape[:-1], self.tracks, -1)
+        least: Array = np.min(each, axis=-2)
+        if self.shape is None:
+            return least
+        # Exponents of Weibull's law add up; powers of the voltages themselves would overflow.
+        finite = np.where(np.isfinite(least), least, 1.0)[..., np.newaxis, :]
+        shape = np.asarray(self.shape)[..., np.newaxis]
+        number = np.sum((finite / each) ** shape[..., np.newaxis], axis=-2)
+        return np.asarray(np.where(np.isfinite(least), least * number ** (-1.0 / shape), least))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -226,7 +265,7 @@ class BearingSolution(Values):
 
 def dry_areas(solution: BearingSolution, ring: RingState) -> Array:
     """Area of each dry contact with a ring, shape (..., n) [m^2]; 0 without load."""
-    factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
+    factor = 4.0 if has_rollers(solution.case.bearing.kind) else np.pi
     return factor * ring.values.semi_axis_x * ring.values.semi_axis_y
 
 
@@ -332,7 +371,7 @@ def capacitance(solution: BearingSolution, fill: Numbers | str | None = None) ->
     """
     bearing = solution.case.bearing
     if bearing.element_capacitance is not None:
-        return bearing.elements * bearing.element_capacitance
+        return bearing.rows * bearing.elements * bearing.element_capacitance
     return np.mean([circuit.capacitance for circuit in solution.circuits(fill)], axis=0)
 
 
@@ -350,7 +389,7 @@ def plate_capacitance(solution: BearingSolution) -> Numbers | None:
         return None
     totals = []
     for position in solution.positions:
-        inner, outer = (ring.values.plate for ring in position.rings)
+        inner, outer = (position.summed(ring.values.plate) for ring in position.rings)
         loaded = (inner > 0.0) & (outer > 0.0)
         together = series(np.where(loaded, inner, 1.0), np.where(loaded, outer, 1.0))
         totals.append(np.sum(together, axis=-1, where=loaded))

@@ -119,7 +119,8 @@ def _positions(prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCur
         _states(prepared.equilibria, ring, curve) for ring, curve in zip(prepared.rings, curves, strict=True)
     )
     shape = None if weibull is None else weibull.shape
-    return tuple(Position(*one, shape) for one in zip(prepared.equilibria, inner, outer, strict=True))
+    tracks = prepared.conditions.geometry.tracks
+    return tuple(Position(*one, shape, tracks) for one in zip(prepared.equilibria, inner, outer, strict=True))
 
 
 def _states(

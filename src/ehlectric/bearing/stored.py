@@ -63,6 +63,9 @@ _CURVES, _CURVE_VALUES = (
 _EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
     kind.__name__: kind for kind in (BallEquilibrium, RollerEquilibrium)
 }
+# Quantities of rollers that results of bearings with cylindrical rollers alone did not have: they are zero.
+_ANGLES, _ALONG = ("inner_angle", "outer_angle"), "axial_displacement"
+
 # Dimensions of quantities of an equilibrium, after the positions of the cage.
 _OF_EQUILIBRIA = ((), ("element",), ("slice",), ("element", "slice"))
 
@@ -161,8 +164,15 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
     inner, outer = (RingContacts(conditions, k == 0, angles[k], speeds[k]) for k in range(2))
     inner_curve, outer_curve = (_curve_of(values, k, warnings[k]) for k in range(2))
     shape = _shape_of(text_of(attributes, "weibull_shape"))
+    tracks = conditions.geometry.tracks
     positions = tuple(
-        Position(_equilibrium_of(values, kind, k), _state_of(values, k, 0), _state_of(values, k, 1), shape)
+        Position(
+            equilibrium=_equilibrium_of(values, kind, k),
+            inner=_state_of(values, k, 0),
+            outer=_state_of(values, k, 1),
+            shape=shape,
+            tracks=tracks,
+        )
         for k in range(dataset.sizes["cage_position"])
     )
     return BearingSolution(
@@ -209,7 +219,11 @@ def _state_of(values: Mapping[str, Array], *at: int) -> RingState:
 def _equilibrium_of(values: Mapping[str, Array], kind: type[Equilibrium], position: int) -> Equilibrium:
     found: dict[str, Any] = {}
     for name in _equilibrium_names(kind):
-        value = values[f"equilibrium_{name}"][position]
+        variable = f"equilibrium_{name}"
+        if variable in values:
+            value = values[variable][position]
+        else:
+            value = np.zeros(values["equilibrium_inner_load"].shape[1:] if name in _ANGLES else ())
         found[name] = value.item() if value.ndim == 0 else value
     speeds = {each.name: found.pop(f"speeds_{each.name}") for each in fields(Speeds)}
     return kind(**found, speeds=Speeds(**speeds))
@@ -269,7 +283,12 @@ def _check(dataset: xr.Dataset) -> tuple[type[Equilibrium], list[list[tuple[Resu
 def _equilibrium_rules(dataset: xr.Dataset, kind: type[Equilibrium]) -> dict[str, Rule]:
     """Rules for the variables of the equilibria, whose number of dimensions follows from the file."""
     rules = {}
-    for variable in (f"equilibrium_{name}" for name in _equilibrium_names(kind)):
+    names = _equilibrium_names(kind)
+    variables = (f"equilibrium_{name}" for name in names)
+    later = () if kind is BallEquilibrium else tuple(f"equilibrium_{name}" for name in (*_ANGLES, _ALONG))
+    for variable in variables:
+        if variable in later and variable not in dataset:
+            continue
         dims = tuple(map(str, dataset[variable].dims)) if variable in dataset else ()
         known = dims[:1] == ("cage_position",) and dims[1:] in _OF_EQUILIBRIA
         rules[variable] = Rule(dims if known else ("cage_position",))

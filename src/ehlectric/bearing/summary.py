@@ -220,11 +220,11 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
     bearing = solution.case.bearing
     fill, rq, height = bearing.fill, bearing.composite_rq, bearing.summit_height
     inner_duty, outer_duty = (duty or duty_of(solution)).rings[0]
-    rows = []
+    inner_share, rows = position.inner_share(circuit), []
     for k in range(at.position.size):
         for name, ring, share, asperities in (
-            ("inner", position.inner, circuit.inner_share, inner_duty),
-            ("outer", position.outer, 1.0 - circuit.inner_share, outer_duty),
+            ("inner", position.inner, inner_share, inner_duty),
+            ("outer", position.outer, 1.0 - inner_share, outer_duty),
         ):
             values, part = ring.values, ring.part_left(solution.summits)[k]
             strength = share[k] * values.strength_per_volt[k] / part if insulates else None

@@ -21,6 +21,7 @@ from ehlectric.bearing.bearing_discharges import (
 from ehlectric.bearing.bearing_touching import duty_of, time_text
 from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
+from ehlectric.bearing.input_changes import estimated_keys
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.rating_life import life_flags
@@ -40,9 +41,11 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
+from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS, has_rollers
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
+from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.oil_inputs import OilTemperature
 from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
@@ -86,7 +89,7 @@ def flags_of(solution: BearingSolution) -> Iterator[Flag]:
     yield from input_flags(solution.case, solution.conditions.oil.viscosity)
     yield from film_flags(solution)
     yield from voltage_flags(solution)
-    yield from edge_flags(solution.case.bearing, solution.positions)
+    yield from edge_flags(solution)
 
 
 def codes_of(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
@@ -101,7 +104,7 @@ def _contact_codes(solution: BearingSolution) -> Iterator[tuple[str, Mask]]:
 
     The texts of a single bearing name the contacts; see ``contact_warnings``.
     """
-    permanent = PERMANENT["line" if solution.case.bearing.kind == ROLLERS else "point"]
+    permanent = PERMANENT["line" if has_rollers(solution.case.bearing.kind) else "point"]
     for ring, curve in zip((solution.inner, solution.outer), solution.curves, strict=True):
         if curve.left is not None:
             heavy, left = curve.counted.used, curve.left & curve.used
@@ -142,7 +145,9 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
             # The viscosity is extrapolated far.
             yield Flag.of(temperature < _COLD, "temperature-low", key=key, celsius=temperature - 273.15)
     yield from fit_flags(solution.conditions.clearance)
-    yield clearance_flag(solution.conditions.geometry.clearance, solution.positions[0])
+    geometry = solution.conditions.geometry
+    if not geometry.follows_films:
+        yield clearance_flag(geometry.clearance, solution.positions[0])
 
 
 def library_viscosity(oil: Lubricant) -> float | None:
@@ -185,12 +190,27 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
     )
     yield from class_flags(bearing)
+    yield from _geometry_flags(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
         index = partial(_index_of, oil)
         graded = oil.iso_vg > 0
         yield Flag.of(graded, "viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=index)
+
+
+def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:
+    """Note of a geometry that is estimated from load ratings."""
+    rollers = KINDS_OF_BEARINGS[bearing.kind].rollers
+    yield Flag.of(
+        bool(estimated_keys(bearing)),
+        "geometry-estimated",
+        "as_widest" if bearing.kind in WITHOUT_KNOWN else "of_known",
+        name=(bearing.base or "").upper(),
+        elements=f"{bearing.elements} {'rollers' if rollers else 'balls'}",
+        diameter=lambda: 1e3 * float(bearing.element_diameter),
+        pitch=lambda: 1e3 * float(bearing.pitch_diameter),
+    )
 
 
 def _index_of(oil: OilTemperature) -> str:
@@ -202,15 +222,10 @@ def _index_of(oil: OilTemperature) -> str:
 
 
 def _static_rating(bearing: Bearing) -> Numbers:
-    """Static load rating of a row of elements by ISO 76 [N], for typical ratios of diameters.
-
-    A radial row of Z balls of diameter D carries 13 Z D^2, and one of rollers of length L 40 Z D L, in N and
-    mm. The factor of balls, f0 of the standard, is 12.4 to 15.7 for diameters up to 0.35 of the pitch
-    diameter; that of rollers, 44 (1 - D/d_m), is 33 to 42.
-    """
-    diameter, length = 1e3 * bearing.element_diameter, 1e3 * (bearing.roller_length or 0.0)
-    each = 40.0 * diameter * length if bearing.kind == ROLLERS else 13.0 * diameter**2
-    return bearing.elements * each
+    """Static load rating of all rows of elements by ISO 76 [N], for typical ratios of diameters."""
+    kind, diameter = KINDS_OF_BEARINGS[bearing.kind], 1e3 * bearing.element_diameter
+    across = 1e3 * bearing.roller_length if kind.rollers and bearing.roller_length else diameter
+    return kind.static * bearing.rows * bearing.elements * diameter * across
 
 
 def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
@@ -276,16 +291,18 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
     yield Flag.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 
 
-def edge_flags(bearing: Bearing, positions: Sequence[Position]) -> Iterator[Flag]:
+def edge_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of contact ellipses that reach over the shoulder of a groove, at most one per ring.
 
     Of the contacts that reach over, the warning names the one with the largest load.
     """
+    bearing, positions = solution.case.bearing, solution.positions
+    bottom = solution.conditions.geometry.bottom_angle
     for k, name in enumerate(("inner", "outer")):
         shoulder = shoulder_angle(bearing, inner=k == 0)
         groove = groove_ratio(bearing, inner=k == 0) * bearing.element_diameter
         rings = [position.rings[k] for position in positions]
-        angles = [position.equilibrium.ring(inner=k == 0).angle for position in positions]
+        angles = [position.equilibrium.ring(inner=k == 0).angle - bottom for position in positions]
         ends = np.stack([_end(*one, groove) for one in zip(rings, angles, strict=True)], axis=-2)
         loads = np.stack([ring.load for ring in rings], axis=-2)
         over = np.where(ends > np.asarray(shoulder)[..., np.newaxis, np.newaxis], loads, 0.0)

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_heat
+from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, base_of, check_heat
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
@@ -545,7 +545,7 @@ def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
 
 def _drop_dimensions(bearing: dict[str, Any]) -> None:
     """Remove the dimensions of a bearing, and all else that its base in the library gives."""
-    own = library.bearing(bearing["base"]) if bearing.get("base") else {}
+    own = base_of(bearing)[1] if bearing.get("base") else {}
     for key in {*DIMENSIONS, *own}:
         bearing.pop(key, None)
 

@@ -5,7 +5,8 @@ summits and life.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
@@ -14,6 +15,7 @@ from pydantic import BeforeValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import amount_at
+from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, FILM_FACTORS, ISOTHERMAL
@@ -25,11 +27,12 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_class,
     with_clearance,
 )
-from ehlectric.cases.library.designations import read_designation
-from ehlectric.cases.oil_inputs import library_choice, library_name
+from ehlectric.cases.library.designations import known_bearings, read_designation
+from ehlectric.cases.library.estimated_bearings import estimated_bearing, series
+from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, shown
-from ehlectric.formulas.inlet_supply import SUPPLY_CONSTANTS
+from ehlectric.errors import InputError, shown, within
+from ehlectric.formulas.inlet_supply import GEOMETRY_CONSTANTS, SUPPLY_CONSTANTS
 from ehlectric.quantities.units import to_fraction
 from ehlectric.runtime.values import is_number
 
@@ -110,23 +113,26 @@ class Life(Table, book="bearing.life"):
     roughened_rq: float | None = None
 
 
-ROLLERS = "cylindrical roller"
-ANGULAR = "angular-contact ball"
+class Pair(Table, book="bearing.pair"):
+    """Second bearing that is alike and faces the first: arrangement, and preload or play of both."""
 
+    arrangement: Literal["O", "X"]
+    preload: float | None = None
+    axial_clearance: float | None = None
 
-# Keys that only ball bearings have, and keys that only roller bearings have.
-_OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
-_OF_ROLLERS = ("roller_length", "profile")
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.preload is None) == (self.axial_clearance is None):
+            both = None if self.preload is None else "it and axial_clearance together"
+            raise InputError("preload", got=both, takes="either it or axial_clearance, in operation")
+        return self
 
-# Keys that each kind of bearing needs.
-_NEEDED = {
-    "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
-    ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
-    ROLLERS: ("roller_length", "profile", "radial_clearance"),
-}
 
 # Keys from which the radial clearance follows.
 _OF_CLEARANCE = ("clearance_class", "fits")
+
+# Relative error of a dimension that is rounding.
+_ROUNDING = 1e-9
 
 # Key of the temperature of a ring, by whether it is the inner one.
 _RING_TEMPERATURE = {True: "inner_ring_temperature", False: "outer_ring_temperature"}
@@ -135,6 +141,7 @@ _RING_TEMPERATURE = {True: "inner_ring_temperature", False: "outer_ring_temperat
 _CHOICES = {
     "profile": "'none' or 'logarithmic'",
     "radial_clearance": "the clearance in operation, clearance_class with bore, or [bearing.fits]",
+    "contact_angle": "the angle between the contacts and the radial plane",
 }
 
 
@@ -167,11 +174,11 @@ _Material = Annotated[str, library_choice(partial(library.solid_names, rolling=T
 
 
 def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Table whose ``base`` is a name of the library, where it is the designation of a maker.
+    """Table whose ``base`` is a name of the library or of a series, where it is the designation of a maker.
 
     A class of clearance in the designation holds where the table has no clearance of its own.
     """
-    base, names = table["base"], library.bearing_names()
+    base, names = table["base"], known_bearings()
     found = read_designation(base, names) if isinstance(base, str) and base not in names else None
     if found is None:
         return table
@@ -181,26 +188,65 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     return {**table, "base": found.name, "clearance_class": found.clearance_class}
 
 
-def _bearing_name(base: Any) -> str:
-    """Name of a bearing of the library; the error for another name tells how to do without the library."""
-    names = library.bearing_names()
-    try:
-        return library_name(base, names)
-    except InputError as error:
-        near = get_close_matches(str(base), names, n=3, cutoff=0.4) or names[:3]
-        keys = "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
-        takes = (
-            f"a name of the library, as a string, such as {', '.join(repr(name) for name in near)} "
-            f"(list: ehlectric bearings); or leave base out and give {keys}"
-        )
-        raise InputError(error.key, got=shown(base), takes=takes) from None
+def _base_table(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Table of the bearing that ``base`` names, of the library or estimated for its load ratings; the error
+    for another name tells how to do without.
+    """
+    base = table["base"]
+    if isinstance(base, str) and base in library.bearing_names():
+        return library.bearing(base)
+    if isinstance(base, str) and base in series():
+        return estimated_bearing(base, *_given_ratings(table.get("life")))
+    names = tuple(known_bearings())
+    # Suffixes are no part of a name.
+    short = re.match(r"[a-z]*[ -]*\w*", str(base).lower())
+    text = short[0].replace(" ", "-") if short else ""
+    alike = get_close_matches(text, names, n=30, cutoff=0.4) or names[:3]
+    near = sorted(alike, key=lambda name: not name.startswith(text[:2]))[:3]
+    takes = (
+        f"a bearing of the library or a designation of the usual series, as a string, such as "
+        f"{', '.join(repr(name) for name in near)} (list: ehlectric bearings); or leave base out and give "
+        "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
+    )
+    raise InputError("base", got=shown(base), takes=takes)
+
+
+def base_of(table: Mapping[str, Any]) -> tuple[Mapping[str, Any], dict[str, Any]]:
+    """Table ``bearing`` with the name of its bearing in place of a designation, and the values of the bearing
+    that ``base`` names. Raises InputError for an unknown one.
+
+    Examples
+    --------
+    >>> table, base = base_of({"base": "NU 210 ECP/C3"})
+    >>> table["base"], table["clearance_class"], base["elements"]
+    ('nu-210', 'C3', 16)
+    """
+    named = _with_designation(table)
+    return named, _base_table(named)
+
+
+def _given_ratings(life: Any) -> Iterator[float | None]:
+    """Dynamic and static load rating of a table ``life`` [N]; None for one that is not given."""
+    for key in ("dynamic_rating", "static_rating"):
+        value = life.get(key) if isinstance(life, Mapping) else getattr(life, key, None)
+        with within(f"life.{key}"):
+            yield None if value is None else amount_at(f"bearing.life.{key}").parse(value)
 
 
 class Bearing(Table, book="bearing"):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
     base: str | None = None
-    kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
+    kind: Literal[
+        "deep-groove ball",
+        "angular-contact ball",
+        "four-point contact ball",
+        "thrust ball",
+        "cylindrical roller",
+        "needle roller",
+        "tapered roller",
+        "thrust needle roller",
+    ]
     elements: int
     bore: float | None = None
     outer_diameter: float | None = None
@@ -215,6 +261,8 @@ class Bearing(Table, book="bearing"):
     radial_clearance: float | None = None
     clearance_class: ClearanceClass | None = None
     contact_angle: float | None = None
+    inner_ring: bool | None = None
+    pair: Pair | None = None
     element_material: _Material = "steel"
     ring_material: _Material = "steel"
     element_capacitance: float | None = None
@@ -245,8 +293,7 @@ class Bearing(Table, book="bearing"):
         table = with_class(table)
         if table.get("base") is None:
             return with_clearance(table)
-        table = _with_designation(table)
-        base = library.bearing(_bearing_name(table["base"]))
+        table, base = base_of(table)
         if table.get("clearance_class") is not None or table.get("fits") is not None:
             base.pop("radial_clearance", None)
         return with_clearance({**base, **table})
@@ -300,6 +347,11 @@ class Bearing(Table, book="bearing"):
         return self.isothermal or (is_number(self.summit_height) and self.summit_height == 0.0)
 
     @property
+    def rows(self) -> int:
+        """Number of bearings side by side: 2 of a pair."""
+        return 1 if self.pair is None else 2
+
+    @property
     def by_supply_rule(self) -> bool:
         """Whether a rule for the way of supply reduces the films."""
         return isinstance(self.supply, str) and SUPPLY_CONSTANTS[self.supply] > 0.0
@@ -322,6 +374,9 @@ class Bearing(Table, book="bearing"):
             raise InputError.missing("radial_load", "a load, radial or axial")
         if self.by_supply_rule:
             self._check_diameters(f"supply {self.supply!r}")
+            if self.kind not in GEOMETRY_CONSTANTS:
+                takes = "'flooded' or a number: its rule has no constant for a needle roller bearing"
+                raise InputError("supply", got=shown(self.supply), takes=takes)
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
             raise InputError.worded(
@@ -358,23 +413,26 @@ class Bearing(Table, book="bearing"):
         return self.coating.capacitance_on(diameters, self.width)
 
     def _check_kind(self) -> None:
-        rollers = self.kind == ROLLERS
-        needed = _NEEDED[self.kind]
-        for key in needed:
+        kind = KINDS_OF_BEARINGS[self.kind]
+        for key in kind.needed:
             if getattr(self, key) is None and not (key == "radial_clearance" and self.fits is not None):
                 choices = f": {_CHOICES[key]}" if key in _CHOICES else ""
                 text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
                 raise InputError.worded(key, text, takes=_CHOICES.get(key))
-        for key in (*_OF_BALLS, *_OF_ROLLERS, "radial_clearance", *_OF_CLEARANCE):
+        for key in (*KEYS_OF_KINDS, *_OF_CLEARANCE):
             of_kind = "radial_clearance" if key in _OF_CLEARANCE else key
-            if of_kind not in needed and getattr(self, key) is not None:
+            if of_kind not in kind.keys and getattr(self, key) is not None:
                 raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
         self._check_boundary()
-        if rollers and self.axial_load:
-            raise InputError(
-                "axial_load",
-                got=f"{self.axial_load:g} N",
-                takes="0 in a cylindrical roller bearing, whose rollers carry none",
+        for key, carries in (("radial_load", kind.radial), ("axial_load", kind.axial)):
+            load = getattr(self, key)
+            if load and not carries:
+                takes = f"0 in a {self.kind} bearing, whose raceways carry none"
+                raise InputError(key, got=f"{load:g} N", takes=takes)
+        if self.fits is not None and self.inner_ring is False:
+            raise InputError.worded(
+                "fits",
+                "is not computed without an inner ring, as the shaft is the raceway; give radial_clearance",
             )
 
     def _check_temperatures(self) -> None:
@@ -416,6 +474,9 @@ class Bearing(Table, book="bearing"):
         """Both rings have a thickness, and the element is not wider than the bearing."""
         inner = self.pitch_diameter - self.element_diameter
         outer = self.pitch_diameter + self.element_diameter
+        thrust = not KINDS_OF_BEARINGS[self.kind].radial
+        # Without an inner ring the shaft is the raceway, and the washers of a thrust bearing lie beside it.
+        inner += _ROUNDING * inner if thrust or self.inner_ring is False else 0.0
         if self.bore is not None and self.bore >= inner:
             raise InputError(
                 "bore", got=f"{self.bore:g} m", takes=f"less than the inner raceway, {inner:g} m"
@@ -426,7 +487,7 @@ class Bearing(Table, book="bearing"):
                 got=f"{self.outer_diameter:g} m",
                 takes=f"more than the outer raceway, {outer:g} m",
             )
-        across = self.element_diameter if self.roller_length is None else self.roller_length
+        across = self.element_diameter if self.roller_length is None or thrust else self.roller_length
         if self.width is not None and self.width < across:
             raise InputError(
                 "width", got=f"{self.width:g} m", takes=f"at least the width of an element, {across:g} m"
@@ -452,6 +513,8 @@ class BearingKeys(TypedDict, total=False):
     radial_clearance: Value
     clearance_class: str
     contact_angle: Value
+    inner_ring: bool
+    pair: Keys
     element_material: str
     ring_material: str
     element_capacitance: Value

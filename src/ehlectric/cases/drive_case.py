@@ -106,10 +106,20 @@ class DriveCase(CaseFile, book="drive_file"):
         return first, second
 
     @property
+    def running_speed(self) -> float:
+        """Speed of the rotor [rad/s]: that of the drive, else that of the bearing at the drive end."""
+        speed = self.drive.speed
+        return self.drive_end.bearing.inner_speed if speed is None else speed
+
+    @property
     def running_source(self) -> Source:
         """Source at the speed of the rotor, with the frequency and the modulation index that follow it."""
-        speed = self.drive.speed
-        return self.source.at_speed(self.drive_end.bearing.inner_speed if speed is None else speed)
+        return self.source.at_speed(self.running_speed)
+
+    @property
+    def running_circuit(self) -> Circuit:
+        """Circuit at the speed of the rotor, with the resistance that its grounding ring has there."""
+        return self.circuit.at_speed(self.running_speed)
 
     @model_validator(mode="after")
     def _check_source(self) -> Self:
@@ -143,6 +153,8 @@ class DriveCase(CaseFile, book="drive_file"):
         yield from ((table[end]["bearing"], "inner_speed") for end in ENDS)
         if self.drive.speed is not None:
             yield table["drive"], "speed"
+        if self.circuit.grounding_ring_table is not None:
+            yield table["circuit"]["grounding_ring_table"], "speed"
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
         """Return a changed copy of the case.
@@ -160,7 +172,7 @@ class DriveCase(CaseFile, book="drive_file"):
         ends = {end: _of_end(flat, end) for end in ENDS}
         own = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
         table = self.to_dict()
-        displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "breakdown")})
+        displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "circuit", "breakdown")})
         set_keys(table, own)
         for end, change in ends.items():
             with within(end):

@@ -5,6 +5,7 @@ again.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from functools import cached_property
 from typing import Literal, Self
 
@@ -13,7 +14,7 @@ from pydantic import model_validator
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.formulas.capacitances import Machine, MachineCapacitances, machine_capacitances
-from ehlectric.quantities.alternatives import DESCRIBED, MEASURED
+from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED
 from ehlectric.quantities.formats import amount
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
@@ -175,6 +176,45 @@ _FROM_GEOMETRY = {
 }
 
 
+# Relative error of a speed that was converted from revolutions per minute.
+_ROUNDING = 1e-9
+
+
+class RingTable(Table, book="circuit.grounding_ring_table"):
+    """Resistance of a grounding ring or brush over the speed of the shaft."""
+
+    speed: tuple[float, ...]
+    resistance: tuple[float, ...]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        return self.check_over("speed", "resistance")
+
+    def covers(self, speed: float) -> bool:
+        """Whether the size of a speed [rad/s] is within the table, but for its rounding."""
+        first, last = self.speed[0], self.speed[-1]
+        return first <= (1.0 + _ROUNDING) * abs(speed) and (1.0 - _ROUNDING) * abs(speed) <= last
+
+    def at_speed(self, speed: float) -> float:
+        """Resistance at a speed of either direction [ohm].
+
+        The logarithm of the resistance is linear in the speed between two entries, so that the resistance
+        rises or falls as they do; beyond the table the value at its end holds. ``speed`` in rad/s.
+
+        Examples
+        --------
+        >>> table = RingTable.from_dict({"speed": [0.0, 100.0], "resistance": ["0.5 ohm", "50 ohm"]})
+        >>> [round(table.at_speed(speed), 9) for speed in (0.0, 50.0, -50.0, 100.0, 900.0)]
+        [0.5, 5.0, 5.0, 50.0, 50.0]
+        """
+        place = bisect_right(self.speed, abs(speed))
+        if place in (0, len(self.speed)):
+            return self.resistance[0 if place == 0 else -1]
+        (first, second), (low, high) = (row[place - 1 : place + 1] for row in (self.speed, self.resistance))
+        # As a power of the ratio, which is exact at the entries and for a constant resistance.
+        return low * float((high / low) ** ((abs(speed) - first) / (second - first)))
+
+
 class Circuit(Table, book="circuit"):
     """Circuit of the machine around its bearings."""
 
@@ -188,10 +228,22 @@ class Circuit(Table, book="circuit"):
     ground_inductance: float | None = None
     ground_resistance: float = 0.0
     grounding_ring_resistance: float | None = None
+    grounding_ring_table: RingTable | None = None
     machine: Geometry | None = None
+
+    def at_speed(self, speed: float) -> Self:
+        """Circuit at a speed of the rotor [rad/s]: its grounding ring has one resistance, and no table."""
+        table = self.grounding_ring_table
+        if table is None:
+            return self
+        return self.model_copy(
+            update={"grounding_ring_resistance": table.at_speed(speed), "grounding_ring_table": None}
+        )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        rings = [row[0] for row in ALTERNATIVES["circuit"][0]]
+        self.check_one_of(rings, f"one of {' and '.join(rings)}")
         for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"):
             if self.machine is None and getattr(self, key) is None:
                 takes = "a value; or the table circuit.machine, the geometry of the machine"

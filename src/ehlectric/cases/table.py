@@ -272,11 +272,13 @@ class CaseFile(Tabled, Table):
         table = self.to_dict()
         # A rotational speed without a unit is refused in a file.
         for within, key in self._speeds(table):
-            within[key] = f"{within[key]!r} {ROTATION}"
+            value = within[key]
+            listed = isinstance(value, list)
+            within[key] = [f"{one!r} {ROTATION}" for one in value] if listed else f"{value!r} {ROTATION}"
         return tomli_w.dumps(table)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:  # noqa: ARG002
-        """Tables that hold a rotational speed, each with its key; none by default."""
+        """Tables that hold a rotational speed or a list of them, each with its key; none by default."""
         yield from ()
 
 

@@ -194,9 +194,22 @@ def plot(
         warn(warnings)
 
 
+# Designations that are understood beside the bearings of the library.
+_SERIES = (
+    "designations of these series are understood, too, as 6314-C3 or NU 210 ECP, with",
+    "elements that are estimated from load ratings (bores of 10 to 120 mm): 60, 62, 63,",
+    "68, 69, 160, 618, 619; 70, 72, 73, 79 with A, B or C; QJ 2, 3, 10; NU, NJ, NUP, N",
+    "2, 3, 4, 10, 22, 23; 302, 303, 313, 320, 322, 323, 329, 330, 331, 332; NA, RNA 49,",
+    "59, 69; HK, NK, AXK; 511 to 514",
+)
+
+
 @command("bearings")
 def bearings(as_json: bool = False) -> None:
     """List the bearings of the library, which a bearing file uses as base = "NAME".
+
+    Designations of the usual series, such as "6314-C3", "NU 210 ECP", "32208" or "HK 2020", are understood,
+    too; the elements of a bearing that is not in the list are estimated from its load ratings.
 
     The elements are their number, diameter and length. They are "published", or follow "by rule" from both
     load ratings, or are "assumed". C and C0 are the load ratings that a maker prints.
@@ -213,6 +226,8 @@ def bearings(as_json: bool = False) -> None:
             print_table(table)
             say("")
         say('in a bearing file: base = "6208"; the sources of all values are in the guide')
+        for line in _SERIES:
+            say(line)
 
 
 @command("bearing")

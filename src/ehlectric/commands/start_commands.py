@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
 from pathlib import Path
 from types import MappingProxyType
 
@@ -154,8 +155,12 @@ def _names() -> list[str]:
 
 def _known(name: str) -> str:
     """Name of an example, also where its suffix was typed. Raises InputError if there is no such example."""
-    stem = name.removesuffix(".toml")
-    return chosen("examples", stem, _names())
+    stem, names = name.removesuffix(".toml"), _names()
+    if stem not in names:
+        near = get_close_matches(stem, names, n=3, cutoff=0.3) or names[:3]
+        takes = f"one of the list of: ehlectric examples, such as {', '.join(near)}"
+        raise InputError("examples", got=shown(name), takes=takes)
+    return stem
 
 
 def _about(name: str) -> str:

@@ -88,7 +88,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
         raise InputError.missing(f"{end}.discharge.dielectric_strength", "the strength of the oil")
     films = np.array([circuit.capacitance for circuit in circuits])
     if bearing.element_capacitance is not None:
-        films = np.full(films.size, bearing.elements * bearing.element_capacitance)
+        films = np.full(films.size, bearing.rows * bearing.elements * bearing.element_capacitance)
     count, tau = films.size, oil_relaxation_time(solution)
     areas = conducting_areas(solution)
     first = solution.positions[0]

@@ -39,6 +39,7 @@ from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.units import rpm_text
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.stored import number, stored
@@ -461,9 +462,22 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
 def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
     yield from file_warnings(ready.cycle, ready.case.bearings[0])
+    yield from _of_ring(ready)
     left_out = np.flatnonzero(~np.isfinite(found.rates[:, 0]))
     if left_out.size:
         reasons = {**ready.reasons, **found.simulation.reasons}
         place, reason = next(iter(reasons.items()))
         line = ready.cycle.lines[place]
         yield ResultWarning.of("duty-left-out", rows=left_out.size, line=line, reason=reason)
+
+
+def _of_ring(ready: _Ready) -> Iterator[ResultWarning]:
+    """Note of speeds beyond the table of the grounding ring."""
+    table = ready.case.circuit.grounding_ring_table
+    if table is None or not np.any(ready.runs):
+        return
+    beyond = np.array([not table.covers(speed) for speed in ready.given["speed"].tolist()])
+    time = ready.ends[0].duration * ready.runs
+    if share := float(np.sum(time[beyond]) / np.sum(time)):
+        first, last = (rpm_text(table.speed[place]) for place in (0, -1))
+        yield ResultWarning.of("ring-table-exceeded", "duty", first=first, last=last, percent=100.0 * share)

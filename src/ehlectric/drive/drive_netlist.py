@@ -42,6 +42,7 @@ from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.units import rpm_text
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 
@@ -81,14 +82,16 @@ class DriveNetlist:
 
     def bench(self, library: str) -> Iterator[str]:
         """Lines of the test bench, which includes the file of the subcircuits."""
-        circuit, source, bench = self.case.circuit, self.case.running_source, TEXTS["drive_bench"]
+        case, bench = self.case, TEXTS["drive_bench"]
+        circuit, source = case.running_circuit, case.running_source
         points, step = _points(source, self.waveform)
         elements = tuple(_named(motor_elements(circuit)))
         positive, negative = (_NODES[node] for node in source_nodes(circuit))
         texts = [f"{time:.12g} {number(value)}" for time, value in points]
         about = (
-            f"title: {self.case.title or '(none)'}",
+            f"title: {case.title or '(none)'}",
             f"common-mode voltage: {_about(source)}, as points over time",
+            *([] if case.circuit.grounding_ring_table is None else [_about_ring(case)]),
             bench["left_out"],
         )
         text = filled(
@@ -190,6 +193,13 @@ def _about(source: Source) -> str:
     carrier = "" if source.switching_frequency is None else f" at {source.switching_frequency:g} Hz"
     fundamental = f"fundamental {source.fundamental_frequency:g} Hz"
     return f"{source.modulation}{carrier}, {source.dc_link:g} V, {fundamental}"
+
+
+def _about_ring(case: DriveCase) -> str:
+    """Words for a grounding ring whose resistance follows the speed."""
+    resistance = case.running_circuit.grounding_ring_resistance
+    speed = rpm_text(case.running_speed)
+    return f"grounding ring: {resistance:.4g} Ohm at {speed} rpm, from its table over the speed"
 
 
 def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float, float]], float]:

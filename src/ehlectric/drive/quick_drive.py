@@ -51,7 +51,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     touching = max(summary[end]["touching_time_share"] for end in ENDS)
     if not margins:
         return Verdict("green", "No discharge expected: the ceramic elements of both bearings insulate.")
-    circuit = case.circuit
+    circuit = case.running_circuit
     if circuit.common_mode_inductance is not None or circuit.ground_inductance is not None:
         return Verdict("grey", f"No verdict without a simulation: {_INDUCTANCE}")
     end = min(margins, key=lambda name: margins[name])

@@ -64,7 +64,7 @@ class PreparedDrive:
     @property
     def divider(self) -> tuple[float, float]:
         """Voltage across the films of each bearing per volt of the source, by the capacitances."""
-        return capacitive_divider(self.case.circuit, self.elements)
+        return capacitive_divider(self.case.running_circuit, self.elements)
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
@@ -83,7 +83,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     )
     _check_extinction(case, elements)
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
-    systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
+    systems = states_of(case.running_circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, voltage_nodes(elements), None if ringing is None else ringing.rate)
     waveform, told = measured_source(case.source, case.drive.duration)
     return PreparedDrive(

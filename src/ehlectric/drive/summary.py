@@ -63,6 +63,9 @@ def _tables(
 ) -> dict[str, Any]:
     """Tables of a drive: its source with the highest voltage [V], circuit, operation, and both bearings."""
     running, bearing = case.running_source, case.bearings[0].bearing
+    circuit = dict(case.circuit.capacitances)
+    if (ring := case.running_circuit.grounding_ring_resistance) is not None:
+        circuit["grounding_ring_resistance"] = ring
     tables: dict[str, Any] = plain(
         {
             "source": {
@@ -71,7 +74,7 @@ def _tables(
                 "fundamental_frequency": running.fundamental_frequency,
                 "modulation_index": running.modulation_index,
             },
-            "circuit": case.circuit.capacitances,
+            "circuit": circuit,
             "drive": {"speed": bearing.inner_speed, "temperature": bearing.oil_temperature, **drive},
             **ends,
         }

@@ -18,6 +18,7 @@ from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.units import rpm_text
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2
@@ -74,8 +75,26 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
             f"circuit.{key} {amount(circuit.capacitances[key], 'F')}" for key in circuit.estimated
         )
         yield ResultWarning.of("capacitances-estimated", capacitances=told)
+    yield from _of_ring(case)
     yield from _of_oscillations(case, bearings)
     yield from _of_conduction(case, bearings)
+
+
+def _of_ring(case: DriveCase) -> Iterator[ResultWarning]:
+    """Note of a speed beyond the table of the grounding ring."""
+    table, speed = case.circuit.grounding_ring_table, case.running_speed
+    if table is None or table.covers(speed):
+        return
+    ends = table.speed[0], table.speed[-1]
+    yield ResultWarning.of(
+        "ring-table-exceeded",
+        "drive",
+        speed=rpm_text(speed),
+        first=rpm_text(ends[0]),
+        last=rpm_text(ends[1]),
+        resistance=amount(table.at_speed(speed), "ohm"),
+        end=rpm_text(ends[speed > ends[1]]),
+    )
 
 
 def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
@@ -98,7 +117,7 @@ def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Itera
 
 def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
     """Warning of an inductance that rings with the capacitances for hundreds of periods."""
-    frequency, quality = next(iter(oscillations(case.circuit, bearings)), (0.0, 0.0))
+    frequency, quality = next(iter(oscillations(case.running_circuit, bearings)), (0.0, 0.0))
     if quality > _UNDAMPED:
         paths = [name for name in ("common_mode", "ground") if getattr(case.circuit, f"{name}_inductance")]
         bare = [name for name in paths if not getattr(case.circuit, f"{name}_resistance")] or paths

@@ -17,6 +17,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_discharges import shaft_leakage
 from ehlectric.bearing.circuit import shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
+from ehlectric.bearing.loads.totals import around_in_rows
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import PARTIAL, RingState, touching_ratio
 from ehlectric.figures.contact_findings import with_unit
@@ -175,7 +176,9 @@ def _races(result: BearingResult, ring: Ring) -> list[RingState]:
 def _unloaded(result: BearingResult, ax: Axes, ring: Ring) -> None:
     """Shade the sector in which no element is loaded by a ring, and name it in the legend with the gap."""
     (name, color, *_), races = ring, _races(result, ring)
-    angle, loaded = _around(result, [race.solved for race in races])
+    (angle, *_), each = _around(result, [race.solved for race in races])
+    # All rows have the same angles.
+    loaded = np.any(each, axis=0)
     if np.all(loaded):
         return
     gaps = np.concatenate([race.values.minimum_thickness[~race.solved] for race in races])
@@ -190,10 +193,18 @@ def _unloaded(result: BearingResult, ax: Axes, ring: Ring) -> None:
 
 
 def _around(result: BearingResult, values: Sequence[Array | Mask]) -> tuple[Array, Any]:
-    """Angles of all elements at all positions of the cage from 0 to 2 pi, and values in their order."""
-    angles = np.mod(np.concatenate([p.equilibrium.position for p in result.solution.positions]), 2.0 * np.pi)
-    order = np.argsort(angles, kind="stable")
-    return angles[order], np.concatenate(values)[order]
+    """Angles of the elements of each row at all positions of the cage from 0 to 2 pi, and values in their
+    order, shape (rows, n).
+    """
+    rows = _rows(result)
+    angles, order = around_in_rows([p.equilibrium.position for p in result.solution.positions], rows)
+    return angles[order].reshape(rows, -1), np.concatenate(values)[order].reshape(rows, -1)
+
+
+def _rows(result: BearingResult) -> int:
+    """Number of rows of elements, or of diagonals of a four-point contact bearing."""
+    solution = result.solution
+    return int(solution.positions[0].equilibrium.position.size // solution.case.bearing.elements)
 
 
 def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
@@ -216,12 +227,12 @@ def _draw_ring(
     Contacts without load have hollow markers called ``at_rest``, and a dotted line.
     """
     (name, color, width, size), races = ring, _races(result, ring)
-    angle, along = _around(result, values)
-    _, loaded = _around(result, [race.solved for race in races])
-    angle, along = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
-    loaded = np.append(loaded, loaded[0])
-    ax.plot(angle, np.where(loaded, along, np.nan), color=color, lw=width)
-    ax.plot(angle, np.where(loaded, np.nan, along), color=color, lw=width, ls=":")
+    rows = zip(*_around(result, values), _around(result, [race.solved for race in races])[1], strict=True)
+    for angle, along, loaded in rows:
+        whole, line = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
+        on = np.append(loaded, loaded[0])
+        ax.plot(whole, np.where(on, line, np.nan), color=color, lw=width)
+        ax.plot(whole, np.where(on, np.nan, line), color=color, lw=width, ls=":")
     marks: dict[str, Any] = {"ls": "none", "marker": "o", "ms": size, "color": color, "clip_on": False}
     on, at = races[0].solved, result.solution.positions[0].equilibrium.position
     ax.plot(at[on], values[0][on], label=f"{name} contact", zorder=4.0, **marks)
@@ -232,7 +243,8 @@ def _draw_ring(
 
 def _between(result: BearingResult) -> float:
     """Angle near the top, halfway between two elements at the first position of the cage [rad]."""
-    at = np.sort(np.mod(result.solution.positions[0].equilibrium.position, 2.0 * np.pi))
+    first_row = result.solution.positions[0].equilibrium.position[: result.solution.case.bearing.elements]
+    at = np.sort(np.mod(first_row, 2.0 * np.pi))
     halfway = 0.5 * (at + np.append(at[1:], at[0] + 2.0 * np.pi))
     return float(halfway[np.argmin(np.abs(halfway - np.pi))])
 
@@ -290,10 +302,11 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
     circuit = result.solution.circuits(fill)[0]
-    factor, unit = unit_for(float(max(np.max(circuit.inner), np.max(circuit.outer))), "F", least=1.0)
-    at = np.arange(circuit.inner.size)
-    ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
-    ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
+    inner, outer = (ring.capacitance(fill) for ring in result.solution.positions[0].rings)
+    factor, unit = unit_for(float(max(np.max(inner), np.max(outer))), "F", least=1.0)
+    at = np.arange(inner.size)
+    ax.bar(at - 0.2, factor * inner, 0.4, color=BLUE, label="inner contact")
+    ax.bar(at + 0.2, factor * outer, 0.4, color=ORANGE, label="outer contact")
     ax.set_ylabel(f"capacitance\n[{unit}]")
     _elements(result, ax)
     # The capacitance in summary.json is the mean over a pitch, that of this position another one.
@@ -316,10 +329,13 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     circuit, position = result.solution.circuits()[0], result.solution.positions[0]
-    at = np.arange(circuit.inner.size)
     shaft, path = result.shaft_voltage, shaft_path(result.solution)
-    share = path.film_share(circuit.capacitance)
-    inner, outer = circuit.inner_breaks / share, circuit.outer_breaks / share
+    share, own = path.film_share(circuit.capacitance), position.inner_share(circuit)
+    at, summits = np.arange(own.size), result.solution.summits
+    inner, outer = (
+        ring.values.breakdown_voltage * ring.part_left(summits) / part / share
+        for ring, part in zip(position.rings, (own, 1.0 - own), strict=True)
+    )
     everything = np.concatenate([inner, outer, [] if shaft is None else [shaft]])
     if is_wide(everything):
         ax.set_yscale("log")

@@ -59,9 +59,17 @@ SUPPLY_CONSTANTS: Mapping[str, float] = MappingProxyType(
     {"flooded": 0.0, "oil-bath": 3e-8, "oil-jet": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
 )
 
-# Constant K_Z of SKF's factor for bearings with one row.
+# Constant K_Z of SKF's factor for bearings with one row; SKF has none for radial needle bearings.
 GEOMETRY_CONSTANTS: Mapping[str, float] = MappingProxyType(
-    {"deep-groove ball": 3.1, "angular-contact ball": 4.4, "cylindrical roller": 5.1}
+    {
+        "deep-groove ball": 3.1,
+        "angular-contact ball": 4.4,
+        "four-point contact ball": 3.1,
+        "thrust ball": 3.8,
+        "cylindrical roller": 5.1,
+        "tapered roller": 6.0,
+        "thrust needle roller": 4.4,
+    }
 )
 
 _RPM = 30.0 / math.pi
@@ -80,10 +88,11 @@ def replenishment_factor(
     to 1, dimensionless, shape (...).
 
     SKF, Rolling bearings, PUB BU/P1 17000, and The SKF model for calculating the frictional moment. The form,
-    K_rs, and K_Z of ball bearings agree in three or more independent programs; the K_Z of cylindrical rollers
-    with a cage, 5.1, is from memory. SKF reduces the rolling frictional moment by the factor, and explains it
-    by a thinner film. Its model is for bearings at steady speed and temperature, at constant load above the
-    minimum load, with normal clearance, below the limiting speed; its oil bath is a low one.
+    K_rs, and K_Z of radial ball bearings agree in three or more independent programs; the other K_Z are from
+    memory: 5.1 is that of cylindrical rollers with a cage, and 4.4 that of cylindrical roller thrust
+    bearings. SKF reduces the rolling frictional moment by the factor, and explains it by a thinner film. Its
+    model is for bearings at steady speed and temperature, at constant load above the minimum load, with
+    normal clearance, below the limiting speed; its oil bath is a low one.
 
     Examples
     --------

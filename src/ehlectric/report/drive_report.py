@@ -74,11 +74,18 @@ def _deciding(
         yield key, value, origin or origins.get(key, _GIVEN), why
 
 
+# Tables that stand in place of a number that decides the result.
+_TABLES = {
+    "discharge.strength_table": "discharge.dielectric_strength",
+    "circuit.grounding_ring_table": "circuit.grounding_ring_resistance",
+}
+
+
 def _of_inputs(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str, str]]:
     """Rows of circuit, arc and bearings, those of equal bearings once where no end has values of its own;
     without an origin where it is that of an input.
     """
-    decided, strength = TEXTS["decided"], "discharge.strength_table"
+    decided = TEXTS["decided"]
     for before, part in {"": case, **parts_of(case, apart=apart)}.items():
         given = flattened(part.to_dict())
         for key, why in decided.items():
@@ -89,8 +96,9 @@ def _of_inputs(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, str, str,
             elif part is case and name in case.circuit.estimated:
                 origin = "geometry of the machine, without end windings"
                 yield key, amount(case.circuit.capacitances[name], "F"), origin, why
-        if any(key.startswith(f"{strength}.") for key in given):
-            yield f"{before}{strength}", "a table", _GIVEN, decided["discharge.dielectric_strength"]
+        for table, number in _TABLES.items():
+            if any(key.startswith(f"{table}.") for key in given):
+                yield f"{before}{table}", "a table", _GIVEN, decided[number]
 
 
 def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, str, str, str]]:

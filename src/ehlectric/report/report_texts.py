@@ -152,6 +152,7 @@ def _of_drive(case: DriveCase) -> dict[str, bool]:
         # The voltages at which the films break down scatter.
         "scatter": case.breakdown.weibull_shape is not None or scattered,
         "estimated": bool(case.circuit.estimated),
+        "grounding ring": case.running_circuit.grounding_ring_resistance is not None,
         "measured source": case.source.measured,
         "space-vector": case.source.modulation == "space-vector",
         "pole pairs": case.source.pole_pairs is not None,

@@ -193,6 +193,9 @@ _WORDS = Words(
     rows={"duty.stretches": _stretches},
     notes={
         "source.peak": lambda s: ", measured waveform" if s["source"]["edges_per_second"] is None else "",
+        "circuit.grounding_ring_resistance": lambda s: (
+            ", by its table at this speed" if "grounding_ring_table" in s["inputs"]["circuit"] else ""
+        ),
         "end.films": lambda s: f", films may be {percent(s['end']['films_error'])} off",
         "end.breakdown_voltage": lambda s: (
             ", at a probability of 63.2 %" if s["end"]["weibull_shape"] is not None else ""

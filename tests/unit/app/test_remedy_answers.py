@@ -67,6 +67,14 @@ def test_a_ring_takes_nearly_all_of_the_voltage():
     assert found["Verdict"][1] == "No breakdown expected"
 
 
+def test_a_ring_with_a_table_has_the_resistance_at_the_speed_of_the_bearing():
+    """1 ohm at 3000 rpm, half of the logarithm between 0.1 and 10 ohm."""
+    table = {"speed": ["0 rpm", "6000 rpm"], "resistance": ["0.1 ohm", "10 ohm"]}
+    remedy = {"title": "Brush", "changes": {"circuit.grounding_ring_table": table}}
+    drive = drive_with(BEARING.changed({"bearing.inner_speed": "3000 rpm"})).changed({"remedies": [remedy]})
+    assert rows(whole_remedy(BEARING.table, drive.table))["Shaft voltage"][1] == "0.04 V"
+
+
 def test_what_follows_is_pending_at_once():
     found = rows(quick_remedy(BEARING.table, remedied("Insulated").table))
     assert found["Critical speed"] == found["Probability of breakdown"] == (PENDING, PENDING)

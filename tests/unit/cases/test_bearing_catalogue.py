@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-from ehlectric.bearing.loads import ratings
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
@@ -13,6 +12,7 @@ from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.library.bearing_catalogue import bearing_catalogue, catalogue_bearing
 from ehlectric.cases.library.library_oils import KINDS, sources_of, weakest
 from ehlectric.errors import InputError
+from ehlectric.formulas import load_ratings as ratings
 from tests.helpers.each import each
 
 ALL = bearing_catalogue()

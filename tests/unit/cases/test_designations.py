@@ -4,7 +4,7 @@ import pytest
 
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.library.designations import read_designation, suffixes
+from ehlectric.cases.library.designations import known_bearings, read_designation, suffixes
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -26,11 +26,39 @@ OIL = {"base": "paper"}
         ("7208 BEP", "7208-b", None),
         ("7208-B", "7208-b", None),
         ("7208 C TVP P5", "7208-c", None),
+        ("NJ 208 ECP", "nu-208", None),
+        ("N 208 ECP", "nu-208", None),
     ],
 )
 def test_designations(text, name, clearance):
     found = read_designation(text, NAMES)
     assert (found.name, found.clearance_class) == (name, clearance)
+
+
+@each(
+    ("text", "name", "clearance"),
+    [
+        ("6314-C3", "6314", "C3"),
+        ("NU 210 ECP/C3", "nu-210", "C3"),
+        ("7210 BEP", "7210-b", None),
+        ("7908 A5", "7908-a5", None),
+        ("61808-2RZ", "6808", None),
+        ("60/22 ZZ", "60/22", None),
+        ("32208 J2/Q", "32208", None),
+        ("HR 32208 J", "32208", None),
+        ("HK2020", "hk-2020", None),
+        ("NA 49/22", "na-49/22", None),
+        ("RNA4904", "rna-4904", None),
+        ("NK 20/20", "nk-20/20", None),
+        ("51208", "51208", None),
+        ("AXK 75100", None, None),
+        ("AXK 2542", "axk-2542", None),
+        ("QJ 208 N2MA/C3", "qj-208", "C3"),
+    ],
+)
+def test_designations_of_the_usual_series(text, name, clearance):
+    found = read_designation(text, known_bearings())
+    assert (found and (found.name, found.clearance_class)) == (name and (name, clearance))
 
 
 @each("text", ["6999", "HK 2020", "32208", "bearing", "", "7208 X"])
@@ -66,5 +94,5 @@ def test_a_file_with_a_designation():
     assert BearingCase.from_dict(case.to_dict()) == case
     own = BearingCase.of(base="6208-2Z/C3", radial_clearance="10 um", lubricant=OIL, **REST)
     assert own.bearing.radial_clearance == pytest.approx(10e-6)
-    with pytest.raises(InputError, match="a name of the library"):
-        BearingCase.of(base="32208", lubricant=OIL, **REST)
+    with pytest.raises(InputError, match="a bearing of the library or a designation"):
+        BearingCase.of(base="32298", lubricant=OIL, **REST)

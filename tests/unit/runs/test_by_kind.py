@@ -138,6 +138,8 @@ def test_kinds_of_the_examples():
         "duty_drive": "drive",
         "drive": "drive",
         "drive_map": "sweep",
+        "grounding_brush": "drive",
+        "grounding_brush_speeds": "sweep",
         "moving_roughness": "motion",
         "sweep": "sweep",
         "traction_curve": "sweep",

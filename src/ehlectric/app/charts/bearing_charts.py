@@ -82,11 +82,13 @@ def polar_layout(ends: tuple[float, float], *, radial: bool = True) -> Plot:
 class Around:
     """Contacts of all elements with one ring, at all positions of the cage."""
 
-    angle: Sequence[float]  # angles from the load line, in ascending order [rad]
+    # Angles from the load line, in ascending order in each row, all rows one after the other [rad].
+    angle: Sequence[float]
     # load and film: load [N] and minimum film thickness [m], or the gap of a contact without load.
     load: Sequence[float]
     film: Sequence[float]
     loaded: Sequence[bool]
+    rows: int = 1  # rows of elements, or diagonals of a four-point contact bearing
 
 
 def load_figure(
@@ -96,7 +98,7 @@ def load_figure(
     data = []
     for name in _LOOKS:
         marks = [row for row in rows if row["ring"] == name]
-        data.append(_line(name, around[name].angle, around[name].load))
+        data.append(_line(name, around[name].angle, around[name].load, around[name].rows))
         data.append(_marks(name, marks, [row["load"] for row in marks], "load", "N"))
     largest = max(max(ring.load) for ring in around.values())
     return plot(data, height=_HEIGHT, **polar_layout((0.0, 1.08 * largest), radial=radial))
@@ -135,19 +137,23 @@ def film_figure(
     for name in _LOOKS:
         ring = around[name]
         values = np.where(ring.loaded, 1e6 * np.array(ring.film), np.nan).tolist()
-        data.append(_line(name, ring.angle, values))
+        data.append(_line(name, ring.angle, values, ring.rows))
         marks = [row for row in rows if row["ring"] == name and row["solved"]]
         data.append(_marks(name, marks, [1e6 * row["minimum_thickness"] for row in marks], "h_min", "µm"))
     layout = polar_layout(shown_over(everything), radial=radial)
     return plot(data, height=_HEIGHT, **layout)
 
 
-def _line(name: str, angle: Sequence[float], values: Sequence[float]) -> Plot:
-    """Closed line of a ring around the shaft."""
+def _line(name: str, angle: Sequence[float], values: Sequence[float], rows: int = 1) -> Plot:
+    """Closed line of a ring around the shaft, one for each of its rows."""
     color, width, _ = _LOOKS[name]
-    degrees = [math.degrees(one) for one in angle]
     look: Plot = {"line": {"color": color, "width": width}, "showlegend": False}
-    return scatter([*degrees, degrees[0] + 360.0], [*values, values[0]], polar=True, **look)
+    theta: list[float] = []
+    radius: list[float] = []
+    for part, own in zip(np.split(np.degrees(angle), rows), np.split(np.asarray(values), rows), strict=True):
+        theta += [*part.tolist(), part[0] + 360.0, math.nan]
+        radius += [*own.tolist(), own[0], math.nan]
+    return scatter(theta[:-1], radius[:-1], polar=True, **look)
 
 
 def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], symbol: str, unit: str) -> Plot:

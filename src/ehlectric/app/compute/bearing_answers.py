@@ -49,6 +49,7 @@ from ehlectric.app.compute.answer_parts import (
 )
 from ehlectric.app.compute.duty_answers import shown_duty
 from ehlectric.bearing.duty_cycle import run_duty
+from ehlectric.bearing.loads.totals import around_in_rows
 from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.result import BearingResult, solve_bearing
@@ -469,18 +470,20 @@ def _gaps(around: Mapping[str, Around]) -> str:
 def _around(result: BearingResult) -> dict[str, Around]:
     """Contacts of all elements at all positions of the cage, by the name of the ring."""
     positions = result.solution.positions
-    angle = np.mod(np.concatenate([one.equilibrium.position for one in positions]), 2.0 * np.pi)
-    order = np.argsort(angle, kind="stable")
+    rows = positions[0].equilibrium.position.size // result.solution.case.bearing.elements
+    angle, order = around_in_rows([one.equilibrium.position for one in positions], rows)
     found = {}
     for name in ("inner", "outer"):
         rings = [getattr(position, name) for position in positions]
-        columns = (
-            [ring.load for ring in rings],
-            [ring.values.minimum_thickness for ring in rings],
-            [ring.solved for ring in rings],
+        load, film, loaded = (
+            np.concatenate(column)[order].tolist()
+            for column in (
+                [ring.load for ring in rings],
+                [ring.values.minimum_thickness for ring in rings],
+                [ring.solved for ring in rings],
+            )
         )
-        values = (np.concatenate(column)[order].tolist() for column in columns)
-        found[name] = Around(angle[order].tolist(), *values)
+        found[name] = Around(angle[order].tolist(), load, film, loaded, rows)
     return found
 
 

@@ -52,7 +52,7 @@ def _answer(
 ) -> RemedyAnswer:
     case, driven = without_cycle(table, session), drive_of(drive)
     (remedy, *_), (variant, *_) = driven.remedies, driven.variants()
-    ring = variant.circuit.grounding_ring_resistance
+    ring = variant.running_circuit.grounding_ring_resistance
     result = solved_quickly(case)
     summary, verdict = _numbers(result, whole=whole)
     if ring is None:

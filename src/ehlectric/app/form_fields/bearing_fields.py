@@ -5,31 +5,20 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.app.form_fields.field import (
-    ANGULAR,
-    ROLLERS,
+    always,
     both,
+    carries,
     equal,
     form_data,
     given,
     group_of,
-    has_balls,
-    has_clearance,
-    kind_of,
+    of_kind,
     unequal,
 )
 from ehlectric.app.form_fields.oil_fields import oil
-from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.inputs import form
 
 _own = equal("bearing.base", None)
-
-
-def _rollers(inputs: Inputs) -> bool:
-    return kind_of(inputs) == ROLLERS
-
-
-def _angular(inputs: Inputs) -> bool:
-    return kind_of(inputs) == ANGULAR
 
 
 def _number_in_place_of(key: str) -> dict[str, Any]:
@@ -38,19 +27,19 @@ def _number_in_place_of(key: str) -> dict[str, Any]:
     return {"when": unequal(key, None, *words), "strict": True}
 
 
-# Dimensions of a user-defined bearing, and those that only ball bearings have.
+# Dimensions of a user-defined bearing, and those that bearings of some kinds have.
 _DIMENSIONS = ("kind", "elements", "element_diameter", "pitch_diameter", "bore", "outer_diameter", "width")
-_OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height")
+_OF_KINDS = ("inner_groove", "outer_groove", "shoulder_height", "roller_length")
 
 # When fields are shown.
 _SHOWN: dict[str, dict[str, Any]] = {
     **{f"bearing.{name}": {"when": _own} for name in _DIMENSIONS},
-    **{f"bearing.{name}": {"when": both(_own, has_balls)} for name in _OF_BALLS},
-    "bearing.roller_length": {"when": both(_own, _rollers)},
-    "bearing.profile": {"when": _rollers},
-    "bearing.contact_angle": {"when": _angular},
+    **{f"bearing.{name}": {"when": both(_own, of_kind(name))} for name in _OF_KINDS},
+    "bearing.profile": {"when": of_kind("profile")},
+    "bearing.contact_angle": {"when": of_kind("contact_angle")},
     "bearing.element_capacitance": {"when": equal("bearing.element_material", "silicon-nitride")},
-    "bearing.axial_load": {"when": has_balls},
+    "bearing.radial_load": {"when": carries("radial")},
+    "bearing.axial_load": {"when": carries("axial")},
     **{key: _number_in_place_of(key) for key in ("bearing.film_factor", "bearing.supply", "bearing.fill")},
     **{
         key: {"when": given("bearing.fits")}
@@ -59,9 +48,13 @@ _SHOWN: dict[str, dict[str, Any]] = {
     },
     "bearing.coating.ring": {"when": equal("bearing.coating.base", None)},
 }
-_LISTS = {"bearing.radial_clearance": has_clearance}
+_LISTS = {"bearing.radial_clearance": of_kind("radial_clearance")}
+# When groups are shown.
+_GROUPS = {"Pair": of_kind("pair"), "Clearance": of_kind("radial_clearance")}
 
 BEARING_GROUPS = tuple(
-    oil("bearing") if title == "Oil" else group_of("bearing", title, _SHOWN, _LISTS)
+    oil("bearing")
+    if title == "Oil"
+    else group_of("bearing", title, _SHOWN, _LISTS, when=_GROUPS.get(title, always))
     for title in form("bearing")
 )

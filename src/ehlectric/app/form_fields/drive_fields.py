@@ -28,6 +28,7 @@ from ehlectric.quantities.units import rounded, split
 # Groups of alternatives of a drive: inputs have the keys of one row of each.
 DRIVE_ALTERNATIVES = (
     *dotted("source", ((DESCRIBED, MEASURED), *ALTERNATIVES["source"])),
+    *dotted("circuit", ALTERNATIVES["circuit"]),
     *dotted("breakdown", ALTERNATIVES["breakdown"]),
 )
 
@@ -178,10 +179,15 @@ _SHOWN = {
     "source.fundamental_frequency": {"when": both(_described, equal("source.pole_pairs", None))},
     **{f"source.{key}": {"when": both(_described, given("source.overshoot"))} for key in _RINGING},
     **{key: {"when": _capacitances} for key in form("drive")["Machine"]},
+    "circuit.grounding_ring_resistance": {"when": equal("circuit.grounding_ring_table", None)},
     "breakdown.extinction_current": {"when": given("breakdown.extinction_current")},
     "breakdown.extinction_voltage": {"when": equal("breakdown.extinction_current", None)},
 }
-_LISTS = {"source.pole_pairs": _described, "source.overshoot": _described}
+_LISTS = {
+    "source.pole_pairs": _described,
+    "source.overshoot": _described,
+    "circuit.grounding_ring_resistance": given("circuit.grounding_ring_table"),
+}
 _CONDITIONS = {"Geometry of the machine": given("circuit.machine")}
 
 _OF_DRIVE = tuple(

@@ -12,12 +12,11 @@ from typing import Any, Literal
 
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
-
-DEEP, ANGULAR, ROLLERS = "deep-groove ball", "angular-contact ball", "cylindrical roller"
 
 
 @cache
@@ -37,14 +36,29 @@ def kind_of(inputs: Inputs) -> str:
     return str(inputs.value("bearing.kind") or bearing(str(inputs.value("bearing.base"))).get("kind", ""))
 
 
-def has_balls(inputs: Inputs) -> bool:
-    """Whether the bearing has balls."""
-    return kind_of(inputs) in (DEEP, ANGULAR)
+def facts_of(inputs: Inputs) -> KindOfBearing | None:
+    """What bearings of the kind have; None where the inputs do not tell the kind."""
+    return KINDS_OF_BEARINGS.get(kind_of(inputs))
 
 
-def has_clearance(inputs: Inputs) -> bool:
-    """Whether the bearing has a radial clearance, and not a contact angle."""
-    return kind_of(inputs) in (DEEP, ROLLERS)
+def of_kind(key: str) -> When:
+    """Condition that bearings of the kind have a key of ``[bearing]``."""
+
+    def has(inputs: Inputs) -> bool:
+        facts = facts_of(inputs)
+        return facts is not None and key in facts.keys
+
+    return has
+
+
+def carries(load: Literal["radial", "axial"]) -> When:
+    """Condition that bearings of the kind carry radial or axial loads."""
+
+    def carried(inputs: Inputs) -> bool:
+        facts = facts_of(inputs)
+        return facts is not None and bool(getattr(facts, load))
+
+    return carried
 
 
 def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
@@ -55,11 +69,16 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     >>> fitted_to_kind(Inputs({"bearing": {"base": "nu-208", "axial_load": "300 N"}}))
     {'bearing.axial_load': None, 'bearing.profile': 'logarithmic', 'bearing.radial_clearance': '20 um'}
     """
-    kind = form_data("kinds").get(kind_of(inputs), {"refused": (), "needed": {}})
+    facts = facts_of(inputs)
+    if facts is None:
+        return {}
     known = bearing(str(inputs.value("bearing.base")))
-    given = [f"bearing.{key}" for key in kind["refused"]]
+    refused = [key for key in KEYS_OF_KINDS if key not in facts.keys]
+    refused += [] if "radial_clearance" in facts.keys else ["clearance_class", "fits"]
+    refused += [f"{load}_load" for load in ("radial", "axial") if not getattr(facts, load)]
+    given = [f"bearing.{key}" for key in refused]
     changes: dict[str, Any] = {key: None for key in given if inputs.value(key) is not None}
-    for name, value in kind["needed"].items():
+    for name, value in form_data("kinds")[kind_of(inputs)].items():
         key = f"bearing.{name}"
         clear = name == "radial_clearance" and (
             inputs.value("bearing.clearance_class") or inputs.value("bearing.fits")
@@ -146,6 +165,7 @@ class Field:
     optional: bool = False  # whether the field may be left empty
     ignored: str = ""  # regular expression of the endings of a searched name that a search may leave out
     lacks: str = ""  # what is told where a search finds nothing; ``{count}`` is the number of entries
+    free: bool = False  # whether a search takes a text that no entry has
 
     def at(self, place: float) -> float:
         """Value at a place of the slider from 0 to 1, with three digits."""

@@ -158,7 +158,8 @@ class Form:
             field.key, kind=kind, label=field.label, note=field.note, slides=number, options=options
         )
         unit = printed(field.unit) if field.unit else ""
-        control.show(ignored=field.ignored, lacks=field.lacks, help=field.help, unit=unit)
+        about = {"ignored": field.ignored, "lacks": field.lacks, "free": field.free}
+        control.show(**about, help=field.help, unit=unit)
         control.on("commit", committed)
         if number:
             control.on("slide", slid)

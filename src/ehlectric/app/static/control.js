@@ -65,6 +65,8 @@ export default {
     // Endings that a search may leave out, and what is told where it finds nothing.
     ignored: String,
     lacks: String,
+    // Whether a search takes a text that no entry has, as the designation of a bearing.
+    free: { type: Boolean, default: false },
     turn: { type: Number, default: 0 },
     place: { type: Number, default: 0 },
     slides: { type: Boolean, default: false },
@@ -211,6 +213,7 @@ export default {
       } else if (event.key === "Enter") {
         event.preventDefault();
         if (this.opened && this.found[this.active]) this.choose(this.found[this.active].value);
+        else if (this.opened && this.free && this.query.trim()) this.choose(this.query.trim());
         else this.open();
       } else if (event.key === "Escape") {
         this.close();

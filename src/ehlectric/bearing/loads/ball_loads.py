@@ -18,7 +18,7 @@ Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/978
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -71,9 +71,11 @@ class BallEquilibrium(BearingEquilibrium):
     # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
     axial_displacement: Numbers
     # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
-    # psi and sin psi [N m].
+    # psi and sin psi [N m]; of a pair without that of the distance of its rows.
     moment: Numbers
     lateral_moment: Numbers
+
+    holds_axially: ClassVar[bool] = True  # balls hold the ring along the axis
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,8 @@ class _Points:
     # Cosine and sine of the position of each ball, shape (elements, n).
     cosine: Array
     sine: Array
+    # 1, or -1 of balls in a second row, whose axial components point the other way, shape (elements, 1).
+    sign: Array
     # load: axial, radial and lateral load on the ring [N], shape (3, n).
     load: Array
     inner_speed: Array  # angular speed of the inner ring [rad/s]
@@ -94,6 +98,10 @@ class _Points:
     offsets: Array  # lengths at first touch of the inner and outer contact [m], shape (2, 1, n)
     laws: Array  # coefficients of ln K of both contacts, shape (m, 2, 1, n)
     flat: Array  # stiffness K of both contacts at a contact angle of 0, shape (2, 1, n)
+    # Axial distance of the groove centres of each row with the ring in the middle of a pair [m], and the
+    # force of both rows against each other without load [N], shape (n,).
+    apart: Array
+    preload: Array
 
     @classmethod
     def of(cls, batch: Batch[BallBearing]) -> _Points:
@@ -107,6 +115,7 @@ class _Points:
         return cls(
             cosine=np.cos(position),
             sine=np.sin(position),
+            sign=batch.signs,
             load=load,
             inner_speed=row(operation.inner_speed),
             outer_speed=row(operation.outer_speed),
@@ -117,6 +126,8 @@ class _Points:
             offsets=np.stack(np.broadcast_arrays(*map(row, bearing.offsets)))[:, np.newaxis],
             laws=laws[:, :, np.newaxis],
             flat=stiffness_at(laws, np.ones(1))[:, np.newaxis],
+            apart=row(_closed(bearing, laws)),
+            preload=row(np.asarray(bearing.rows.preload, dtype=float)),
         )
 
     @property
@@ -128,6 +139,11 @@ class _Points:
         """Some of the points."""
         values = (getattr(self, each.name) for each in fields(self))
         return _Points(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
+
+    @property
+    def paired(self) -> bool:
+        """Whether there is a second row."""
+        return bool(self.sign[-1, 0] < 0.0)
 
     @property
     def size(self) -> Array:
@@ -156,17 +172,17 @@ class _Points:
     def centres(self, ring: Array) -> Array:
         """Centres of the inner groove at each ball, axial and radial [m], shape (2, elements, n)."""
         radial = self.distance + ring[1] * self.cosine + ring[2] * self.sine
-        return np.stack([np.broadcast_to(ring[0], radial.shape), radial])
+        return np.stack([np.broadcast_to(self.sign * ring[0] + self.apart, radial.shape), radial])
 
     def moved(self, step: Array) -> tuple[Array, Array]:
         """Axial and radial movement of the centres of the inner groove by a step of the ring [m]."""
-        return step[0], step[1] * self.cosine + step[2] * self.sine
+        return self.sign * step[0], step[1] * self.cosine + step[2] * self.sine
 
     def summed(self, axial: Array, radial: Array) -> Array:
         """Sum of forces on the ring over the balls, axial, radial and lateral [N], shape (3, n)."""
         return np.stack(
             [
-                np.add.reduce(axial, axis=0),
+                np.add.reduce(self.sign * axial, axis=0),
                 np.add.reduce(radial * self.cosine, axis=0),
                 np.add.reduce(radial * self.sine, axis=0),
             ]
@@ -174,6 +190,7 @@ class _Points:
 
     def stiffness(self, first: Array, mixed: Array, second: Array) -> tuple[Array, ...]:
         """Stiffness of the ring [N/m] from those of the balls: components 00, 01, 02, 11, 12 and 22."""
+        mixed = self.sign * mixed
         along, across = second * self.cosine, mixed * self.cosine
         parts = (
             first,
@@ -241,6 +258,8 @@ def _first_ring(points: _Points) -> tuple[Array, Array]:
     touch = clear + (points.outward(points.free_cosine) / outer) ** (2.0 / 3.0)
     length, cosine = _first_span(points, touch, stiffness)
     along = np.sign(points.load[0]) * length * np.sqrt(1.0 - cosine**2)
+    if points.paired:
+        along = np.sign(points.load[0]) * np.maximum(0.0, np.abs(along) - points.apart)
     ring = np.stack([along, np.maximum(0.0, length * cosine - points.distance), np.zeros_like(along)])
     # Steps are limited to about the approach at first: lighter loads have shorter steps.
     first = np.array(np.broadcast_to(length - clear, along.shape))
@@ -364,7 +383,7 @@ def _forces(points: _Points, state: _State) -> _Forces:
     own = np.stack([axial[0] - axial[1], radial[0] - radial[1] + outward])
     worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(own), axis=(0, 1)))
     # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
-    residual = worst / (points.size + outward)
+    residual = worst / (points.size + outward + points.preload)
     return _Forces(_State(state.ring, place, outward), contacts, own, missing, residual)
 
 
@@ -565,12 +584,16 @@ def _nested(points: _Points) -> tuple[_State, IntArray]:
         * np.add.reduce(points.offsets, axis=0)[0]
         * np.sqrt(1.0 - points.free_cosine**2)
     )
+    if points.paired:
+        axial = np.zeros(number)
     ring = np.stack([axial, np.zeros(number), np.zeros(number)])
     cosines, place = np.array(np.broadcast_to(points.free_cosine, (2, *shape))), np.zeros((2, *shape))
     outward, aim, steps = np.zeros(number), np.full(number, _LOOSE), np.zeros(number, dtype=np.intp)
     for _ in range(_MOST_ROUNDS):
         reaction = _BallReaction(points, cosines, place, outward)
-        found, _, more = balance(reaction, points.load.T, ring.T, points.reach, points.size + outward, aim)
+        found, _, more = balance(
+            reaction, points.load.T, ring.T, points.reach, points.size + outward + points.preload, aim
+        )
         ring, steps = found.T, steps + more
         seats = reaction.seats(ring, everyone)
         contacts = Contacts(
@@ -600,12 +623,47 @@ def _solved(points: _Points) -> tuple[_Forces, IntArray]:
     return _forces(points, record.state), record.steps
 
 
+# Halvings of the interval of a contact angle in which that of a preload lies.
+_HALVINGS = 60
+
+
+def _closed(bearing: BallBearing, laws: Array) -> Numbers:
+    """Axial distance of the groove centres of each row of a pair without load [m], shape (...); 0 of one row.
+
+    Under the preload F of Z balls at rest, K (l - A)^(3/2) sin a = F/Z with the length l = A cos a_0/cos a
+    and the stiffness K of both contacts together. ``laws``, coefficients of ln K, shape (m, 2, n).
+    """
+    rows = bearing.rows
+    if rows.number == 1:
+        return 0.0
+    each = np.atleast_1d(np.asarray(rows.preload, dtype=float)) / bearing.elements
+    radial, free = np.atleast_1d(bearing.radial_distance), np.atleast_1d(bearing.free_angle)
+    touch = np.atleast_1d(bearing.groove_distance)
+    low = np.array(np.broadcast_to(free, np.broadcast_shapes(each.shape, free.shape, laws.shape[2:])))
+    high = np.full_like(low, 0.5 * np.pi)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        inner, outer = stiffness_at(laws, np.cos(middle))
+        stiffness = (inner ** (-2.0 / 3.0) + outer ** (-2.0 / 3.0)) ** -1.5
+        depth = np.maximum(0.0, radial / np.cos(middle) - touch)
+        less = stiffness * depth**1.5 * np.sin(middle) < each
+        low, high = np.where(less, middle, low), np.where(less, high, middle)
+    # Without a preload the balls just touch, but for an axial play of both rows together.
+    angle = np.where(each > 0.0, 0.5 * (low + high), free)
+    return np.asarray(radial * np.tan(angle) - 0.5 * rows.endplay)
+
+
+def _one_way(bearing: BallBearing) -> bool:
+    """Whether a bearing carries axial loads one way, and radial loads only with them."""
+    return bearing.contact_angle is not None and bearing.rows.number == 1
+
+
 def check_ball_loads(bearing: BallBearing, operation: Operation) -> None:
     """Refuse a single axial load that the bearing cannot carry. Raises InputError for an angular-contact
     bearing without axial load; arrays are not refused.
     """
     load = operation.axial_load
-    if bearing.contact_angle is not None and np.ndim(load) == 0 and load <= 0.0:
+    if _one_way(bearing) and np.ndim(load) == 0 and load <= 0.0:
         raise InputError(
             "axial_load",
             got=f"{load:g} N",
@@ -619,11 +677,11 @@ def ball_equilibrium(
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring and of all balls.
 
-    The sum of Q_i sin a_i over the balls is the axial load, and the sum of Q_i cos a_i cos psi is the radial
-    load. The sum of Q_i cos a_i sin psi is zero. At each ball Q_o sin a_o = Q_i sin a_i and
-    Q_o cos a_o = Q_i cos a_i + F_c. The stiffness K of each contact belongs to its own contact angle. At
-    speed, a ball without load from the inner ring lies in the outer groove under its centrifugal force, and
-    its clearance is at the inner ring.
+    The sum of Q_i sin a_i over the balls is the axial load, with negative angles in a second row, and the sum
+    of Q_i cos a_i cos psi is the radial load. The sum of Q_i cos a_i sin psi is zero. At each ball
+    Q_o sin a_o = Q_i sin a_i and Q_o cos a_o = Q_i cos a_i + F_c. The stiffness K of each contact belongs to
+    its own contact angle. At speed, a ball without load from the inner ring lies in the outer groove under
+    its centrifugal force, and its clearance is at the inner ring.
 
     ``modulus``, reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
     ``density`` [kg/m^3]. Both, the operation and the dimensions of the bearing are floats, or arrays of shape
@@ -647,7 +705,7 @@ def ball_equilibrium(
     >>> both.inner_load.shape, bool(np.allclose(both.inner_load[0], state.inner_load, rtol=1e-9))
     ((2, 9), True)
     """
-    able = True if bearing.contact_angle is None else np.greater(operation.axial_load, 0.0)
+    able = np.greater(operation.axial_load, 0.0) if _one_way(bearing) else True
     batch = Batch.of(bearing, operation, modulus, density, able)
     if not batch.shape:
         check_ball_loads(bearing, operation)
@@ -666,20 +724,20 @@ def _equilibrium(
     """Equilibrium of all points of a batch."""
     bearing, operation, contacts, spread = batch.bearing, batch.operation, forces.contacts, batch.spread
     angles = np.arctan2(contacts.sine, contacts.cosine)
-    mean = 0.5 * (angles[0] + angles[1])
+    mean, signed = 0.5 * (angles[0] + angles[1]), points.sign * angles
     speeds = (bearing.ball_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
     rolling = rolling_speeds(*speeds, mean)
     mass = bearing.element_mass(batch.density)
     moment = gyroscopic_moment(mass, bearing.ball_diameter, rolling, mean)
     # The moments are about the centre of the circle of groove centres, which the contact forces pass through.
-    levers = bearing.inner_centre_radius * contacts.load[0] * contacts.sine[0]
+    levers = bearing.inner_centre_radius * contacts.load[0] * contacts.sine[0] * points.sign
     touching, gaps = np.maximum(0.0, contacts.depth), np.maximum(0.0, -contacts.depth)
     return BallEquilibrium(
         position=batch.position,
         inner_load=spread(contacts.load[0]),
         outer_load=spread(contacts.load[1]),
-        inner_angle=spread(angles[0]),
-        outer_angle=spread(angles[1]),
+        inner_angle=spread(signed[0]),
+        outer_angle=spread(signed[1]),
         inner_approach=spread(touching[0]),
         outer_approach=spread(touching[1]),
         inner_gap=spread(gaps[0]),

@@ -66,6 +66,21 @@ def _rolling_radius(
     return as_float(np.where(flat, math.inf, 1.0 / np.where(flat, 1.0, curvature)))
 
 
+# Largest distance of a contact angle from 90 degrees that is rounding [rad].
+_SQUARE = 1e-9
+
+
+def is_thrust(contact_angle: Numbers) -> bool:
+    """Whether contacts have an angle of 90 degrees [rad].
+
+    Examples
+    --------
+    >>> is_thrust(math.radians(90.0)), is_thrust(math.radians(45.0))
+    (True, False)
+    """
+    return bool(np.all(np.abs(np.asarray(contact_angle) - 0.5 * math.pi) < _SQUARE))
+
+
 def _first(wrong: Numbers, *values: Numbers) -> tuple[float, ...] | None:
     """Values of the first point that is wrong; None where all points are right."""
     if not np.any(wrong):
@@ -96,8 +111,36 @@ def _refuse_overlap(elements: int, diameters: Numbers, pitch_diameters: Numbers)
 
 
 @dataclass(frozen=True)
+class Rows:
+    """Rows of a bearing: one, or two alike that face each other, as in a pair of bearings side by side.
+
+    Both rings stay parallel, so that arrangements back to back (O) and face to face (X) carry the same loads.
+    The first row carries loads towards positive axial positions, the second one those against them.
+    """
+
+    number: int = 1
+    # Axial force with which the rows are pressed against each other without load [N].
+    preload: Numbers = 0.0
+    # Axial play of the inner ring from one row to the other, in place of a preload [m].
+    endplay: Numbers = 0.0
+
+    @property
+    def signs(self) -> Array:
+        """1 for the first and -1 for the second row, shape (number,)."""
+        return np.array([1.0, -1.0][: self.number])
+
+    @property
+    def values(self) -> tuple[Numbers, Numbers]:
+        """Numbers that may vary over points of operation."""
+        return self.preload, self.endplay
+
+
+ONE_ROW = Rows()
+
+
+@dataclass(frozen=True)
 class BallBearing:
-    """Deep-groove or angular-contact ball bearing with one row of balls.
+    """Deep-groove or angular-contact ball bearing with one row of balls, or a pair of the latter.
 
     Either the radial clearance or the free contact angle is given; the other follows.
 
@@ -131,21 +174,14 @@ class BallBearing:
     radial_clearance: Numbers | None = None
     # Free contact angle a_0, at which ball and grooves just touch without load [rad].
     contact_angle: Numbers | None = None
+    rows: Rows = ONE_ROW
 
     def __post_init__(self) -> None:
-        _refuse_overlap(self.elements, self.ball_diameter, self.pitch_diameter)
-        for key in ("inner_groove", "outer_groove"):
-            groove = np.asarray(getattr(self, key))
-            wrong = _first((groove <= 0.5) | (groove > 1.0), groove)
-            if wrong is not None:
-                raise InputError(key, got=f"{wrong[0]:g}", takes="one above 0.5, up to 1")
+        self._refuse_grooves()
         if (self.radial_clearance is None) == (self.contact_angle is None):
             raise InputError("radial_clearance, contact_angle", "give one of the two")
         if self.contact_angle is not None:
-            angle = np.asarray(self.contact_angle)
-            wrong = _first((angle <= 0.0) | (angle >= math.pi / 2.0), angle)
-            if wrong is not None:
-                raise InputError("contact_angle", got=f"{wrong[0]:g} rad", takes="one between 0 and 90 deg")
+            self._refuse_angle()
         most = 2.0 * self.groove_distance
         wrong = _first(self.clearance >= most, self.clearance, most)
         if wrong is not None:
@@ -155,11 +191,28 @@ class BallBearing:
                 takes=f"one below {wrong[1]:g} m, at which the balls leave the grooves",
             )
 
+    def _refuse_grooves(self) -> None:
+        """Raise InputError where the balls do not fit on their pitch circle or into their grooves."""
+        _refuse_overlap(self.elements, self.ball_diameter, self.pitch_diameter)
+        for key in ("inner_groove", "outer_groove"):
+            groove = np.asarray(getattr(self, key))
+            wrong = _first((groove <= 0.5) | (groove > 1.0), groove)
+            if wrong is not None:
+                raise InputError(key, got=f"{wrong[0]:g}", takes="one above 0.5, up to 1")
+
+    def _refuse_angle(self) -> None:
+        """Raise InputError where the contact angle is out of range."""
+        angle = np.asarray(self.contact_angle)
+        wrong = _first((angle <= 0.0) | (angle >= math.pi / 2.0), angle)
+        if wrong is not None:
+            raise InputError("contact_angle", got=f"{wrong[0]:g} rad", takes="one between 0 and 90 deg")
+
     @property
     def dimensions(self) -> tuple[Numbers, ...]:
         """All dimensions that may vary over points of operation."""
         play = self.contact_angle if self.radial_clearance is None else self.radial_clearance
-        return self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove, play
+        sizes = self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove
+        return *sizes, play, *self.rows.values
 
     @property
     def groove_distance(self) -> Numbers:
@@ -204,6 +257,28 @@ class BallBearing:
         cosine = self.radial_distance / self.groove_distance
         return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
 
+    @property
+    def follows_films(self) -> bool:
+        """Whether the ring gives way to the films along the axis, so that they change no load."""
+        return False
+
+    @property
+    def tracks(self) -> int:
+        """Contacts of a ball with one ring."""
+        return 1
+
+    @property
+    def bottom_angle(self) -> float:
+        """Angle of the bottoms of both grooves, from which they reach to their shoulders [rad]."""
+        return 0.0
+
+    @property
+    def first_angles(self) -> tuple[Numbers | None, Numbers | None]:
+        """Angles from their bottoms at which the inner and the outer groove begin on the side of the contacts
+        [rad]; None where they begin at the other shoulder.
+        """
+        return None, None
+
     def radii(self, angle: Numbers, *, inner: bool) -> ContactRadii:
         """Radii of ball and groove at the inner or outer contact, for a contact angle [rad], shape (...).
 
@@ -226,10 +301,162 @@ class BallBearing:
         return density * math.pi * self.ball_diameter**3 / 6.0
 
 
+# Contact angle of most four-point contact bearings [rad].
+_USUAL_ANGLE = math.radians(35.0)
+
+
+@dataclass(frozen=True)
+class FourPointBearing(BallBearing):
+    """Four-point contact ball bearing with one row of balls: the grooves of both rings are gothic arches.
+
+    The left and the right half of an arch are arcs with centres on either side of its middle. A ball has two
+    diagonals: each leads from the centre of an arc of the outer ring to that of the opposite arc of the inner
+    ring. The first diagonal carries positive axial loads on the inner ring, and the second one negative ones.
+    Both carry radial loads. With the rings concentric and centred axially, the vector along the first
+    diagonal has the axial component S and the radial component A cos a. Its length is A when a small axial
+    load has moved the ring by A sin a - S, and again when a small radial load has moved it by P_d/2. So
+
+        S = sqrt(A^2 - (A cos a + P_d/2)^2)
+
+    Inner and outer arcs have parts of S in proportion to their offsets: all four contacts of a ball touch at
+    once when a radial load moves the ring. Both contact angle and clearance are given.
+
+    Raises InputError where the balls do not fit on their pitch circle, or a value is out of range.
+
+    T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 2,
+    doi:10.1201/9781420006599.
+
+    Examples
+    --------
+    A QJ 208 with a clearance of 30 um, and its axial play in micrometres:
+
+    >>> bearing = FourPointBearing(12, 12.7e-3, 60e-3, 0.52, 0.52, 30e-6, math.radians(35.0))
+    >>> round(bearing.separation * 1e3, 4), round(bearing.endplay * 1e6, 1)
+    (0.2687, 45.4)
+    """
+
+    # Radial internal clearance, the full diametral play P_d of rings that are centred axially [m]; negative
+    # with a preload.
+    radial_clearance: Numbers = 0.0
+    # Contact angle a, at which a ball touches both rings under an axial load that is vanishingly small [rad].
+    contact_angle: Numbers = _USUAL_ANGLE
+
+    def __post_init__(self) -> None:
+        self._refuse_grooves()
+        self._refuse_angle()
+        least = -2.0 * self.radial_distance
+        most = 4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2
+        wrong = _first((self.clearance <= least) | (self.clearance >= most), self.clearance, least, most)
+        if wrong is not None:
+            raise InputError(
+                "radial_clearance",
+                got=f"{wrong[0]:g} m",
+                takes=f"one between {wrong[1]:g} and {wrong[2]:g} m, where the arches have two arcs each",
+            )
+
+    @property
+    def dimensions(self) -> tuple[Numbers, ...]:
+        """All dimensions that may vary over points of operation."""
+        sizes = self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove
+        return *sizes, self.radial_clearance, self.contact_angle
+
+    @property
+    def radial_distance(self) -> Numbers:
+        """Radial distance of the groove centres in concentric rings, A cos a [m]."""
+        return as_float(self.groove_distance * np.cos(self.contact_angle))
+
+    @property
+    def separation(self) -> Numbers:
+        """Axial distance S of the centres at both ends of a diagonal in centred rings [m]."""
+        distance, near = self.groove_distance, self.radial_distance + self.clearance / 2.0
+        return as_float(np.sqrt((distance - near) * (distance + near)))
+
+    @property
+    def separations(self) -> tuple[Numbers, Numbers]:
+        """Axial distances of the arcs' centres from the middle of the inner and the outer arch [m]."""
+        share = self.separation / self.groove_distance
+        return self.offsets[0] * share, self.offsets[1] * share
+
+    @property
+    def tracks(self) -> int:
+        """Contacts of a ball with one ring: those of both diagonals."""
+        return 2
+
+    @property
+    def first_angles(self) -> tuple[Numbers, Numbers]:
+        """Angles of the middle of both arches, at which their arcs begin, from the bottoms of these [rad]."""
+        grooves = self.inner_groove * self.ball_diameter, self.outer_groove * self.ball_diameter
+        inner, outer = (
+            as_float(np.arcsin(aside / groove))
+            for aside, groove in zip(self.separations, grooves, strict=True)
+        )
+        return inner, outer
+
+    @property
+    def endplay(self) -> Numbers:
+        """Axial internal clearance (endplay), 2 (A sin a - S) [m]; negative with a preload."""
+        # The difference of the squares of both distances, without loss of digits for a small clearance.
+        squares = self.clearance * (self.radial_distance + self.clearance / 4.0)
+        both = self.groove_distance * np.sin(self.contact_angle) + self.separation
+        return as_float(2.0 * squares / both)
+
+
+@dataclass(frozen=True)
+class ThrustBallBearing(BallBearing):
+    """Thrust ball bearing with one row of balls between two washers, whose grooves face each other along the
+    axis. ``inner`` is the washer of the shaft and ``outer`` that of the housing; the contact angle is 90
+    degrees.
+
+    Raises InputError where the balls do not fit on their pitch circle, or a value is out of range.
+
+    Examples
+    --------
+    Reduced radii of both contacts of a 51208, in mm:
+
+    >>> bearing = ThrustBallBearing(16, 9.525e-3, 54e-3, 0.54, 0.54)
+    >>> radii = [bearing.radii(bearing.free_angle, inner=inner) for inner in (True, False)]
+    >>> [round(one.radius_x * 1e3, 4) for one in radii], round(radii[0].radius_y * 1e3, 2)
+    ([4.7625, 4.7625], 64.29)
+    """
+
+    contact_angle: Numbers | None = 0.5 * math.pi
+
+    def __post_init__(self) -> None:
+        self._refuse_grooves()
+
+    @property
+    def dimensions(self) -> tuple[Numbers, ...]:
+        """All dimensions that may vary over points of operation."""
+        return self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove
+
+    @property
+    def clearance(self) -> Numbers:
+        """Radial internal clearance [m]; there is none, as nothing holds the washers radially."""
+        return 0.0
+
+    @property
+    def radial_distance(self) -> Numbers:
+        """Radial distance of the groove centres [m]."""
+        return 0.0
+
+    @property
+    def follows_films(self) -> bool:
+        """Whether the ring gives way to the films along the axis, so that they change no load."""
+        return True
+
+    @property
+    def bottom_angle(self) -> float:
+        """Angle of the bottoms of both grooves [rad]."""
+        return 0.5 * math.pi
+
+
 @dataclass(frozen=True)
 class RollerBearing:
-    """Cylindrical roller bearing with one row of rollers. Raises InputError where the rollers do not fit on
-    their pitch circle, or the profile is unknown.
+    """Bearing with rows of rollers: cylindrical rollers and needles, tapered rollers, or needles of a thrust
+    bearing. Raises InputError where the rollers do not fit on their pitch circle, or the profile is unknown.
+
+    The axis of tapered rollers is inclined by the contact angle, and both of their contacts have this angle.
+    It is 90 degrees in a thrust bearing.
 
     Examples
     --------
@@ -250,6 +477,9 @@ class RollerBearing:
     radial_clearance: Numbers
     # "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281
     profile: str = "logarithmic"
+    # Angle between the contacts and the radial plane, from 0 to 90 degrees [rad].
+    contact_angle: Numbers = 0.0
+    rows: Rows = ONE_ROW
 
     def __post_init__(self) -> None:
         _refuse_overlap(self.elements, self.roller_diameter, self.pitch_diameter)
@@ -259,7 +489,18 @@ class RollerBearing:
     @property
     def dimensions(self) -> tuple[Numbers, ...]:
         """All dimensions that may vary over points of operation."""
-        return self.roller_diameter, self.pitch_diameter, self.roller_length, self.radial_clearance
+        sizes = self.roller_diameter, self.pitch_diameter, self.roller_length, self.radial_clearance
+        return *sizes, self.contact_angle, *self.rows.values
+
+    @property
+    def thrust(self) -> bool:
+        """Whether the contacts have an angle of 90 degrees, so that they carry axial loads alone."""
+        return is_thrust(self.contact_angle)
+
+    @property
+    def carries_axial(self) -> bool:
+        """Whether the raceways carry axial loads."""
+        return bool(np.any(np.asarray(self.contact_angle) > 0.0))
 
     def relief(self, position: ArrayLike) -> Array:
         """Relief of a roller's profile: its radius in the middle less its radius at a position.
@@ -299,14 +540,33 @@ class RollerBearing:
         return self.radial_clearance
 
     @property
-    def free_angle(self) -> float:
-        """Free contact angle [rad]: zero, as rollers carry radial loads only."""
+    def follows_films(self) -> bool:
+        """Whether the ring gives way to the films along the axis, so that they change no load."""
+        return self.carries_axial and self.rows.number == 1
+
+    @property
+    def tracks(self) -> int:
+        """Contacts of a roller with one ring."""
+        return 1
+
+    @property
+    def bottom_angle(self) -> float:
+        """Angle from which contacts may be aside [rad]; raceways of rollers have no shoulders."""
         return 0.0
 
+    @property
+    def free_angle(self) -> Numbers:
+        """Contact angle [rad]; zero of cylindrical rollers, which carry radial loads only."""
+        return self.contact_angle
+
     def radii(self, _angle: Numbers = 0.0, *, inner: bool) -> ContactRadii:
-        """Radii of roller and ring at the inner or outer contact, a line contact at zero contact angle."""
-        rolling = _rolling_radius(self.roller_diameter, self.pitch_diameter, 0.0, inner=inner)
-        return ContactRadii(self.roller_diameter / 2.0, math.inf, rolling, math.inf)
+        """Radii of roller and ring at the inner or outer contact, a line contact at the contact angle."""
+        if self.thrust:
+            return ContactRadii(self.roller_diameter / 2.0, math.inf, math.inf, math.inf)
+        sizes = self.roller_diameter, self.pitch_diameter, self.contact_angle
+        return ContactRadii(
+            self.roller_diameter / 2.0, math.inf, _rolling_radius(*sizes, inner=inner), math.inf
+        )
 
     def element_mass(self, density: Numbers) -> Numbers:
         """Mass of a roller, rho pi D^2 L/4 [kg], from its density rho [kg/m^3]."""

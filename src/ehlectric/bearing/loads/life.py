@@ -126,6 +126,68 @@ def equivalent_load(radial: float, axial: float, contact_angle: float, axial_par
     return float(x * radial + y * axial) if axial > e * radial else radial
 
 
+# The same of bearings with two rows that face each other: Y up to e, and X and Y above.
+_PAIR_X_15, _PAIR_X = 0.72, (0.70, 0.67, 0.63, 0.60, 0.57, 0.54)
+_PAIR_LOW_15 = (1.65, 1.57, 1.46, 1.38, 1.34, 1.26, 1.14, 1.12, 1.12)
+_PAIR_HIGH_15 = (2.39, 2.28, 2.11, 2.00, 1.93, 1.82, 1.66, 1.63, 1.63)
+_PAIR_LOW, _PAIR_HIGH = (1.09, 0.92, 0.78, 0.66, 0.55, 0.47), (1.63, 1.41, 1.24, 1.07, 0.93, 0.81)
+
+
+def equivalent_load_of_pair(radial: float, axial: float, contact_angle: float, axial_part: float) -> float:
+    """Equivalent dynamic load P of two rows of balls that face each other, by ISO 281 [N]: F_r + Y_1 F_a, and
+    X F_r + Y_2 F_a where F_a is above e F_r.
+
+    The arguments are those of ``equivalent_load``, with the static rating of both rows in ``axial_part``.
+    Makers use it for four-point contact bearings, too. NaN for contact angles below 15 and above 45 degrees.
+
+    Examples
+    --------
+    >>> equivalent_load_of_pair(1000.0, 1000.0, math.radians(40.0), 0.0)
+    1550.0
+    """
+    degrees = math.degrees(contact_angle)
+    if not 15.0 - 1e-6 <= degrees <= _ANGLES[-1] + 1e-6:
+        return math.nan
+    axial = abs(axial)
+    low, high, e = (
+        float(np.interp(degrees, (15.0, *_ANGLES), (np.interp(axial_part, _AXIAL_15, narrow), *wide)))
+        for narrow, wide in (
+            (_PAIR_LOW_15, _PAIR_LOW),
+            (_PAIR_HIGH_15, _PAIR_HIGH),
+            (_E_15, _ANGLE_E),
+        )
+    )
+    x = float(np.interp(degrees, (15.0, *_ANGLES), (_PAIR_X_15, *_PAIR_X)))
+    return x * radial + high * axial if axial > e * radial else radial + low * axial
+
+
+def equivalent_load_of_rollers(
+    radial: float, axial: float, contact_angle: float = 0.0, rows: int = 1
+) -> float:
+    """Equivalent dynamic load P of a radial roller bearing by ISO 281 [N].
+
+    With e = 1.5 tan(a), one row has F_r up to e F_r, and 0.4 F_r + 0.4 cot(a) F_a above; two rows have
+    F_r + 0.45 cot(a) F_a, and 0.67 F_r + 0.67 cot(a) F_a above.
+
+    ``radial`` F_r and ``axial`` F_a [N]; ``contact_angle`` a [rad], 0 of cylindrical rollers, which carry F_r
+    alone; ``rows``, 1 or 2.
+
+    Examples
+    --------
+    >>> equivalent_load_of_rollers(1000.0, 0.0)
+    1000.0
+    >>> round(equivalent_load_of_rollers(1000.0, 1000.0, math.radians(14.0)), 1)
+    2004.3
+    """
+    if contact_angle == 0.0:
+        return radial
+    axial, cotangent = abs(axial), 1.0 / math.tan(contact_angle)
+    beyond = axial * cotangent > 1.5 * radial
+    if rows == 1:
+        return 0.4 * (radial + cotangent * axial) if beyond else radial
+    return 0.67 * (radial + cotangent * axial) if beyond else radial + 0.45 * cotangent * axial
+
+
 def rated_viscosity(speed: float, pitch_diameter: float) -> float:
     """Kinematic viscosity nu_1 that ISO 281 asks for [m^2/s]: 45000 n^-0.83 D^-0.5 mm^2/s below 1000 rpm, and
     4500 n^-0.5 D^-0.5 above. ``speed`` n [rpm]; ``pitch_diameter`` D [m], in millimetres in the formula.
@@ -227,12 +289,14 @@ def ball_ratings(
     )
 
 
-def roller_ratings(rating: Numbers, elements: int, ratio: Numbers) -> ElementRatings:
+def roller_ratings(
+    rating: Numbers, elements: int, ratio: Numbers, contact_angle: Numbers = 0.0
+) -> ElementRatings:
     """Ratings of a roller with both rings by ISO/TS 16281, from that of the bearing, without slices.
 
-    Q_ci = C/(0.378 Z) (1 + c^(9/2))^(2/9) and Q_ce = C/(0.364 Z) (1 + c^(-9/2))^(2/9) with
-    c = 1.038 ((1 - g)/(1 + g))^(143/108). ``rating`` C of one row [N]; ``elements`` Z; ``ratio`` g of roller
-    diameter and pitch diameter.
+    Q_ci = C/(0.378 Z cos(a)^(7/9)) (1 + c^(9/2))^(2/9) and Q_ce = C/(0.364 Z cos(a)^(7/9))
+    (1 + c^(-9/2))^(2/9) with c = 1.038 ((1 - g)/(1 + g))^(143/108). ``rating`` C of one row [N]; ``elements``
+    Z; ``ratio`` g of roller diameter times cos(a) and pitch diameter; ``contact_angle`` a [rad].
 
     Examples
     --------
@@ -241,20 +305,34 @@ def roller_ratings(rating: Numbers, elements: int, ratio: Numbers) -> ElementRat
     (3147, 3148)
     """
     c = 1.038 * ((1.0 - ratio) / (1.0 + ratio)) ** (143.0 / 108.0)
-    each = rating / elements
+    each = rating / elements / np.cos(contact_angle) ** (7.0 / 9.0)
     return ElementRatings(
         inner=each / 0.378 * (1.0 + c**4.5) ** (2.0 / 9.0),
         outer=each / 0.364 * (1.0 + c**-4.5) ** (2.0 / 9.0),
     )
 
 
+def thrust_ratings(rating: Numbers, elements: int, *, rollers: bool) -> ElementRatings:
+    """Ratings of an element with both washers by ISO/TS 16281, at a contact angle of 90 degrees, where both
+    raceways are alike: 2^(3/10) C_a/Z of balls and 2^(2/9) C_a/Z of rollers. ``rating`` C_a [N].
+
+    Examples
+    --------
+    >>> round(thrust_ratings(16_000.0, 16, rollers=False).inner, 1)
+    1231.1
+    """
+    each = rating / elements * 2.0 ** (2.0 / 9.0 if rollers else 0.3)
+    return ElementRatings(each, each)
+
+
 def reference_life(
-    loads: tuple[ArrayLike, ArrayLike], ratings: ElementRatings, *, rollers: bool = False
+    loads: tuple[ArrayLike, ArrayLike], ratings: ElementRatings, *, rollers: bool = False, rows: int = 1
 ) -> Numbers:
     """Basic reference rating life L_10r of ISO/TS 16281 [revolutions], shape (...); infinite without load.
 
     The inner ring turns under a load that stands still. ``loads``, of all n elements with the inner and the
-    outer ring [N], shape (..., n) each, zeros included.
+    outer ring [N], shape (..., n) each, zeros included, those of all ``rows`` one after the other;
+    ``ratings`` are those of one row, of shape (...).
 
     Balls: ((Q_ci/Q_ei)^(-10/3) + (Q_ce/Q_ee)^(-10/3))^(-9/10) with the mean of power 3 of the loads with the
     turning and of power 10/3 of those with the standing ring. Rollers: powers 9/2, 8/9, 4 and 9/2, so that
@@ -269,13 +347,18 @@ def reference_life(
     535.9
     """
     turning, standing, slope = (4.0, 4.5, 4.5) if rollers else (3.0, 10.0 / 3.0, 10.0 / 3.0)
-    inner, outer = _power_mean(loads[0], turning), _power_mean(loads[1], standing)
-    spent = (inner / ratings.inner) ** slope + (outer / ratings.outer) ** slope
+    inner, outer = _power_mean(loads[0], turning, rows), _power_mean(loads[1], standing, rows)
+    spent = sum(
+        (mean / np.asarray(rating)[..., np.newaxis]) ** slope
+        for mean, rating in ((inner, ratings.inner), (outer, ratings.outer))
+    )
     with np.errstate(divide="ignore"):
-        return as_float(_MILLION * np.asarray(spent) ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
+        return as_float(_MILLION * np.sum(spent, axis=-1) ** (-8.0 / 9.0 if rollers else -9.0 / 10.0))
 
 
-def _power_mean(loads: ArrayLike, power: float) -> Array:
-    """Mean of a power of the loads of all elements, the last axis [N]."""
-    mean: Array = np.mean(np.asarray(loads, dtype=float) ** power, axis=-1) ** (1.0 / power)
+def _power_mean(loads: ArrayLike, power: float, rows: int) -> Array:
+    """Mean of a power of the loads of all elements of each row, shape (..., rows) [N]."""
+    values = np.asarray(loads, dtype=float)
+    each = values.reshape(*values.shape[:-1], rows, -1)
+    mean: Array = np.mean(each**power, axis=-1) ** (1.0 / power)
     return mean

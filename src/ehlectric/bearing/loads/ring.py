@@ -16,7 +16,7 @@ from typing import Any, Generic, Self, TypeAlias, TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
-from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing, Speeds
+from ehlectric.bearing.loads.geometry import BallBearing, FourPointBearing, RollerBearing, Speeds
 from ehlectric.errors import ConvergenceError, InputError
 
 # Force of the elements against displacements of the ring, shape (m, k), and its derivative by the
@@ -41,7 +41,7 @@ class RingLoads:
     """Contacts of all elements with one ring in equilibrium; arrays have the shape (..., elements)."""
 
     load: Array  # load of each contact [N]
-    angle: Array  # contact angle of each element [rad]; zero for rollers
+    angle: Array  # contact angle of each element [rad]; negative in a second row
     approach: Array  # elastic approach of element and ring in the contact [m]; 0 where they do not touch
     gap: Array  # distance between element and ring [m]; 0 where they touch
     entrainment_speed: Array  # entrainment speed in pure rolling [m/s]
@@ -152,13 +152,16 @@ class Operation:
         radial, axial = np.asarray(self.radial_load), np.asarray(self.axial_load)
         return np.asarray((radial >= 0.0) & ((radial > 0.0) | (axial != 0.0)))
 
-    def positions(self, elements: int) -> Array:
-        """Angle of each element from the direction of the radial load, shape (..., elements) [rad]."""
+    def positions(self, elements: int, rows: int = 1) -> Array:
+        """Angle of each element from the direction of the radial load, shape (..., rows elements) [rad].
+
+        All rows have the same angles, the first row first.
+        """
         cage = np.asarray(self.cage_angle)[..., np.newaxis]
-        return np.asarray(cage + 2.0 * np.pi * np.arange(elements) / elements)
+        return np.asarray(cage + np.tile(2.0 * np.pi * np.arange(elements) / elements, rows))
 
 
-G = TypeVar("G", BallBearing, RollerBearing)
+G = TypeVar("G", BallBearing, FourPointBearing, RollerBearing)
 
 
 @dataclass(frozen=True)
@@ -196,15 +199,15 @@ class Batch(Generic[G]):
             arrays = {name: row(value) for name, value in vars(one).items() if np.ndim(value)}
             return replace(one, **arrays) if arrays else one
 
-        position = operation.positions(bearing.elements)
+        position = operation.positions(bearing.elements, bearing.rows.number)
         return cls(
             shape=shape,
             able=solvable,
-            bearing=rowed(bearing),
+            bearing=rowed(replace(bearing, rows=rowed(bearing.rows))),
             operation=rowed(operation),
             modulus=row(modulus),
             density=row(density),
-            position=np.array(np.broadcast_to(position, (*shape, bearing.elements))),
+            position=np.array(np.broadcast_to(position, (*shape, position.shape[-1]))),
         )
 
     @property
@@ -215,7 +218,13 @@ class Batch(Generic[G]):
     @property
     def rows(self) -> Array:
         """Angle of each element, shape (elements, n), or (elements, 1) where they are equal [rad]."""
-        return np.atleast_2d(self.operation.positions(self.bearing.elements)).T
+        rows = self.bearing.rows
+        return np.atleast_2d(self.operation.positions(self.bearing.elements, rows.number)).T
+
+    @property
+    def signs(self) -> Array:
+        """Sign of the axial loads that each element carries, shape (elements, 1)."""
+        return np.repeat(self.bearing.rows.signs, self.bearing.elements)[:, np.newaxis]
 
     def spread(self, values: Array | IntArray) -> Any:
         """Values of shape (elements, n) or (n,) as an array of shape (..., elements) or (...).

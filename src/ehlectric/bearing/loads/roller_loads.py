@@ -1,9 +1,14 @@
-"""Equilibrium of a cylindrical roller bearing, its rollers divided into slices as in ISO 16281. SI units.
+"""Equilibrium of a bearing with rollers, which are divided into slices as in ISO 16281. SI units.
 
-The inner ring is displaced along and across the radial load, but not tilted, and the rollers stay parallel to
-it. Each slice of a roller is compressed between both raceways and carries a load of its own. The profile of
-the roller thus determines the distribution of the load along it. Axial loads, which the ribs would carry,
-friction and the bending of the rings are neglected.
+The inner ring is displaced along and across the radial load, and along the axis where the contact angle is
+above zero, but it is not tilted, and the rollers stay parallel to the raceways. Each slice of a roller is
+compressed between both raceways and carries a load of its own. The profile of the roller thus determines the
+distribution of the load along it. Friction and the bending of the rings are neglected.
+
+Ribs carry nothing: of cylindrical rollers no axial load, and of tapered rollers not the force that presses
+them against the flange. That force follows from the taper, as the normals of both raceways differ by its
+angle, and from the part of the centrifugal force along the raceway; it changes the loads by less than a tenth
+for tapers up to five degrees. Both contacts of a tapered roller have the contact angle of the bearing here.
 
 ISO/TS 16281:2008, Rolling bearings - Methods for calculating the modified reference rating life for
 universally loaded bearings.
@@ -56,9 +61,14 @@ class RollerEquilibrium(BearingEquilibrium):
     # inner_line_load and outer_line_load: load of each slice per length [N/m], shape (..., elements, slices).
     inner_line_load: Array
     outer_line_load: Array
+    # inner_angle and outer_angle: contact angles [rad], negative in a second row, shape (..., elements).
+    inner_angle: Array
+    outer_angle: Array
+    # Displacement of the inner ring along the axis from where the rollers just touch [m]; of a pair, from the
+    # middle between its rows; 0 of cylindrical rollers.
+    axial_displacement: Numbers
 
-    # Cylindrical rollers carry no axial load, do not tilt the ring, and have no gyroscopic moment.
-    axial_displacement: ClassVar[None] = None
+    # The moment that keeps the ring from tilting and the gyroscopic moment of rollers are not computed.
     moment: ClassVar[None] = None
     gyroscopic_moment: ClassVar[None] = None
 
@@ -66,6 +76,11 @@ class RollerEquilibrium(BearingEquilibrium):
     def cage_speed(self) -> Numbers:
         """Angular speed of the cage about the axis of the bearing [rad/s]."""
         return as_float(self.speeds.cage)
+
+    @property
+    def holds_axially(self) -> bool:
+        """Whether the raceways hold the ring along the axis; those of cylindrical rollers do not."""
+        return bool(np.any(self.inner_angle))
 
 
 def line_stiffness(length: Numbers, modulus: Numbers) -> Numbers:
@@ -163,26 +178,43 @@ class _Points:
     profile: _Profile
     outward: Array  # centrifugal force on each roller [N], shape (n,)
     bottom: Array  # depth of outer contacts that carry the centrifugal force alone [m], shape (n,)
-    # cosine and sine of the position of each roller, shape (elements, n).
+    # cosine and sine of the position of each roller, by the cosine of the contact angle, shape (elements, n).
     cosine: Array
     sine: Array
-    play: Array  # half of the radial clearance [m], shape (n,)
-    load: Array  # radial load [N], shape (n,)
+    play: Array  # distance of both raceways beyond the roller in concentric rings [m], shape (n,)
+    load: Array  # radial, lateral and axial load [N], shape (3, n)
+    lever: Array  # sine of the contact angle, negative in a second row, shape (elements, n)
+    preload: Array  # axial force of both rows of a pair against each other without load [N], shape (n,)
 
     @classmethod
     def of(cls, batch: Batch[RollerBearing], relief: Array) -> _Points:
         """Points of a batch; relief of all slices, shape (slices,) or (n, slices)."""
         bearing, operation = batch.bearing, batch.operation
-        shape = (bearing.elements, batch.number)
+        shape = (batch.signs.size, batch.number)
         # The stiffness of the standard is that of two equal contacts in series.
         stiffness = 2.0**_POWER * line_stiffness(bearing.roller_length, batch.modulus) / relief.shape[-1]
         profile = _Profile.of(stiffness, relief)
-        mass, cage = bearing.element_mass(batch.density), _rolling(batch).cage
-        outward = np.atleast_1d(centrifugal_force(mass, bearing.pitch_diameter, cage))
-        values = outward, profile.bottom(outward), 0.5 * bearing.radial_clearance, operation.radial_load
-        rows = [np.array(np.broadcast_to(value, shape[1:])) for value in values]
-        turned = [np.array(np.broadcast_to(turn(batch.rows), shape)) for turn in (np.cos, np.sin)]
-        return cls(profile, rows[0], rows[1], *turned, *rows[2:])
+        sine, cosine = _sine_and_cosine(bearing)
+        # The rest of the centrifugal force acts along the raceway, and on the flange or the cage.
+        outward = cosine * _centrifugal_force(batch)
+        zero = np.zeros(shape[1])
+        load = np.stack([zero + operation.radial_load, zero, zero + operation.axial_load])
+        play = 0.5 * bearing.radial_clearance * cosine - _closed(bearing, profile, sine)
+
+        def spread(values: Numbers, wanted: tuple[int, ...]) -> Array:
+            return np.array(np.broadcast_to(values, wanted))
+
+        return cls(
+            profile,
+            outward=outward,
+            bottom=spread(profile.bottom(outward), shape[1:]),
+            cosine=spread(cosine * np.cos(batch.rows), shape),
+            sine=spread(cosine * np.sin(batch.rows), shape),
+            play=spread(play, shape[1:]),
+            load=load,
+            lever=spread(sine * batch.signs, shape),
+            preload=spread(bearing.rows.preload, shape[1:]),
+        )
 
     def chosen(self, points: slice | IntArray) -> _Points:
         """Some of the points."""
@@ -190,13 +222,29 @@ class _Points:
         return _Points(profile.chosen(points), *(value[..., points] for value in values))
 
     @property
+    def size(self) -> Array:
+        """Resultant load [N], shape (n,)."""
+        return np.asarray(np.hypot(self.load[0], self.load[2]))
+
+    @property
     def scale(self) -> Array:
         """Force that unbalanced forces are relative to [N]."""
-        return self.load + self.outward
+        return self.size + self.outward + self.preload
 
     def interference(self, ring: Array) -> Array:
-        """Sum of the depths of both contacts [m], negative for a gap, at displacements of shape (2, n)."""
-        return np.asarray(ring[0] * self.cosine + ring[1] * self.sine - self.play)
+        """Sum of the depths of both contacts [m], negative for a gap, at displacements of shape (k, n)."""
+        total = -self.play
+        for displacement, way in zip(ring, self.ways, strict=True):
+            total = total + displacement * way
+        return np.asarray(total)
+
+    @property
+    def ways(self) -> tuple[Array, ...]:
+        """Components of the normals of the contacts along displacements of the ring, shape (elements, n).
+
+        They are radial, lateral, and axial where contacts carry axial loads.
+        """
+        return (self.cosine, self.sine, self.lever)[: 3 if self.lever.any() else 2]
 
 
 class _Reaction:
@@ -212,7 +260,7 @@ class _Reaction:
     def seats(self, ring: Array, chosen: IntArray) -> tuple[Array, Array, Array]:
         """Depth of outer contacts [m], load of inner ones [N], and stiffness of both in series [N/m].
 
-        ``ring``, displacements of the points ``chosen``, shape (2, m). Returns values of shape (elements, m).
+        ``ring``, displacements of the points ``chosen``, shape (k, m). Returns values of shape (elements, m).
         Without centrifugal force each contact has half of the interference.
         """
         points = self._points.chosen(chosen)
@@ -239,11 +287,12 @@ class _Reaction:
     def __call__(self, ring: Array, chosen: IntArray) -> tuple[Array, Array]:
         """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
         _, load, series = self.seats(ring.T, chosen)
-        cosine, sine = self._points.cosine[:, chosen], self._points.sine[:, chosen]
-        along, across = series * cosine, series * sine
-        force = [np.add.reduce(load * cosine, axis=0), np.add.reduce(load * sine, axis=0)]
-        a, b, c = (np.add.reduce(part, axis=0) for part in (along * cosine, along * sine, across * sine))
-        return np.stack(force, axis=-1), np.stack([a, b, b, c], axis=-1).reshape(-1, 2, 2)
+        ways = [values[:, chosen] for values in self._points.ways]
+        stiff, number = [series * way for way in ways], range(len(ways))
+        force = [np.add.reduce(load * way, axis=0) for way in ways]
+        # Each pair once, as rounding must not make the matrices unsymmetric.
+        tangent = [np.add.reduce(stiff[min(i, j)] * ways[max(i, j)], axis=0) for i in number for j in number]
+        return np.stack(force, axis=-1), np.stack(tangent, axis=-1).reshape(-1, len(ways), len(ways))
 
 
 @dataclass(frozen=True)
@@ -294,20 +343,80 @@ class _Rollers:
 def _rolling(batch: Batch[RollerBearing]) -> Speeds:
     """Speeds of cage, rollers and contacts; floats, or arrays of shape (n,)."""
     bearing, operation = batch.bearing, batch.operation
-    return rolling_speeds(
-        bearing.roller_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed
-    )
+    sizes = bearing.roller_diameter, bearing.pitch_diameter
+    return rolling_speeds(*sizes, operation.inner_speed, operation.outer_speed, bearing.contact_angle)
 
 
-def check_roller_loads(operation: Operation) -> None:
-    """Refuse a single axial load. Raises InputError where there is one; arrays are not refused."""
-    load = operation.axial_load
-    if np.ndim(load) == 0 and load != 0.0:
+def _centrifugal_force(batch: Batch[RollerBearing]) -> Array:
+    """Centrifugal force on each roller [N], shape (n,)."""
+    mass, cage = batch.bearing.element_mass(batch.density), _rolling(batch).cage
+    force = centrifugal_force(mass, batch.bearing.pitch_diameter, cage)
+    return np.array(np.broadcast_to(force, (batch.number,)))
+
+
+def _sine_and_cosine(bearing: RollerBearing) -> tuple[Numbers, Numbers]:
+    """Sine and cosine of the contact angle; a thrust bearing carries no radial load, not even a rounding."""
+    if bearing.thrust:
+        return 1.0, 0.0
+    return as_float(np.sin(bearing.contact_angle)), as_float(np.cos(bearing.contact_angle))
+
+
+def _closed(bearing: RollerBearing, profile: _Profile, sine: Numbers) -> Numbers:
+    """Sum of the depths of both contacts of a roller without load [m]: by the preload of a pair, or negative
+    by its play.
+    """
+    rows = bearing.rows
+    if rows.number == 1:
+        return 0.0
+    force = np.atleast_1d(np.asarray(rows.preload, dtype=float) / bearing.elements / sine)
+    # An axial play is that of both rows together.
+    return 2.0 * profile.bottom(force) - 0.5 * rows.endplay * sine
+
+
+def check_roller_loads(bearing: RollerBearing, operation: Operation) -> None:
+    """Refuse single loads that the raceways do not carry. Raises InputError for an axial load on cylindrical
+    rollers, for a radial one on a thrust bearing, and where the axial load on one row of tapered rollers is
+    too small to hold it together; arrays are not refused.
+    """
+    axial, radial = operation.axial_load, operation.radial_load
+    if np.ndim(axial) == 0 and axial != 0.0 and not bearing.carries_axial:
         raise InputError(
             "axial_load",
-            got=f"{load:g} N",
+            got=f"{axial:g} N",
             takes="0: the raceways of a cylindrical roller bearing carry none",
         )
+    if np.ndim(radial) == 0 and radial != 0.0 and bearing.thrust:
+        raise InputError("radial_load", got=f"{radial:g} N", takes="0: a thrust bearing carries none")
+    least = least_axial_load(bearing, radial)
+    if np.ndim(least) == np.ndim(axial) == 0 and not axial > least:
+        raise InputError(
+            "axial_load",
+            got=f"{axial:g} N",
+            takes=f"one above {least:.4g} N: with less, an inclined row is pushed apart by its radial load",
+        )
+
+
+def least_axial_load(bearing: RollerBearing, radial: Numbers) -> Numbers:
+    """Axial load above which one inclined row has an equilibrium at all positions of its cage [N], shape
+    (...).
+
+    A radial load F_r on one roller leans on the ring with F_r tan(a) along the axis; on the two rollers
+    beside the line of the load it is 1/cos(180 deg/Z) times as much. It is minus infinity for a pair and for
+    cylindrical rollers, which need none, and 0 for a thrust bearing.
+    """
+    if bearing.rows.number > 1 or not bearing.carries_axial:
+        return -np.inf
+    if bearing.thrust:
+        return 0.0
+    return as_float(radial * np.tan(bearing.contact_angle) / np.cos(np.pi / bearing.elements))
+
+
+def _able(bearing: RollerBearing, operation: Operation) -> Mask:
+    """Whether the raceways carry the loads, shape (...)."""
+    able = np.asarray(np.greater(operation.axial_load, least_axial_load(bearing, operation.radial_load)))
+    if not bearing.carries_axial:
+        able = able & np.equal(operation.axial_load, 0.0)
+    return able & np.equal(operation.radial_load, 0.0) if bearing.thrust else able
 
 
 def _check_slices(slices: int) -> None:
@@ -317,19 +426,27 @@ def _check_slices(slices: int) -> None:
 
 
 def _solved(points: _Points) -> tuple[Array, Array, Array, IntArray]:
-    """Displacements of rings, shape (2, n) [m], depths of outer contacts, shape (elements, n) [m], residuals
+    """Displacements of rings, shape (k, n) [m], depths of outer contacts, shape (elements, n) [m], residuals
     of the rings and numbers of Newton steps, shape (n,).
     """
-    reaction, number = _Reaction(points), len(points.load)
+    reaction, size = _Reaction(points), points.size
     # A guess that is rather too large: five times the mean load on one roller, and its approach, beyond the
     # clearance and the depth under the centrifugal force.
     whole = points.profile.stiffness * np.add.reduce(points.profile.weights)
-    depth = 2.0 * (5.0 * points.load / len(points.cosine) / whole) ** (1.0 / _POWER)
-    start = np.stack([np.maximum(0.0, points.play + points.bottom + depth), np.zeros(number)], axis=-1)
-    reach = 2.0 * (points.load / whole) ** (1.0 / _POWER) + 2.0 * np.abs(points.play)
-    load = np.stack([points.load, np.zeros(number)], axis=-1)
-    ring, residual, steps = balance(reaction, load, start, reach, points.scale)
-    return ring.T, reaction.seats(ring.T, np.arange(number))[0], residual, steps
+    slope = np.max(np.abs(points.lever), axis=0)
+    load, most = points.load[: len(points.ways)], np.maximum(points.cosine[0], slope)
+    # Inclined rollers lean on the axial load.
+    mean = (5.0 * points.load[0] + np.abs(points.load[2]) / np.where(slope > 0.0, slope, 1.0)) / most
+    depth = 2.0 * (mean / len(points.cosine) / whole) ** (1.0 / _POWER)
+    start = np.zeros_like(load)
+    beyond = np.maximum(0.0, points.play + points.bottom + depth)
+    if len(load) == 2:
+        start[0] = beyond
+    else:
+        start[2] = np.sign(points.load[2]) * beyond / slope
+    reach = 2.0 * (size / whole) ** (1.0 / _POWER) + 2.0 * np.abs(points.play)
+    ring, residual, steps = balance(reaction, load.T, start.T, reach, points.scale)
+    return ring.T, reaction.seats(ring.T, np.arange(size.size))[0], residual, steps
 
 
 def roller_equilibrium(
@@ -342,11 +459,12 @@ def roller_equilibrium(
 ) -> RollerEquilibrium:
     """Equilibrium of the inner ring and of all rollers.
 
-    At a displacement (x, y) of the ring, a roller at the angle psi is compressed by
-    x cos psi + y sin psi - P_d/2, the sum over both contacts. Slice k of a contact with the depth d carries
-    q_k = c (d - P_k)^(10/9), with the relief P_k. The stiffness of the standard is that of two equal contacts
-    in series, so c is 2^(10/9) c_L over the number of slices. The outer contact also carries the centrifugal
-    force.
+    At a displacement (x, y, z) of the ring, a roller at the angle psi is compressed by
+    (x cos psi + y sin psi - P_d/2) cos a + z sin a with the contact angle a, the sum over both contacts; with
+    -z in a second row, and there with the depth of the preload in both rows. Slice k of a contact with the
+    depth d carries q_k = c (d - P_k)^(10/9), with the relief P_k. The stiffness of the standard is that of
+    two equal contacts in series, so c is 2^(10/9) c_L over the number of slices. The outer contact also
+    carries the part F_c cos a of the centrifugal force.
 
     ``modulus``, reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
     ``density`` [kg/m^3]; both, the operation and the dimensions of the bearing are floats, or arrays of shape
@@ -372,21 +490,22 @@ def roller_equilibrium(
     ((2, 14), (2, 14, 41))
     """
     _check_slices(slices)
-    batch = Batch.of(bearing, operation, modulus, density, np.equal(operation.axial_load, 0.0))
+    batch = Batch.of(bearing, operation, modulus, density, _able(bearing, operation))
     if not batch.shape:
-        check_roller_loads(operation)
+        check_roller_loads(bearing, operation)
     length = np.asarray(batch.bearing.roller_length)[..., np.newaxis]
     x = ((np.arange(slices) + 0.5) / slices - 0.5) * length
     relief = batch.bearing.relief(x)
     points, number = _Points.of(batch, relief), batch.number
-    ring, residual, steps = np.empty((2, number)), np.empty(number), np.empty(number, dtype=np.intp)
-    depths = np.empty((2, bearing.elements, number))
-    lines = np.empty((2, number, bearing.elements, slices))
+    ring, bodies = np.zeros((3, number)), len(batch.signs)
+    residual, steps = np.empty(number), np.empty(number, dtype=np.intp)
+    depths, lines = np.empty((2, bodies, number)), np.empty((2, number, bodies, slices))
     for first in range(0, number, _BLOCK):
         part = slice(first, first + _BLOCK)
         own = points.chosen(part)
-        ring[:, part], outer, residual[part], steps[part] = _solved(own)
-        depths[:, :, part] = inner, outer = own.interference(ring[:, part]) - outer, outer
+        moved, outer, residual[part], steps[part] = _solved(own)
+        ring[: len(moved), part] = moved
+        depths[:, :, part] = inner, outer = own.interference(moved) - outer, outer
         lines[0, part], lines[1, part] = (
             own.profile.slices(inner.T, slices),
             own.profile.slices(outer.T, slices),
@@ -398,6 +517,7 @@ def roller_equilibrium(
     lines *= slices / length[..., np.newaxis]
     spread, touching, gaps = batch.spread, np.maximum(0.0, depths), np.maximum(0.0, -depths)
     speeds = [np.broadcast_to(speed, (number,)) for speed in vars(_rolling(batch)).values()]
+    angle = spread(np.broadcast_to(batch.bearing.contact_angle * batch.signs, (bodies, number)))
     return RollerEquilibrium(
         position=batch.position,
         inner_load=batch.spread_rows(loads[0]),
@@ -405,12 +525,15 @@ def roller_equilibrium(
         slice_position=batch.spread_rows(np.broadcast_to(x, (number, slices))),
         inner_line_load=batch.spread_rows(lines[0]),
         outer_line_load=batch.spread_rows(lines[1]),
+        inner_angle=angle,
+        outer_angle=angle,
+        axial_displacement=spread(ring[2]),
         inner_approach=spread(touching[0]),
         outer_approach=spread(touching[1]),
         inner_gap=spread(gaps[0]),
         outer_gap=spread(gaps[1]),
         speeds=Speeds(*map(spread, speeds)),
-        centrifugal_force=spread(points.outward),
+        centrifugal_force=spread(_centrifugal_force(batch)),
         radial_displacement=spread(ring[0]),
         lateral_displacement=spread(ring[1]),
         residual=residual,

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.bearing.loads.ball_loads import BallEquilibrium, check_ball_loads
-from ehlectric.bearing.loads.geometry import BallBearing, Geometry, Speeds
-from ehlectric.bearing.loads.ring import Operation, refuse_unbalanced
-from ehlectric.bearing.loads.roller_loads import RollerEquilibrium, check_roller_loads
+from ehlectric.arrays import Array, IntArray, Numbers, as_float
+from ehlectric.bearing.loads.ball_loads import BallEquilibrium
+from ehlectric.bearing.loads.geometry import Speeds
+from ehlectric.bearing.loads.ring import refuse_unbalanced
+from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
 
 Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
@@ -23,32 +24,43 @@ _OF_ELEMENTS |= {"gyroscopic_moment"}
 _OF_SLICES = {f"{side}_line_load" for side in _SIDES}
 
 
-def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
+def mirrored(at: Equilibrium, position: Array, rows: int = 1) -> Equilibrium:
     """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
 
     ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape
-    (..., elements).
+    (..., elements), those of all ``rows`` one after the other.
     """
     values = vars(at)
-    turned = {name: values[name][..., ::-1] for name in _OF_ELEMENTS & values.keys()}
-    turned |= {name: values[name][..., ::-1, :] for name in _OF_SLICES & values.keys()}
+    number = at.position.shape[-1]
+    # Each row by itself has its last element first.
+    turn = np.arange(number).reshape(rows, -1)[:, ::-1].ravel()
+    turned = {name: values[name][..., turn] for name in _OF_ELEMENTS & values.keys()}
+    turned |= {name: values[name][..., turn, :] for name in _OF_SLICES & values.keys()}
     lateral = {name: -values[name] for name in values if name.startswith("lateral_")}
     # The speeds of balls have a value per element; all rollers have the same ones.
     per_element = np.ndim(at.speeds.cage) == at.position.ndim
-    speeds = Speeds(*(speed[..., ::-1] for speed in vars(at.speeds).values())) if per_element else at.speeds
+    speeds = Speeds(*(speed[..., turn] for speed in vars(at.speeds).values())) if per_element else at.speeds
     return dataclasses.replace(
         at, position=np.broadcast_to(position, at.position.shape), speeds=speeds, **turned, **lateral
     )
 
 
-def check_operation(geometry: Geometry, operation: Operation) -> None:
-    """Refuse single loads that a bearing cannot carry. Raises InputError for an angular-contact ball bearing
-    without axial load, and for a roller bearing with one; loads that are arrays are not refused.
+def around_in_rows(positions: Sequence[Array], rows: int) -> tuple[Array, IntArray]:
+    """Angles of all elements at several positions of the cage from 0 to 2 pi, and the order in which those of
+    each row ascend, all rows one after the other.
+
+    ``positions``, angles of the elements of all ``rows``, one row after the other, at each position of the
+    cage [rad], shape (elements,) each. Both results have the shape (positions elements,).
+
+    Examples
+    --------
+    >>> angle, order = around_in_rows([np.array([0.0, 3.0]), np.array([1.0, 4.0])], 1)
+    >>> angle[order].tolist()
+    [0.0, 1.0, 3.0, 4.0]
     """
-    if isinstance(geometry, BallBearing):
-        check_ball_loads(geometry, operation)
-    else:
-        check_roller_loads(operation)
+    angle = np.mod(np.concatenate(positions), 2.0 * np.pi)
+    row = np.tile(np.repeat(np.arange(rows), len(positions[0]) // rows), len(positions))
+    return angle, np.lexsort((angle, row))
 
 
 def check_balance(at: Equilibrium) -> None:
@@ -79,7 +91,7 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
     return {
         "max_load": _largest(at.outer_load),
         "radial_displacement": at.radial_displacement,
-        "axial_displacement": at.axial_displacement,
+        "axial_displacement": at.axial_displacement if at.holds_axially else None,
         "moment": at.moment,
         "centrifugal_force": at.centrifugal_force,
         "gyroscopic_moment": None if at.gyroscopic_moment is None else _largest(at.gyroscopic_moment),

@@ -40,11 +40,16 @@ def _rows() -> tuple[dict[str, str], ...]:
     return tuple(csv.DictReader(lines))
 
 
+# Kinds whose clearances are in the table of another kind.
+_TABLE_OF = {"needle roller": "cylindrical roller"}
+
+
 def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> ClearanceRange:
     """Range of the radial internal clearance [m] of a new, unmounted bearing with a cylindrical bore [m].
     Raises InputError if the table of the kind has no bearing of this bore.
 
-    The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree.
+    The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree; that of
+    cylindrical roller bearings is also that of needle roller bearings with an inner ring.
 
     Examples
     --------
@@ -52,14 +57,15 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     ClearanceRange(least=1.5e-05, most=3.3e-05)
     """
     size = 1e3 * bore
-    rows = [row for row in _rows() if row["kind"] == kind]
+    rows = [row for row in _rows() if row["kind"] == _TABLE_OF.get(kind, kind)]
     for row in rows:
         # A bore in metres may be above a round number of millimetres by its rounding error.
         if float(row["above"]) < size - 1e-9 <= float(row["to"]):
             low, high = (float(row[f"{clearance_class}_{end}"]) for end in ("min", "max"))
             return ClearanceRange(float(f"{low * 1e-6:.12g}"), float(f"{high * 1e-6:.12g}"))
     if not rows:
-        raise InputError.worded("clearance_class", f"has no table for a bearing of kind {kind!r}")
+        text = f"has no table for a bearing of kind {kind!r}"
+        raise InputError.worded("clearance_class", text, takes="radial_clearance, where the kind has one")
     raise InputError(
         "bore",
         got=f"{size:.6g} mm",
@@ -81,13 +87,25 @@ def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
+# Kinds of bearings whose raceways have a radial clearance.
+_WITH_CLEARANCE = ("deep-groove ball", "cylindrical roller", "needle roller", "four-point contact ball")
+
+
 def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
     """Table with the radial clearance that follows from ``clearance_class``, the middle of its range.
 
     With a table ``fits`` the class is the clearance before mounting, and the table stays as it is.
     """
     name, kind = table.get("clearance_class"), table.get("kind")
-    if table.get("fits") is not None or name not in CLASSES or kind not in {row["kind"] for row in _rows()}:
+    if name not in CLASSES or kind not in _WITH_CLEARANCE:
+        return table
+    if table.get("inner_ring") is False:
+        raise InputError.worded(
+            "clearance_class",
+            "is not known without an inner ring, as the shaft decides the clearance",
+            takes="radial_clearance",
+        )
+    if table.get("fits") is not None:
         return table
     if table.get("bore") is None:
         raise InputError.worded("bore", f"missing; clearance_class {name!r} needs the diameter of the bore")

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from ehlectric import InputError
 from ehlectric.bearing.loads import ball_loads
 from ehlectric.bearing.loads.ball_contacts import contact_stiffness, stiffness_at, stiffness_laws
-from ehlectric.bearing.loads.ball_loads import ball_equilibrium
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium, check_ball_loads
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing, gyroscopic_moment, rolling_speeds
 from ehlectric.bearing.loads.ring import Operation, balance
-from ehlectric.bearing.loads.roller_loads import roller_equilibrium
-from ehlectric.bearing.loads.totals import check_balance, check_operation, mechanics_of, mirrored
+from ehlectric.bearing.loads.roller_loads import check_roller_loads, roller_equilibrium
+from ehlectric.bearing.loads.totals import check_balance, mechanics_of, mirrored
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.errors import ConvergenceError
 from tests.helpers.bearings import BALLS, bearing_case
@@ -235,11 +235,11 @@ def test_a_ring_without_balance_does_not_disturb_others():
 def test_single_bearings_are_refused():
     """The checks raise for floats, and leave arrays to the mask ``balanced``."""
     with pytest.raises(InputError, match=r"^axial_load: .* 0 N.* above 0"):
-        check_operation(ANGULAR, Operation(500.0))
+        check_ball_loads(ANGULAR, Operation(500.0))
     with pytest.raises(InputError, match=r"^axial_load: .* 10 N.* 0"):
-        check_operation(ROLLERS, Operation(500.0, 10.0))
-    check_operation(ANGULAR, Operation(500.0, np.zeros(2)))
-    check_operation(ROLLERS, Operation(500.0, np.ones(2)))
+        check_roller_loads(ROLLERS, Operation(500.0, 10.0))
+    check_ball_loads(ANGULAR, Operation(500.0, np.zeros(2)))
+    check_roller_loads(ROLLERS, Operation(500.0, np.ones(2)))
     state = ball_equilibrium(DEEP, Operation(500.0), E, DENSITY)
     check_balance(state)
     with pytest.raises(ConvergenceError, match=r"^forces on ring and balls, balanced only to 1\.0e-08"):

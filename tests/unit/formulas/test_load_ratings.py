@@ -2,13 +2,17 @@
 
 import pytest
 
-from ehlectric.bearing.loads.ratings import (
+from ehlectric.formulas.load_ratings import (
     ball_dynamic_rating,
     ball_static_rating,
     dynamic_factor,
     roller_dynamic_factor,
     roller_static_rating,
     static_factor,
+    thrust_ball_dynamic_rating,
+    thrust_ball_static_rating,
+    thrust_roller_dynamic_rating,
+    thrust_roller_static_rating,
 )
 
 # f_0 of ISO 76 and f_c of ISO 281 at 0.01, 0.02 ... 0.4, as read in a public program (code index, file id
@@ -35,6 +39,14 @@ def test_dynamic_factor_is_the_table_of_iso_281():
     """Half of the last digit is 0.17 % of the smallest of them."""
     for step, value in enumerate(FC.split(), start=1):
         assert dynamic_factor(step / 100) == pytest.approx(float(value), rel=2e-3, abs=0.0), step
+
+
+def test_thrust_ratings_are_the_tables_of_iso_76_and_iso_281():
+    """f_0 is 61.6, and f_c of balls and of rollers at a ratio of diameters of 0.1 is 73.3 and 175.7."""
+    assert thrust_ball_static_rating(1, 1e-3) == pytest.approx(61.6, abs=0.06)
+    assert thrust_ball_dynamic_rating(1, 1e-3, 1e-2) / 1.3 == pytest.approx(73.3, abs=0.06)
+    assert thrust_roller_dynamic_rating(1, 1e-3, 1e-2, 1e-3) == pytest.approx(175.7, abs=0.1)
+    assert thrust_roller_static_rating(1, 1e-3, 1e-3) == pytest.approx(220.0)
 
 
 def test_small_ratios_lower_the_capacity_of_rollers_by_their_power():

@@ -1,0 +1,69 @@
+"""Kinds of rolling bearings: their elements, the keys of ``[bearing]`` that each needs, and its loads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class KindOfBearing:
+    """What a bearing file of one kind has."""
+
+    elements: Literal["ball", "roller"]  # rollers have line contacts
+    needed: tuple[str, ...]  # keys of its own that it needs
+    # Static load rating of a row by ISO 76 over Z D^2, or over Z D L of rollers, for typical ratios of
+    # diameters [N/mm^2].
+    static: float
+    also: tuple[str, ...] = ()  # keys of its own that it may have
+    radial: bool = True  # whether it carries radial loads
+    axial: bool = True  # whether its raceways carry axial loads
+
+    @property
+    def rollers(self) -> bool:
+        """Whether its elements are rollers."""
+        return self.elements == "roller"
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Keys of its own that it needs or may have."""
+        return self.needed + self.also
+
+
+_GROOVES = ("inner_groove", "outer_groove", "shoulder_height")
+_ROLLERS = ("roller_length", "profile")
+
+# By ``bearing.kind``. The factor f0 of radial balls, 12.4 to 15.7 for diameters up to 0.35 of the pitch
+# diameter, counts as 13, and that of radial rollers, 44 (1 - D/d_m), as 40.
+KINDS_OF_BEARINGS: Mapping[str, KindOfBearing] = MappingProxyType(
+    {
+        "deep-groove ball": KindOfBearing("ball", (*_GROOVES, "radial_clearance"), 13.0),
+        "angular-contact ball": KindOfBearing("ball", (*_GROOVES, "contact_angle"), 13.0, ("pair",)),
+        "four-point contact ball": KindOfBearing(
+            "ball", (*_GROOVES, "contact_angle", "radial_clearance"), 13.0
+        ),
+        "thrust ball": KindOfBearing("ball", _GROOVES, 60.0, radial=False),
+        "cylindrical roller": KindOfBearing("roller", (*_ROLLERS, "radial_clearance"), 40.0, axial=False),
+        "needle roller": KindOfBearing(
+            "roller", (*_ROLLERS, "radial_clearance"), 40.0, ("inner_ring",), axial=False
+        ),
+        "tapered roller": KindOfBearing("roller", (*_ROLLERS, "contact_angle"), 40.0, ("pair",)),
+        "thrust needle roller": KindOfBearing("roller", _ROLLERS, 220.0, radial=False),
+    }
+)
+
+# Keys that bearings of some kinds have, and others have not.
+KEYS_OF_KINDS = tuple(dict.fromkeys(key for kind in KINDS_OF_BEARINGS.values() for key in kind.keys))
+
+
+def has_rollers(kind: str) -> bool:
+    """Whether the elements of bearings of a kind are rollers.
+
+    Examples
+    --------
+    >>> has_rollers("thrust needle roller"), has_rollers("four-point contact ball")
+    (True, False)
+    """
+    return KINDS_OF_BEARINGS[kind].rollers
