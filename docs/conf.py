@@ -19,7 +19,7 @@ version = release = __version__
 # make pages leaves out what takes minutes: scripts of the gallery, and figures and tables of solved cases.
 WHOLE = os.environ.get("EHLECTRIC_PAGES") != "only"
 COMPUTED = [
-    *("example_figures", "life_figures", "measured_figures", "oil_figures", "paper_tables"),
+    *("example_figures", "kind_figures", "life_figures", "measured_figures", "oil_figures", "paper_tables"),
     "sheared_figures",
 ]
 

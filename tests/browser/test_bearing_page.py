@@ -80,6 +80,31 @@ def test_keys_and_a_mouse_on_a_slider_change_the_answer(page, tmp_path):
 
 
 @pytest.mark.slow
+def test_bearings_that_the_list_lacks(page, tmp_path):
+    """From a designation to the numbers of the command: deep-groove, needle, thrust and a tapered pair."""
+    wait_for_number(page, "bearing.capacitance", capacitance())
+    box = field(page, "bearing.base")
+    for name in ("6314-C3", "HK 2020", "51208", "32208"):
+        box.click()
+        box.fill(name)
+        page.get_by_role("listbox").filter(has_text="not in the list").wait_for()
+        box.press("Enter")
+        page.get_by_test_id("form-note").filter(has_text="Also").wait_for()
+        if name == "32208":
+            # One row is pushed apart by its radial load: a second one holds it.
+            page.get_by_test_id("switch-pair").check()
+            field(page, "bearing.pair.preload").wait_for()
+        else:
+            assert not page.get_by_test_id("switch-pair").is_visible()
+        summary = bearing_by_command(page, tmp_path / name.replace(" ", "-"))
+        assert summary["inputs"]["bearing"]["base"] == {"6314-C3": "6314", "HK 2020": "hk-2020"}.get(
+            name, name
+        )
+        wait_for_command(page, summary)
+    assert summary["inputs"]["bearing"]["pair"]["arrangement"] == "O"
+
+
+@pytest.mark.slow
 def test_another_bearing_of_the_catalogue_and_one_s_own_geometry(page, tmp_path):
     wait_for_number(page, "bearing.capacitance", capacitance())
     box = field(page, "bearing.base")

@@ -60,6 +60,23 @@ def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
         assert words(line) in bearing_output
 
 
+def kind_commands():
+    """Commands of the bearings of several kinds, and the lines that the page has of their output."""
+    shown = [block.splitlines() for block in blocks("bearing.md", "text") if block.startswith("$")]
+    return {command.removeprefix("$ ehlectric "): lines for command, *lines in shown}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", kind_commands())
+def test_the_bearing_page_has_the_output_of_each_kind(command, tmp_path):
+    word, file, *others = shlex.split(command)
+    printed = printed_by(word, str(ROOT / file), *others, "--no-plots", cwd=tmp_path)
+    lines = kind_commands()[command]
+    assert len(lines) == 3
+    for line in lines:
+        assert words(line) in printed
+
+
 @pytest.mark.slow
 def test_the_tutorial_has_the_output_of_check(tutorial):
     printed = printed_by("check", "bearing.toml", cwd=tutorial)

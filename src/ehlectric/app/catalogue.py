@@ -24,6 +24,21 @@ def bearing(name: str) -> dict[str, Any]:
         return {}
 
 
+def designated(text: str) -> dict[str, str]:
+    """Name of the bearing with the designation of a maker, and its class of clearance, by key of ``bearing``;
+    the text itself where there is no such bearing.
+
+    Examples
+    --------
+    >>> designated("6314-C3"), designated("6x14")
+    ({'base': '6314', 'clearance_class': 'C3'}, {'base': '6x14'})
+    """
+    try:
+        return {key: str(value) for key, value in base_of({"base": text})[0].items()}
+    except InputError:
+        return {"base": text}
+
+
 @cache
 def oil(name: str) -> dict[str, Any]:
     """Table of an oil of the library; empty for another name."""

@@ -5,14 +5,16 @@ the contact angle, on the semi-axis b of the dry contact, on this number, and on
 ends of this domain follow from one length, sqrt(2 R h) of the film by a formula, and are cut off on both
 sides. For each combination of ends that are cut off or not, the capacitance is an analytic function of four
 numbers, and an even one of the contact angle. It is not analytic where the domain reaches the shoulder of the
-groove: these contacts are integrated, and so are few contacts, or those of bearings of different sizes.
+groove: these contacts are integrated, and so are few contacts. In bearings of different sizes the radius of
+the ball is the unit of lengths, and the pitch diameter over that of the ball is a further variable; where
+their grooves are not similar, their contacts are integrated, too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -52,9 +54,34 @@ _STEP, _STEP_SQUARE = 0.125, 2.0**-8
 # Box of the variables of a table: least and largest value of each.
 _Box = tuple[tuple[float, ...], tuple[float, ...]]
 
-# Radii of ball, groove and pitch [m], angle of the shoulder [rad], whether the raceway is the outer one, and
-# the angle at which its groove begins [rad], None where it is symmetric.
-_Size = tuple[float, float, float, float, bool, float | None]
+
+@dataclass(frozen=True)
+class _Size:
+    """Dimensions of a raceway that all points have, and names of those that are variables of the tables."""
+
+    # Radii of ball, groove and pitch [m], over the radius of the ball where this varies; angle of the
+    # shoulder and angle at which the groove begins [rad], None where it is symmetric.
+    ball_radius: float
+    groove_radius: float
+    pitch_radius: float
+    shoulder_angle: float
+    first_angle: float | None
+    outer: bool
+    # "pitch_radius" as a logarithm, and "first_angle", in the order of their variables.
+    varying: tuple[str, ...] = ()
+
+    def race(self, square: Array, more: Array) -> Raceway:
+        """Raceway at squares of contact angles [rad^2], and at values of what varies, shape (varying, m)."""
+        own: dict[str, Any] = {"pitch_radius": self.pitch_radius, "first_angle": self.first_angle}
+        for name, values in zip(self.varying, more, strict=True):
+            own[name] = np.exp(values) if name == "pitch_radius" else values
+        angle = np.sqrt(np.maximum(0.0, square))
+        sizes = self.ball_radius, self.groove_radius, own["pitch_radius"], self.shoulder_angle
+        return Raceway(*sizes, angle, self.outer, own["first_angle"])
+
+
+# Relative difference of ratios of dimensions that is rounding.
+_EQUAL = 1e-12
 
 
 # Raceways of which the points are kept: those of both rings of some bearings.
@@ -74,6 +101,16 @@ def _points(race: Raceway) -> tuple[Raceway, UnitContact, tuple[int, ...]]:
     row, size = replace(race, **varies), int(np.prod(shape, dtype=int))
     radii = (np.broadcast_to(radius, (size,)) for radius in (row.radius_x, row.radius_y))
     return row, UnitContact.of(*radii), shape
+
+
+def _is_one(values: Numbers | None) -> bool:
+    """Whether all points have one value, up to rounding; so they have where there is none."""
+    return values is None or np.ndim(values) == 0 or bool(np.ptp(values) <= _EQUAL * np.max(np.abs(values)))
+
+
+def _one(values: Numbers) -> float:
+    """Value that all points have."""
+    return float(np.ravel(values)[0])
 
 
 @dataclass(frozen=True)
@@ -98,16 +135,39 @@ class _Contacts:
         """Angles of the points [rad], shape (n,)."""
         return np.broadcast_to(np.abs(self.race.contact_angle), self.unit.ratio.shape)
 
-    @property
+    @cached_property
     def size(self) -> _Size | None:
-        """Dimensions of the raceway; None where they vary."""
-        race = self.race
-        lengths = (race.ball_radius, race.groove_radius, race.pitch_radius, race.shoulder_angle)
-        if any(np.ndim(length) for length in (*lengths, race.begins)):
+        """Dimensions of the raceway; None where the ratio of the radii or the shoulder varies."""
+        race, unit = self.race, self.length
+        groove, pitch = race.groove_radius / unit, race.pitch_radius / unit
+        if not (_is_one(groove) and _is_one(race.shoulder_angle)):
             return None
-        ball, groove, pitch, shoulder = (float(length) for length in lengths)
-        first = None if race.first_angle is None else float(race.first_angle)
-        return ball, groove, pitch, shoulder, race.outer, first
+        first = race.first_angle
+        varying = [
+            name for name, value in (("pitch_radius", pitch), ("first_angle", first)) if not _is_one(value)
+        ]
+        return _Size(
+            ball_radius=_one(race.ball_radius / unit),
+            groove_radius=_one(groove),
+            pitch_radius=0.0 if "pitch_radius" in varying else _one(pitch),
+            shoulder_angle=_one(race.shoulder_angle),
+            first_angle=None if first is None or "first_angle" in varying else _one(first),
+            outer=race.outer,
+            varying=tuple(varying),
+        )
+
+    @cached_property
+    def length(self) -> Numbers:
+        """Unit of lengths [m]: 1, or the radius of the ball of each point where it varies."""
+        return 1.0 if np.ndim(self.race.ball_radius) == 0 else self.race.ball_radius
+
+    def varying(self, rows: Any = slice(None)) -> list[Array]:
+        """Values of what varies of the contacts ``rows``, in the order of the variables of the tables."""
+        found: dict[str, Numbers | None] = {
+            "pitch_radius": np.log(self.race.pitch_radius / self.length),
+            "first_angle": self.race.first_angle,
+        }
+        return [self.of_point(found[name])[rows] for name in (self.size.varying if self.size else ())]
 
     def row(self, numbers: Numbers) -> Array:
         """Numbers of all contacts in one row, shape (m,)."""
@@ -137,6 +197,7 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
     b, films, inlet, outlet, side = map(contacts.row, (b, films, *ends))
     unit, size, angles = contacts.unit.at(contacts.point), contacts.size, contacts.angles
     edge, middle = b * unit.ratio * side, films * contacts.of_point(race.radius_x) / b**2
+    unit_length = contacts.of_point(contacts.length)
     found, left = np.full(b.shape, np.nan), np.isfinite(edge * middle * inlet * outlet)
     left &= contacts.of_point(contacts.race.holds)
     reach, at = edge / contacts.of_point(contacts.race.groove_radius), angles[contacts.point]
@@ -146,10 +207,13 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
         if size is None:
             break
         length = law.length(state, (inlet[rows], outlet[rows], side[rows]), unit.at(rows))
-        variables = np.square(angles), np.log(edge[rows]), *_logarithms(state, length, middle[rows])
+        edges = np.log(edge[rows] / unit_length[rows])
+        variables = np.square(angles), edges, *_logarithms(state, length, middle[rows])
+        variables = (*variables, *contacts.varying(rows))
         table = _around(size, law, state, _box(variables))
         if table is not None:
-            found[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
+            whole = table(*variables, group=contacts.point[rows])
+            found[rows], left[rows] = unit_length[rows] * whole, False
     ends = -inlet[left], outlet[left], side[left]
     found[left] = around_directly(contacts.races(left), b[left], ends, films[left], nodes=law.nodes)[0]
     return found.reshape(contacts.shape)
@@ -217,13 +281,14 @@ def rigid_balls(race: Raceway, gap: Numbers) -> Array:
     gap, size = contacts.row(gap), contacts.size
     valid = np.isfinite(gap) & (gap > 0.0) & contacts.of_point(contacts.race.holds)
     found, table = np.full(gap.shape, np.nan), None
-    variables = np.square(contacts.angles), np.log(gap[valid])
+    unit_length = contacts.of_point(contacts.length)[valid]
+    variables = np.square(contacts.angles), np.log(gap[valid] / unit_length), *contacts.varying(valid)
     if size is not None and np.count_nonzero(valid) >= LEAST:
         table = _rigid(size, _box(variables))
     if table is None:
         found[valid] = groove_capacitance(contacts.races(valid), gap[valid])
     else:
-        found[valid] = np.exp(table(*variables, group=contacts.point[valid]))
+        found[valid] = unit_length * np.exp(table(*variables, group=contacts.point[valid]))
     return found.reshape(contacts.shape)
 
 
@@ -262,18 +327,15 @@ def _box(variables: tuple[Array, ...]) -> _Box:
     return tuple(low), tuple(high)
 
 
-def _race(size: _Size, square: Array) -> Raceway:
-    """Raceway of one size at squares of contact angles [rad^2]."""
-    ball, groove, pitch, shoulder, outer, first = size
-    return Raceway(ball, groove, pitch, shoulder, np.sqrt(np.maximum(0.0, square)), outer, first)
-
-
 @lru_cache(maxsize=128)
 def _around(size: _Size, law: DomainLaw, state: tuple[int, ...], box: _Box) -> SmoothTable | None:
-    """Capacitance around films [F] over squared angle, and logarithms of side, domain and film."""
+    """Capacitance around films [F] over squared angle, logarithms of side, domain and film, and what varies.
+
+    Where the radius of the ball varies, it is the unit of lengths, also of the capacitance over eps0.
+    """
 
     def capacitance(at: Array) -> Array:
-        race = _race(size, at[0])
+        race = size.race(at[0], at[4:])
         unit = UnitContact.of(race.radius_x, np.broadcast_to(race.radius_y, at[0].shape))
         length, middle = _length_and_middle(state, at[2], at[3])
         inlet, outlet, side = law.ends(state, length, unit)
@@ -311,10 +373,12 @@ def _ellipse(law: DomainLaw, part: int, box: _Box) -> SmoothTable | None:
 
 @lru_cache(maxsize=64)
 def _rigid(size: _Size, box: _Box) -> SmoothTable | None:
-    """Logarithm of the capacitance of rigid balls [F] over squared angle and logarithm of the gap."""
+    """Logarithm of the capacitance of rigid balls [F] over squared angle, logarithm of the gap, and what
+    varies.
+    """
 
     def logarithm(at: Array) -> Array:
-        race = _race(size, at[0])
+        race = size.race(at[0], at[2:])
         return np.asarray(np.log(groove_capacitance(race, np.exp(at[1]))))
 
     return smooth_table(logarithm, np.array(box[0]), np.array(box[1]), _RELATIVE)

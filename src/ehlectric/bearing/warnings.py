@@ -147,7 +147,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield from fit_flags(solution.conditions.clearance)
     geometry = solution.conditions.geometry
     if not geometry.follows_films:
-        yield clearance_flag(geometry.clearance, solution.positions[0])
+        yield clearance_flag(geometry.room, solution.positions[0])
 
 
 def library_viscosity(oil: Lubricant) -> float | None:
@@ -329,7 +329,7 @@ def _reached(over: Array, ends: Array) -> float:
 
 def clearance_flag(clearance: Numbers, position: Position) -> Flag:
     """Warning of films that take up much of the clearance, an effect that the equilibrium neglects.
-    ``clearance``, radial internal clearance, the full diametral play [m]; negative with a preload.
+    ``clearance``, room for the films [m], the full diametral play of one row; 0 or negative with a preload.
     """
     at = position.equilibrium
     most = np.argmax(at.inner_load, axis=-1)[..., np.newaxis]

@@ -13,6 +13,7 @@ from typing import Any, Literal
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
+from ehlectric.cases.library.bearing_catalogue import has_classes
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
@@ -74,15 +75,16 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
         return {}
     known = bearing(str(inputs.value("bearing.base")))
     refused = [key for key in KEYS_OF_KINDS if key not in facts.keys]
-    refused += [] if "radial_clearance" in facts.keys else ["clearance_class", "fits"]
+    # Without an inner ring, the shaft decides the clearance.
+    classed = has_classes(kind_of(inputs)) and known.get("inner_ring") is not False
+    refused += [] if classed and "radial_clearance" in facts.keys else ["clearance_class", "fits"]
     refused += [f"{load}_load" for load in ("radial", "axial") if not getattr(facts, load)]
     given = [f"bearing.{key}" for key in refused]
     changes: dict[str, Any] = {key: None for key in given if inputs.value(key) is not None}
     for name, value in form_data("kinds")[kind_of(inputs)].items():
         key = f"bearing.{name}"
-        clear = name == "radial_clearance" and (
-            inputs.value("bearing.clearance_class") or inputs.value("bearing.fits")
-        )
+        classes = inputs.value("bearing.clearance_class") or inputs.value("bearing.fits")
+        clear = name == "radial_clearance" and classed and classes
         if not clear and inputs.value(key) is None and name not in known:
             changes[key] = value
     return changes

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-from ehlectric.app.catalogue import bearing, coating
+from ehlectric.app.catalogue import bearing, coating, designated
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind, form_data
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
@@ -126,6 +126,8 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     {'base': '6208', 'elements': 8, 'clearance_class': 'C3'}
     >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
     {'base': '6206', 'radial_clearance': '10 um'}
+    >>> dict(changed(inputs, {"bearing.base": "6314-C3"}).table["bearing"])
+    {'base': '6314', 'clearance_class': 'C3'}
     """
     by_end: dict[str, dict[str, Any]] = {end: {} for end in ("", *ENDS)}
     for key, value in changes.items():
@@ -141,6 +143,9 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     """Inputs of a case, or of the bearing at one end of a drive, with new values."""
+    if isinstance(changes.get("bearing.base"), str):
+        own = designated(changes["bearing.base"])
+        changes = {**changes, **{f"bearing.{key}": value for key, value in own.items()}}
     given = _flat(changes)
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
     found = inputs.changed(dropped).changed(changes)

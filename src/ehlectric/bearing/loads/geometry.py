@@ -228,6 +228,15 @@ class BallBearing:
         return as_float(4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2)
 
     @property
+    def room(self) -> Numbers:
+        """Room that films take up [m]: the radial clearance, or the play of a pair along its contacts; 0 or
+        negative with a preload.
+        """
+        if self.rows.number == 1:
+            return self.clearance
+        return as_float(self.rows.endplay * np.sin(self.free_angle))
+
+    @property
     def radial_distance(self) -> Numbers:
         """Radial distance of the groove centres in concentric rings, A - P_d/2 = A cos a_0 [m]."""
         return self.groove_distance - self.clearance / 2.0
@@ -538,6 +547,15 @@ class RollerBearing:
     def clearance(self) -> Numbers:
         """Radial internal clearance, the full diametral play P_d [m]."""
         return self.radial_clearance
+
+    @property
+    def room(self) -> Numbers:
+        """Room that films take up [m]: the radial clearance, or the play of a pair along its contacts; 0 or
+        negative with a preload.
+        """
+        if self.rows.number == 1:
+            return self.radial_clearance
+        return as_float(self.rows.endplay * np.sin(self.contact_angle))
 
     @property
     def follows_films(self) -> bool:

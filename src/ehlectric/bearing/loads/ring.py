@@ -97,7 +97,7 @@ class BearingEquilibrium:
         return replace(self, speeds=speeds, **values)
 
     def ring(self, *, inner: bool) -> RingLoads:
-        """Contacts of all elements with the inner or the outer ring; contact angles of rollers are 0."""
+        """Contacts of all elements with the inner or the outer ring."""
         side, values = "inner" if inner else "outer", vars(self)
         load = values[f"{side}_load"]
         angle = values.get(f"{side}_angle", np.zeros_like(load))

@@ -383,7 +383,7 @@ def check_roller_loads(bearing: RollerBearing, operation: Operation) -> None:
         raise InputError(
             "axial_load",
             got=f"{axial:g} N",
-            takes="0: the raceways of a cylindrical roller bearing carry none",
+            takes="0: cylindrical raceways carry none",
         )
     if np.ndim(radial) == 0 and radial != 0.0 and bearing.thrust:
         raise InputError("radial_load", got=f"{radial:g} N", takes="0: a thrust bearing carries none")

@@ -11,6 +11,7 @@ from typing import Any, Literal, get_args
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, amount_at
+from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.library.library_oils import Kind, Source, sources_of, weakest
 from ehlectric.errors import InputError, shown, within
 
@@ -73,6 +74,17 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     )
 
 
+def has_classes(kind: str) -> bool:
+    """Whether bearings of a kind have a table of classes of clearance.
+
+    Examples
+    --------
+    >>> has_classes("deep-groove ball"), has_classes("tapered roller")
+    (True, False)
+    """
+    return any(row["kind"] == _TABLE_OF.get(kind, kind) for row in _rows())
+
+
 def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
     """Table with a class that is given as ``radial_clearance`` in the key ``clearance_class``."""
     name = table.get("radial_clearance")
@@ -87,17 +99,13 @@ def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
-# Kinds of bearings whose raceways have a radial clearance.
-_WITH_CLEARANCE = ("deep-groove ball", "cylindrical roller", "needle roller", "four-point contact ball")
-
-
 def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
     """Table with the radial clearance that follows from ``clearance_class``, the middle of its range.
 
     With a table ``fits`` the class is the clearance before mounting, and the table stays as it is.
     """
-    name, kind = table.get("clearance_class"), table.get("kind")
-    if name not in CLASSES or kind not in _WITH_CLEARANCE:
+    name, kind = table.get("clearance_class"), KINDS_OF_BEARINGS.get(str(table.get("kind")))
+    if name not in CLASSES or kind is None or "radial_clearance" not in kind.keys:
         return table
     if table.get("inner_ring") is False:
         raise InputError.worded(
@@ -111,7 +119,7 @@ def with_clearance(table: Mapping[str, Any]) -> Mapping[str, Any]:
         raise InputError.worded("bore", f"missing; clearance_class {name!r} needs the diameter of the bore")
     with within("bore"):
         bore = amount_at("bearing.bore").parse(table["bore"])
-    middle = clearance_range(str(kind), name, bore).middle
+    middle = clearance_range(table["kind"], name, bore).middle
     given = table.get("radial_clearance")
     if given is not None and given != middle:
         raise InputError(
