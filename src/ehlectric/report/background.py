@@ -20,6 +20,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import describe, input_field, input_of, kind_of, of_both_ends
+from ehlectric.cases.library.estimated_bearings import estimated_file, is_estimated
 from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
@@ -155,7 +156,7 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
         base = value_at(given, f"{table}.base")
         if base is None:
             continue
-        file = library.tables(folder, base)
+        file = _file_of(folder, base, given)
         sources = _sources_of_inputs(file)
         # A single source may be that of the whole file; else each key has its own.
         whole = sources[0] if len(sources) == 1 and not sources[0].keys else None
@@ -165,6 +166,14 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
             source = next((one for one in sources if key in one.keys), whole)
             found[f"{table}.{key}"] = (base, source, value)
     return found
+
+
+def _file_of(folder: str, base: str, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """File of the library of a base, or that of a bearing whose geometry is estimated."""
+    if folder != "bearing" or not is_estimated(base):
+        return library.tables(folder, base)
+    ratings = (value_at(given, f"bearing.life.{name}_rating") for name in ("dynamic", "static"))
+    return estimated_file(base, *ratings)
 
 
 def _sources_of_inputs(file: Mapping[str, Any]) -> tuple[Source, ...]:

@@ -450,6 +450,48 @@ def estimated_bearing(name: str, dynamic: float | None = None, static: float | N
     return table
 
 
+# Where dimensions and ratings of series were read; the head of ``series.csv`` says which catalogue has which.
+_CATALOGUES = (
+    "General catalogues of NSK, NKE, ZVL, ZEN, FBJ and URB, as transcribed in the public repository "
+    "ArtemFilin1990/Mar"
+)
+# Keys of an estimated bearing by the kind of their source, and what a note says of them.
+_SOURCES = (
+    (("bore", "outer_diameter", "width", "contact_angle", "inner_ring"), "published", ""),
+    (
+        ("elements", "element_diameter", "pitch_diameter", "roller_length"),
+        "by rule",
+        "Estimated: by ISO 76 and ISO 281 these elements have the load ratings of the bearing.",
+    ),
+    (
+        ("inner_groove", "outer_groove", "shoulder_height", "profile"),
+        "assumed",
+        "Grooves are the widest for which the ratings hold; the shoulders and the profile are usual ones.",
+    ),
+)
+
+
+def estimated_file(name: str, dynamic: float | None = None, static: float | None = None) -> dict[str, Any]:
+    """Tables ``bearing`` and ``source`` of a bearing of a series, as a file of the library has them.
+
+    Examples
+    --------
+    >>> [source["kind"] for source in estimated_file("6314")["source"]]
+    ['published', 'by rule', 'assumed']
+    """
+    table = estimated_bearing(name, dynamic, static)
+    sources = [
+        {
+            "keys": [key for key in keys if key in table],
+            "kind": kind,
+            **({} if kind == "assumed" else {"citation": _CATALOGUES}),
+            **({"note": note} if note else {}),
+        }
+        for keys, kind, note in _SOURCES
+    ]
+    return {"bearing": table, "source": sources}
+
+
 def _grooves(bearing: SeriesBearing) -> dict[str, float]:
     """Radii of the grooves for which the ratings hold, and the usual height of their shoulders."""
     if bearing.kind == "thrust ball":
