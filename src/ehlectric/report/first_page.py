@@ -270,7 +270,10 @@ def _motor(winding_rotor: str, rotor_frame: str) -> str:
 def _bearing(case: BearingCase, viscosity: float | None = None) -> str:
     """Bearing with its load, speed, temperature and oil. ``viscosity`` at ambient pressure [Pa s]."""
     bearing, oil = case.bearing, case.lubricant.temperature
-    name = " ".join(filter(None, [bearing.kind, "bearing", printable(bearing.base or "")]))
+    number = "bearing" if bearing.pair is None else "bearings"
+    name = " ".join(filter(None, [bearing.kind, number, printable(bearing.base or "")]))
+    if bearing.pair is not None:
+        name = f"pair of {name} in {bearing.pair.arrangement} arrangement"
     materials = (
         [] if bearing.element_material == "steel" else [f"{printable(bearing.element_material)} elements"]
     )

@@ -12,6 +12,7 @@ from typing import TypeVar
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.library.estimated_bearings import is_estimated
 from ehlectric.quantities.quantity import data_file
 
 TEXTS = data_file("ehlectric.report", "report_texts.toml")
@@ -128,6 +129,9 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
     thinning = solved_heat and case.lubricant.eyring_stress is not None
     return {
         "bearing": True,
+        f"kind {bearing.kind}": True,
+        "pair": bearing.pair is not None,
+        "estimated": is_estimated(bearing.base),
         "motor": case.motor is not None,
         "point": bearing.roller_length is None,
         "flooded": flooded,
