@@ -43,9 +43,9 @@ def example(name: str) -> Path:
     --------
     >>> example("line_contact").name
     'line_contact.toml'
-    >>> example("bearing")
+    >>> example("bearing_620")
     Traceback (most recent call last):
-    ehlectric.errors.InputError: example: got 'bearing'; expected an example or a file that one needs, as
+    ehlectric.errors.InputError: example: got 'bearing_620'; expected an example or a file that one needs, as
     'bearing_6208'
     """
     folder, name = examples_folder(), str(name)
