@@ -206,7 +206,7 @@ def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:
         bool(estimated_keys(bearing)),
         "geometry-estimated",
         "as_widest" if bearing.kind in WITHOUT_KNOWN else "of_known",
-        name=(bearing.base or "").upper(),
+        name=(bearing.base or "").upper().replace("-", " "),
         elements=f"{bearing.elements} {'rollers' if rollers else 'balls'}",
         diameter=lambda: 1e3 * float(bearing.element_diameter),
         pitch=lambda: 1e3 * float(bearing.pitch_diameter),
