@@ -7,7 +7,6 @@ from typing import Any
 
 from ehlectric.app.answers import Choice
 from ehlectric.cases import library
-from ehlectric.cases.bearing_inputs import base_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import data_file
 
@@ -18,10 +17,7 @@ _HEADINGS: dict[str, str] = data_file("ehlectric.quantities", "form_fields.toml"
 @cache
 def bearing(name: str) -> dict[str, Any]:
     """Table of a bearing of the library, or of the designation of a maker; empty for another name."""
-    try:
-        return base_of({"base": name})[1]
-    except InputError:
-        return {}
+    return library.bearing(name) if name in library.bearing_names() else _read(name)[1]
 
 
 def designated(text: str) -> dict[str, str]:
@@ -33,10 +29,22 @@ def designated(text: str) -> dict[str, str]:
     >>> designated("6314-C3"), designated("6x14")
     ({'base': '6314', 'clearance_class': 'C3'}, {'base': '6x14'})
     """
-    try:
-        return {key: str(value) for key, value in base_of({"base": text})[0].items()}
-    except InputError:
+    if text in library.bearing_names():
         return {"base": text}
+    return _read(text)[0]
+
+
+@cache
+def _read(text: str) -> tuple[dict[str, str], dict[str, Any]]:
+    """Name and class of the bearing with a designation, and its table; empty where there is none."""
+    # The server loads no physics before somebody asks for a bearing that the library lacks.
+    from ehlectric.cases.bearing_inputs import base_of
+
+    try:
+        named, table = base_of({"base": text})
+    except InputError:
+        return {"base": text}, {}
+    return {key: str(value) for key, value in named.items()}, table
 
 
 @cache

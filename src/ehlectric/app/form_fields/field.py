@@ -13,7 +13,6 @@ from typing import Any, Literal
 from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
-from ehlectric.cases.library.bearing_catalogue import has_classes
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
@@ -70,6 +69,9 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     >>> fitted_to_kind(Inputs({"bearing": {"base": "nu-208", "axial_load": "300 N"}}))
     {'bearing.axial_load': None, 'bearing.profile': 'logarithmic', 'bearing.radial_clearance': '20 um'}
     """
+    # The server loads no physics before a bearing is changed.
+    from ehlectric.cases.library.bearing_catalogue import has_classes
+
     facts = facts_of(inputs)
     if facts is None:
         return {}
