@@ -130,13 +130,13 @@ KINDS: dict[str, Kind[Any, Any]] = {
     "angular-contact ball": _RADIAL_BALLS,
     "four-point contact ball": Kind(
         geometry=_four_point_geometry,
-        check=lambda _geometry, _operation: None,
+        check=check_ball_loads,
         equilibrium=four_point_equilibrium,
         **_OF_BALLS,
     ),
     "thrust ball": Kind(
         geometry=_thrust_ball_geometry,
-        check=lambda _geometry, operation: check_thrust_loads(operation),
+        check=check_thrust_loads,
         equilibrium=thrust_ball_equilibrium,
         **_OF_BALLS,
     ),

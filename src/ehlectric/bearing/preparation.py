@@ -290,12 +290,10 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
         found = [at.at(k) for k in range(solved)]
         for one in found:
             check_balance(one)
-    # Rows of elements, or the two diagonals of each ball of a four-point contact bearing.
-    rows = found[0].position.shape[-1] // bearing.elements
 
     def turned(k: int) -> Equilibrium:
-        angle = Operation(*duty, cage_angle=angles[k]).positions(bearing.elements, rows)
-        return mirrored(found[positions - k], angle, rows)
+        angle = Operation(*duty, cage_angle=angles[k]).positions(bearing.elements, geometry.groups)
+        return mirrored(found[positions - k], angle, geometry.groups)
 
     return (*found, *map(turned, range(solved, positions)))
 

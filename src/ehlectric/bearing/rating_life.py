@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -81,10 +81,10 @@ class _Rules:
     factor: str  # name of the life modification factor
     dynamic: Callable[[Bearing], Numbers]  # basic dynamic rating [N]
     static: Callable[[Bearing], Numbers]  # basic static rating [N]
-    equivalent: Callable[[Bearing, Numbers], Numbers]  # equivalent load [N], from the static rating [N]
+    # Equivalent load [N], from the static rating [N] and the number of tracks.
+    equivalent: Callable[[Bearing, Numbers, int], Numbers]
     ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
     grooves: tuple[float, ...] = ()  # widest grooves over the ball diameter that have the ratings
-    tracks: int = 1  # tracks on each ring; two of a four-point contact bearing, which counts as two rows
 
     @property
     def rollers(self) -> bool:
@@ -128,22 +128,17 @@ def _loads(bearing: Bearing) -> tuple[Numbers, Numbers]:
     return bearing.radial_load, bearing.axial_load
 
 
-def _equivalent_of_balls(bearing: Bearing, static: Numbers) -> Numbers:
+def _equivalent_of_balls(bearing: Bearing, static: Numbers, tracks: int) -> Numbers:
     axial_part = _at_points(static_factor)(_ratio(bearing)) * bearing.axial_load / static
-    law = equivalent_load if bearing.pair is None else equivalent_load_of_pair
+    law = equivalent_load if tracks == 1 else equivalent_load_of_pair
     return _at_points(law)(*_loads(bearing), _angle(bearing), axial_part)
 
 
-def _equivalent_of_four_points(bearing: Bearing, static: Numbers) -> Numbers:
-    axial_part = _at_points(static_factor)(_ratio(bearing)) * bearing.axial_load / static
-    return _at_points(equivalent_load_of_pair)(*_loads(bearing), _angle(bearing), axial_part)
+def _equivalent_of_rollers(bearing: Bearing, _static: Numbers, tracks: int) -> Numbers:
+    return _at_points(equivalent_load_of_rollers)(*_loads(bearing), _angle(bearing), tracks)
 
 
-def _equivalent_of_rollers(bearing: Bearing, _static: Numbers) -> Numbers:
-    return _at_points(equivalent_load_of_rollers)(*_loads(bearing), _angle(bearing), bearing.rows)
-
-
-def _axial(bearing: Bearing, _static: Numbers) -> Numbers:
+def _axial(bearing: Bearing, _static: Numbers, _tracks: int) -> Numbers:
     return bearing.axial_load
 
 
@@ -175,7 +170,7 @@ _OF_ROLLERS = _Rules(
 _RULES: dict[str, _Rules] = {
     "deep-groove ball": _OF_BALLS,
     "angular-contact ball": _OF_BALLS,
-    "four-point contact ball": replace(_OF_BALLS, equivalent=_equivalent_of_four_points, tracks=2),
+    "four-point contact ball": _OF_BALLS,
     "thrust ball": _Rules(
         factor="thrust ball",
         dynamic=lambda bearing: _at_points(thrust_ball_dynamic_rating)(*_sizes(bearing)),
@@ -251,7 +246,7 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
     factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
     basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
     at = solution.positions[0].equilibrium
-    tracks = bearing.rows * rules.tracks
+    tracks = solution.conditions.geometry.groups
     elements = rules.ratings(bearing, rated.dynamic_rating / tracks**rules.slope)
     loads = at.inner_load, at.outer_load
     revolutions = reference_life(loads, elements, rollers=rules.rollers, rows=tracks)
@@ -279,20 +274,23 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
 
 
 def _rated(solution: BearingSolution, life: Life) -> RatedLoads:
-    """Ratings and load of a bearing; those of both bearings of a pair, as of one with two rows."""
+    """Ratings and load of a bearing; those of both bearings of a pair, as of one with two rows.
+
+    The two tracks of a four-point contact bearing count as rows, too.
+    """
     bearing = solution.case.bearing
-    rules = _RULES[bearing.kind]
+    rules, tracks = _RULES[bearing.kind], solution.conditions.geometry.tracks
     one: Numbers | None = life.dynamic_rating
     if one is None:
-        one = rules.tracks**rules.slope * rules.dynamic(bearing)
+        one = tracks**rules.slope * rules.dynamic(bearing)
     still: Numbers | None = life.static_rating
     if still is None:
-        still = rules.tracks * rules.static(bearing)
+        still = tracks * rules.static(bearing)
     dynamic, static = bearing.rows**rules.slope * one, bearing.rows * still
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
-    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static))
+    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static, tracks * bearing.rows))
 
 
 def _viscosity_ratio(solution: BearingSolution) -> Numbers:

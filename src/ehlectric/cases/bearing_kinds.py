@@ -10,7 +10,7 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class KindOfBearing:
-    """What a bearing file of one kind has."""
+    """Elements, keys and loads of the bearings of one kind."""
 
     elements: Literal["ball", "roller"]  # rollers have line contacts
     needed: tuple[str, ...]  # keys of its own that it needs

@@ -196,15 +196,9 @@ def _around(result: BearingResult, values: Sequence[Array | Mask]) -> tuple[Arra
     """Angles of the elements of each row at all positions of the cage from 0 to 2 pi, and values in their
     order, shape (rows, n).
     """
-    rows = _rows(result)
+    rows = result.solution.conditions.geometry.groups
     angles, order = around_in_rows([p.equilibrium.position for p in result.solution.positions], rows)
     return angles[order].reshape(rows, -1), np.concatenate(values)[order].reshape(rows, -1)
-
-
-def _rows(result: BearingResult) -> int:
-    """Number of rows of elements, or of diagonals of a four-point contact bearing."""
-    solution = result.solution
-    return int(solution.positions[0].equilibrium.position.size // solution.case.bearing.elements)
 
 
 def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:

@@ -470,7 +470,7 @@ def _gaps(around: Mapping[str, Around]) -> str:
 def _around(result: BearingResult) -> dict[str, Around]:
     """Contacts of all elements at all positions of the cage, by the name of the ring."""
     positions = result.solution.positions
-    rows = positions[0].equilibrium.position.size // result.solution.case.bearing.elements
+    rows = result.solution.conditions.geometry.groups
     angle, order = around_in_rows([one.equilibrium.position for one in positions], rows)
     found = {}
     for name in ("inner", "outer"):

@@ -37,7 +37,7 @@ def kind_of(inputs: Inputs) -> str:
 
 
 def facts_of(inputs: Inputs) -> KindOfBearing | None:
-    """What bearings of the kind have; None where the inputs do not tell the kind."""
+    """Keys and loads of the kind of bearing; None where the inputs do not name a kind."""
     return KINDS_OF_BEARINGS.get(kind_of(inputs))
 
 

@@ -653,17 +653,12 @@ def _closed(bearing: BallBearing, laws: Array) -> Numbers:
     return np.asarray(radial * np.tan(angle) - 0.5 * rows.endplay)
 
 
-def _one_way(bearing: BallBearing) -> bool:
-    """Whether a bearing carries axial loads one way, and radial loads only with them."""
-    return bearing.contact_angle is not None and bearing.rows.number == 1
-
-
 def check_ball_loads(bearing: BallBearing, operation: Operation) -> None:
     """Refuse a single axial load that the bearing cannot carry. Raises InputError for an angular-contact
     bearing without axial load; arrays are not refused.
     """
     load = operation.axial_load
-    if _one_way(bearing) and np.ndim(load) == 0 and load <= 0.0:
+    if bearing.one_way and np.ndim(load) == 0 and load <= 0.0:
         raise InputError(
             "axial_load",
             got=f"{load:g} N",
@@ -705,7 +700,7 @@ def ball_equilibrium(
     >>> both.inner_load.shape, bool(np.allclose(both.inner_load[0], state.inner_load, rtol=1e-9))
     ((2, 9), True)
     """
-    able = np.greater(operation.axial_load, 0.0) if _one_way(bearing) else True
+    able = np.greater(operation.axial_load, 0.0) if bearing.one_way else True
     batch = Batch.of(bearing, operation, modulus, density, able)
     if not batch.shape:
         check_ball_loads(bearing, operation)

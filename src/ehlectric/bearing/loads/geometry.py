@@ -138,8 +138,45 @@ class Rows:
 ONE_ROW = Rows()
 
 
+class _Bearing:
+    """What bearings with balls and with rollers have in common."""
+
+    rows: Rows
+    clearance: Numbers
+    free_angle: Numbers
+
+    @property
+    def tracks(self) -> int:
+        """Contacts of an element with one ring."""
+        return 1
+
+    @property
+    def groups(self) -> int:
+        """Groups of as many contacts as there are elements in a row: those of each row and each track."""
+        return self.rows.number * self.tracks
+
+    @property
+    def bottom_angle(self) -> float:
+        """Angle of the bottoms of both raceways, from which grooves reach to their shoulders [rad]."""
+        return 0.0
+
+    @property
+    def room(self) -> Numbers:
+        """Room that films take up [m]: the radial clearance, or the play of a pair along its contacts; 0 or
+        negative with a preload.
+        """
+        if self.rows.number == 1:
+            return self.clearance
+        return as_float(self.rows.endplay * np.sin(self.free_angle))
+
+    @property
+    def follows_films(self) -> bool:
+        """Whether the ring gives way to the films along the axis, so that they change no load."""
+        return False
+
+
 @dataclass(frozen=True)
-class BallBearing:
+class BallBearing(_Bearing):
     """Deep-groove or angular-contact ball bearing with one row of balls, or a pair of the latter.
 
     Either the radial clearance or the free contact angle is given; the other follows.
@@ -228,15 +265,6 @@ class BallBearing:
         return as_float(4.0 * self.groove_distance * np.sin(self.contact_angle / 2.0) ** 2)
 
     @property
-    def room(self) -> Numbers:
-        """Room that films take up [m]: the radial clearance, or the play of a pair along its contacts; 0 or
-        negative with a preload.
-        """
-        if self.rows.number == 1:
-            return self.clearance
-        return as_float(self.rows.endplay * np.sin(self.free_angle))
-
-    @property
     def radial_distance(self) -> Numbers:
         """Radial distance of the groove centres in concentric rings, A - P_d/2 = A cos a_0 [m]."""
         return self.groove_distance - self.clearance / 2.0
@@ -267,19 +295,9 @@ class BallBearing:
         return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
 
     @property
-    def follows_films(self) -> bool:
-        """Whether the ring gives way to the films along the axis, so that they change no load."""
-        return False
-
-    @property
-    def tracks(self) -> int:
-        """Contacts of a ball with one ring."""
-        return 1
-
-    @property
-    def bottom_angle(self) -> float:
-        """Angle of the bottoms of both grooves, from which they reach to their shoulders [rad]."""
-        return 0.0
+    def one_way(self) -> bool:
+        """Whether the bearing carries axial loads one way, and radial loads only with them."""
+        return self.contact_angle is not None and self.rows.number == 1
 
     @property
     def first_angles(self) -> tuple[Numbers | None, Numbers | None]:
@@ -392,6 +410,11 @@ class FourPointBearing(BallBearing):
         return 2
 
     @property
+    def one_way(self) -> bool:
+        """Whether the bearing carries axial loads one way: both diagonals together do not."""
+        return False
+
+    @property
     def first_angles(self) -> tuple[Numbers, Numbers]:
         """Angles of the middle of both arches, at which their arcs begin, from the bottoms of these [rad]."""
         grooves = self.inner_groove * self.ball_diameter, self.outer_groove * self.ball_diameter
@@ -460,7 +483,7 @@ class ThrustBallBearing(BallBearing):
 
 
 @dataclass(frozen=True)
-class RollerBearing:
+class RollerBearing(_Bearing):
     """Bearing with rows of rollers: cylindrical rollers and needles, tapered rollers, or needles of a thrust
     bearing. Raises InputError where the rollers do not fit on their pitch circle, or the profile is unknown.
 
@@ -549,28 +572,9 @@ class RollerBearing:
         return self.radial_clearance
 
     @property
-    def room(self) -> Numbers:
-        """Room that films take up [m]: the radial clearance, or the play of a pair along its contacts; 0 or
-        negative with a preload.
-        """
-        if self.rows.number == 1:
-            return self.radial_clearance
-        return as_float(self.rows.endplay * np.sin(self.contact_angle))
-
-    @property
     def follows_films(self) -> bool:
         """Whether the ring gives way to the films along the axis, so that they change no load."""
         return self.carries_axial and self.rows.number == 1
-
-    @property
-    def tracks(self) -> int:
-        """Contacts of a roller with one ring."""
-        return 1
-
-    @property
-    def bottom_angle(self) -> float:
-        """Angle from which contacts may be aside [rad]; raceways of rollers have no shoulders."""
-        return 0.0
 
     @property
     def free_angle(self) -> Numbers:

@@ -32,7 +32,7 @@ from ehlectric.bearing.loads.ring import Batch, Operation
 from ehlectric.errors import InputError
 
 
-def check_thrust_loads(operation: Operation) -> None:
+def check_thrust_loads(_bearing: ThrustBallBearing, operation: Operation) -> None:
     """Refuse single loads that a thrust bearing cannot carry. Raises InputError for a radial load, and for an
     axial one that does not press the washers together; arrays are not refused.
     """
@@ -112,7 +112,7 @@ def thrust_ball_equilibrium(
     able = np.greater(operation.axial_load, 0.0) & np.equal(operation.radial_load, 0.0)
     batch = Batch.of(bearing, operation, modulus, density, able)
     if not batch.shape:
-        check_thrust_loads(operation)
+        check_thrust_loads(bearing, operation)
     own, duty, rows = batch.bearing, batch.operation, (bearing.elements, batch.number)
     square = bearing.bottom_angle
     sizes = own.ball_diameter, own.pitch_diameter
