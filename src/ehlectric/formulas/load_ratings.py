@@ -117,6 +117,11 @@ def roller_dynamic_factor(ratio: float) -> float:
     )
 
 
+def _ball_size(diameter: float) -> float:
+    """Factor of the dynamic rating by the ball diameter D [mm]: D^1.8, and 3.647 D^1.4 above 25.4 mm."""
+    return float(diameter**1.8 if diameter <= _LARGE_BALL else 3.647 * diameter**1.4)
+
+
 def ball_static_rating(
     elements: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> float:
@@ -155,9 +160,8 @@ def ball_dynamic_rating(
     """
     cosine = math.cos(contact_angle)
     diameter = _MILLIMETRES * ball_diameter
-    size = diameter**1.8 if diameter <= _LARGE_BALL else 3.647 * diameter**1.4
     factor = dynamic_factor(ball_diameter * cosine / pitch_diameter)
-    return float(_BALL_STEEL * factor * cosine**0.7 * elements ** (2.0 / 3.0) * size)
+    return float(_BALL_STEEL * factor * cosine**0.7 * elements ** (2.0 / 3.0) * _ball_size(diameter))
 
 
 def roller_static_rating(
@@ -245,8 +249,7 @@ def thrust_ball_dynamic_rating(elements: int, ball_diameter: float, pitch_diamet
     diameter, groove = _MILLIMETRES * ball_diameter, _THRUST_DYNAMIC_GROOVE
     shape = (2.0 * groove / (2.0 * groove - 1.0)) ** 0.41
     factor = _THRUST_BALLS * shape * (ball_diameter / pitch_diameter) ** 0.3
-    size = diameter**1.8 if diameter <= _LARGE_BALL else 3.647 * diameter**1.4
-    return float(_BALL_STEEL * factor * elements ** (2.0 / 3.0) * size)
+    return float(_BALL_STEEL * factor * elements ** (2.0 / 3.0) * _ball_size(diameter))
 
 
 def thrust_roller_static_rating(elements: int, roller_diameter: float, length: float) -> float:

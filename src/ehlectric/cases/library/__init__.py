@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import tomllib
 from copy import deepcopy
 from functools import cache
@@ -36,6 +37,13 @@ def _read(kind: str, name: str) -> dict[str, Any]:
 def _table(kind: str, name: str) -> dict[str, Any]:
     table: dict[str, Any] = deepcopy(_read(kind, name)[kind])
     return table
+
+
+@cache
+def rows(name: str) -> tuple[dict[str, str], ...]:
+    """Rows of a table of the library, such as "clearances.csv", without its comments."""
+    lines = (_FOLDER / name).read_text(encoding="utf-8").splitlines()
+    return tuple(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def lubricant_names() -> list[str]:

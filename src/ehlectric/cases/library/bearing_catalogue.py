@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
 from typing import Any, Literal, get_args
 
 from ehlectric.cases import library
@@ -33,14 +30,6 @@ class ClearanceRange:
         return float(f"{0.5 * (self.least + self.most):.12g}")
 
 
-@cache
-def _rows() -> tuple[dict[str, str], ...]:
-    """Rows of the table of classes, with its comments left out."""
-    path = resources.files("ehlectric.cases.library").joinpath("clearances.csv")
-    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    return tuple(csv.DictReader(lines))
-
-
 # Kinds whose clearances are in the table of another kind.
 _TABLE_OF = {"needle roller": "cylindrical roller"}
 
@@ -58,7 +47,7 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     ClearanceRange(least=1.5e-05, most=3.3e-05)
     """
     size = 1e3 * bore
-    rows = [row for row in _rows() if row["kind"] == _TABLE_OF.get(kind, kind)]
+    rows = [row for row in library.rows("clearances.csv") if row["kind"] == _TABLE_OF.get(kind, kind)]
     for row in rows:
         # A bore in metres may be above a round number of millimetres by its rounding error.
         if float(row["above"]) < size - 1e-9 <= float(row["to"]):
@@ -82,7 +71,7 @@ def has_classes(kind: str) -> bool:
     >>> has_classes("deep-groove ball"), has_classes("tapered roller")
     (True, False)
     """
-    return any(row["kind"] == _TABLE_OF.get(kind, kind) for row in _rows())
+    return any(row["kind"] == _TABLE_OF.get(kind, kind) for row in library.rows("clearances.csv"))
 
 
 def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -7,12 +7,10 @@ seals, shields, cages, tolerances and fillings say nothing of the internal geome
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
 from ehlectric.cases import library
 from ehlectric.cases.library.bearing_catalogue import CLASSES, ClearanceClass
@@ -54,8 +52,7 @@ def known_bearings() -> Mapping[str, None]:
 @cache
 def suffixes() -> dict[str, str]:
     """Suffixes that say nothing of the internal geometry, with their meaning."""
-    path = resources.files("ehlectric.cases.library").joinpath("suffixes.csv")
-    return {row["suffix"]: row["meaning"] for row in csv.DictReader(path.read_text("utf-8").splitlines())}
+    return {row["suffix"]: row["meaning"] for row in library.rows("suffixes.csv")}
 
 
 def read_designation(text: str, names: Collection[str]) -> Designation | None:

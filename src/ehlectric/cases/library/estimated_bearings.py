@@ -8,12 +8,10 @@ rings, as the functions below say.
 
 from __future__ import annotations
 
-import csv
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from importlib import resources
 from typing import Any
 
 from scipy.optimize import brentq
@@ -122,19 +120,12 @@ class SeriesBearing:
         return self.kind == "needle roller" and self.bore == self.inner_raceway
 
 
-def _lines(name: str) -> Iterator[dict[str, str]]:
-    """Rows of a table of the library, without its comments."""
-    path = resources.files("ehlectric.cases.library").joinpath(name)
-    lines = (line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
-    return csv.DictReader(lines)
-
-
 @cache
 def series() -> Mapping[str, SeriesBearing]:
     """Bearings of the usual series by name, such as "6314", "nu-210", "7210-b" or "nk-20/20"."""
     lengths = ("bore", "outer_diameter", "width", "inner_raceway", "outer_raceway", "cup_width")
     found = {}
-    for row in _lines("series.csv"):
+    for row in library.rows("series.csv"):
         # Decimal places of a millimetre are kept, as the product has a rounding error.
         sizes = {key: float(f"{row[key]}e-3") if row[key] else None for key in lengths}
         angle = math.radians(float(row["contact_angle"])) if row["contact_angle"] else None
