@@ -6,6 +6,7 @@ import tomllib
 import pytest
 
 from ehlectric import BearingCase, Case, load, save, solve
+from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.errors import InputError
 from ehlectric.figures import figure_names
 from ehlectric.figures.figure_names import in_formats
@@ -281,6 +282,7 @@ def test_keys_are_told_by_their_names(text, shown):
 def test_conditions_of_limits_and_publications_are_known():
     cases = Case.from_dict(TABLE), BearingCase.from_dict(BALLS)
     known = {name for case in cases for name in conditions_of(case)}
+    known |= {f"kind {kind}" for kind in KINDS_OF_BEARINGS}
     names = {name.removeprefix("not ") for one in (*LIMITS, *REFERENCES) for name in one.when}
     assert {name for name in names if not name.startswith(("law ", "rheology "))} <= known
 
