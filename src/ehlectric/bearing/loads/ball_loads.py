@@ -17,7 +17,8 @@ Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/978
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -35,6 +36,7 @@ from ehlectric.bearing.loads.ball_seats import (
 )
 from ehlectric.bearing.loads.geometry import (
     BallBearing,
+    FourPointBearing,
     Speeds,
     centrifugal_force,
     gyroscopic_moment,
@@ -47,10 +49,14 @@ from ehlectric.bearing.loads.ring import (
     BearingEquilibrium,
     Operation,
     balance,
+    chosen,
     direction,
+    joined,
     refuse_unbalanced,
 )
 from ehlectric.errors import InputError
+
+B = TypeVar("B", BallBearing, FourPointBearing)
 
 # Points of operation that are computed together: few enough for the processor's cache.
 _BLOCK = 1024
@@ -77,16 +83,76 @@ class BallEquilibrium(BearingEquilibrium):
 
     holds_axially: ClassVar[bool] = True  # balls hold the ring along the axis
 
+    @classmethod
+    def of(
+        cls,
+        batch: Batch[B],
+        *,
+        loads: Array,
+        angles: Array,
+        depths: Array,
+        rolling_angle: Numbers,
+        cage_speed: Numbers,
+        outward: Numbers,
+        ring: Array,
+        moments: Sequence[Array],
+        residual: Array,
+        steps: IntArray,
+    ) -> BallEquilibrium:
+        """Equilibrium of all n points of a batch.
+
+        ``loads`` [N], ``angles`` [rad] and ``depths`` [m], below 0 where there is a gap, of the inner and the
+        outer contact, shape (2, elements, n); ``rolling_angle``, contact angle at which the balls roll [rad],
+        shape (elements, n) or (); ``cage_speed`` [rad/s] and centrifugal force ``outward`` [N], shape (n,) or
+        (); ``ring``, axial, radial and lateral displacement [m], shape (3, n); ``moments`` about the radial
+        and the lateral axis [N m], shape (n,) each; ``residual``, relative; ``steps`` of the ring.
+        """
+        bearing, operation, spread = batch.bearing, batch.operation, batch.spread
+        diameter = bearing.ball_diameter
+        sizes = (diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
+        rolling = rolling_speeds(*sizes, rolling_angle)
+        turning = gyroscopic_moment(bearing.element_mass(batch.density), diameter, rolling, rolling_angle)
+        touching, gaps = np.maximum(0.0, depths), np.maximum(0.0, -depths)
+
+        def each(values: Numbers) -> Array:
+            return np.asarray(spread(np.broadcast_to(values, loads.shape[1:])))
+
+        def whole(values: Numbers) -> Numbers:
+            number: Numbers = spread(np.broadcast_to(values, loads.shape[2:]))
+            return number
+
+        return cls(
+            # Both diagonals of a four-point contact bearing have the same balls.
+            position=np.tile(batch.position, loads.shape[1] // batch.position.shape[-1]),
+            inner_load=spread(loads[0]),
+            outer_load=spread(loads[1]),
+            inner_angle=spread(angles[0]),
+            outer_angle=spread(angles[1]),
+            inner_approach=spread(touching[0]),
+            outer_approach=spread(touching[1]),
+            inner_gap=spread(gaps[0]),
+            outer_gap=spread(gaps[1]),
+            speeds=Speeds(*map(each, vars(rolling).values())),
+            gyroscopic_moment=each(turning),
+            cage_speed=whole(cage_speed),
+            centrifugal_force=whole(outward),
+            axial_displacement=spread(ring[0]),
+            radial_displacement=spread(ring[1]),
+            lateral_displacement=spread(ring[2]),
+            moment=spread(moments[0]),
+            lateral_moment=spread(moments[1]),
+            residual=spread(residual),
+            iterations=spread(steps),
+        )
+
 
 @dataclass(frozen=True)
-class _Points:
-    """Bearings and their operation at n points; the last dimension of arrays is n, or 1 if all are equal."""
+class BallPoints:
+    """Ball bearings and operation at n points; the last dimension of arrays is n, or 1 if all are equal."""
 
     # Cosine and sine of the position of each ball, shape (elements, n).
     cosine: Array
     sine: Array
-    # 1, or -1 of balls in a second row, whose axial components point the other way, shape (elements, 1).
-    sign: Array
     # load: axial, radial and lateral load on the ring [N], shape (3, n).
     load: Array
     inner_speed: Array  # angular speed of the inner ring [rad/s]
@@ -96,6 +162,58 @@ class _Points:
     distance: Array  # radial distance of the groove centres in concentric rings [m]
     free_cosine: Array  # cosine of the free contact angle
     offsets: Array  # lengths at first touch of the inner and outer contact [m], shape (2, 1, n)
+
+    @classmethod
+    def shared(cls, batch: Batch[B], position: Array) -> dict[str, Array]:
+        """Values of these fields for a batch, at angles of the balls of shape (elements, n) [rad]."""
+        bearing, operation, row = batch.bearing, batch.operation, np.atleast_1d
+        load = np.zeros((3, batch.number))
+        load[0], load[1] = operation.axial_load, operation.radial_load
+        return {
+            "cosine": np.cos(position),
+            "sine": np.sin(position),
+            "load": load,
+            "inner_speed": row(operation.inner_speed),
+            "outer_speed": row(operation.outer_speed),
+            "ratio": row(bearing.ball_diameter / bearing.pitch_diameter),
+            "swing": row(centrifugal_force(bearing.element_mass(batch.density), bearing.pitch_diameter, 1.0)),
+            "distance": row(bearing.radial_distance),
+            "free_cosine": np.cos(row(bearing.free_angle)),
+            "offsets": np.stack(np.broadcast_arrays(*map(row, bearing.offsets)))[:, np.newaxis],
+        }
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of balls and of points."""
+        return len(self.cosine), self.load.shape[1]
+
+    @property
+    def size(self) -> Array:
+        """Resultant load [N], shape (n,)."""
+        return np.asarray(np.hypot(self.load[0], self.load[1]))
+
+    def cage_speed(self, cosine: Array) -> Array:
+        """Speed of the cage [rad/s] at the cosine of the mean contact angle, shape (n,)."""
+        share = self.ratio * cosine
+        return np.asarray(0.5 * (self.inner_speed * (1.0 - share) + self.outer_speed * (1.0 + share)))
+
+    def outward(self, cosine: Array) -> Array:
+        """Centrifugal force on a ball [N] at the cosine of the mean contact angle, shape (n,)."""
+        return np.asarray(self.swing * self.cage_speed(cosine) ** 2)
+
+
+def laws_of(batch: Batch[B]) -> Array:
+    """Coefficients of ln K of the contacts of both rings with a ball, shape (m, 2, n)."""
+    laws = np.stack(stiffness_laws(batch.bearing, batch.modulus))
+    return significant(np.moveaxis(laws[:, np.newaxis] if laws.ndim == 2 else laws, -1, 0))
+
+
+@dataclass(frozen=True)
+class _Points(BallPoints):
+    """The same with all rows of a bearing."""
+
+    # 1, or -1 of balls in a second row, whose axial components point the other way, shape (elements, 1).
+    sign: Array
     laws: Array  # coefficients of ln K of both contacts, shape (m, 2, 1, n)
     flat: Array  # stiffness K of both contacts at a contact angle of 0, shape (2, 1, n)
     # Axial distance of the groove centres of each row with the ring in the middle of a pair [m], and the
@@ -106,39 +224,15 @@ class _Points:
     @classmethod
     def of(cls, batch: Batch[BallBearing]) -> _Points:
         """Points of a batch."""
-        bearing, operation, row = batch.bearing, batch.operation, np.atleast_1d
-        load = np.zeros((3, batch.number))
-        load[0], load[1] = operation.axial_load, operation.radial_load
-        position = batch.rows
-        laws = np.stack(stiffness_laws(bearing, batch.modulus))
-        laws = significant(np.moveaxis(laws[:, np.newaxis] if laws.ndim == 2 else laws, -1, 0))
+        laws = laws_of(batch)
         return cls(
-            cosine=np.cos(position),
-            sine=np.sin(position),
+            **cls.shared(batch, batch.rows),
             sign=batch.signs,
-            load=load,
-            inner_speed=row(operation.inner_speed),
-            outer_speed=row(operation.outer_speed),
-            ratio=row(bearing.ball_diameter / bearing.pitch_diameter),
-            swing=row(centrifugal_force(bearing.element_mass(batch.density), bearing.pitch_diameter, 1.0)),
-            distance=row(bearing.radial_distance),
-            free_cosine=np.cos(row(bearing.free_angle)),
-            offsets=np.stack(np.broadcast_arrays(*map(row, bearing.offsets)))[:, np.newaxis],
             laws=laws[:, :, np.newaxis],
             flat=stiffness_at(laws, np.ones(1))[:, np.newaxis],
-            apart=row(_closed(bearing, laws)),
-            preload=row(np.asarray(bearing.rows.preload, dtype=float)),
+            apart=np.atleast_1d(_closed(batch.bearing, laws)),
+            preload=np.atleast_1d(np.asarray(batch.bearing.rows.preload, dtype=float)),
         )
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Numbers of balls and of points."""
-        return len(self.cosine), self.load.shape[1]
-
-    def chosen(self, points: slice | Mask | IntArray) -> _Points:
-        """Some of the points."""
-        values = (getattr(self, each.name) for each in fields(self))
-        return _Points(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
 
     @property
     def paired(self) -> bool:
@@ -146,23 +240,9 @@ class _Points:
         return bool(self.sign[-1, 0] < 0.0)
 
     @property
-    def size(self) -> Array:
-        """Resultant load [N], shape (n,)."""
-        return np.asarray(np.hypot(self.load[0], self.load[1]))
-
-    @property
     def reach(self) -> Array:
         """Longest first step of the ring [m]: a tenth of the distance of the groove centres."""
         return np.asarray(0.1 * np.sum(self.offsets, axis=0)[0])
-
-    def cage_speed(self, cosine: Array) -> Array:
-        """Speed of the cage [rad/s] at the cosine of the mean contact angle, shape (n,)."""
-        share = self.ratio * cosine
-        return np.asarray(0.5 * (self.inner_speed * (1.0 - share) + self.outer_speed * (1.0 + share)))
-
-    def outward(self, cosine: Array) -> Array:
-        """Centrifugal force [N] at the cosine of the mean contact angle, shape (n,)."""
-        return np.asarray(self.swing * self.cage_speed(cosine) ** 2)
 
     def grooves(self, balls: Mask, outward: Array) -> Grooves:
         """Grooves of some balls, shape (elements, n), with the stiffnesses at a contact angle of 0."""
@@ -278,15 +358,9 @@ def _first_ring(points: _Points) -> tuple[Array, Array]:
 T = TypeVar("T")
 
 
-def _chosen(one: T, points: Any) -> T:
-    """Same class with the values of some of the points."""
+def _columns(one: T, points: Any) -> T:
+    """Same class with the values of some of the points; each array has a value of every point."""
     return type(one)(*(value[..., points] for value in vars(one).values()))
-
-
-def _joined(blocks: list[T]) -> T:
-    """Same class with the values of several blocks of points."""
-    columns = zip(*(vars(each).values() for each in blocks), strict=True)
-    return type(blocks[0])(*(np.concatenate(values, axis=-1) for values in columns))
 
 
 def _either(first: Mask, one: T, other: T) -> T:
@@ -322,12 +396,12 @@ class _Forces:
             np.concatenate([getattr(each, name) for each in blocks], axis=-1)
             for name in ("own", "missing", "residual")
         )
-        return cls(_joined(states), _joined(contacts), *others)
+        return cls(joined(states), joined(contacts), *others)
 
     def chosen(self, points: Mask) -> _Forces:
         """Contacts and forces of some of the points."""
         others = (value[..., points] for value in (self.own, self.missing, self.residual))
-        return _Forces(_chosen(self.state, points), _chosen(self.contacts, points), *others)
+        return _Forces(_columns(self.state, points), _columns(self.contacts, points), *others)
 
 
 def _mean_cosine(contacts: Contacts) -> Array:
@@ -457,7 +531,7 @@ class _Trial:
     def chosen(self, points: Mask) -> _Trial:
         """Trials of some of the points."""
         return _Trial(
-            _chosen(self.base, points), _chosen(self.step, points), self.part[points], self.reach[points]
+            _columns(self.base, points), _columns(self.step, points), self.part[points], self.reach[points]
         )
 
     def following(self, linear: _Linear, forces: _Forces, worse: Mask) -> _Trial:
@@ -533,7 +607,7 @@ def _together(points: _Points) -> _Record:
         if done.any():
             on = ~done
             going, worse, trial = going[on], worse[on], trial.chosen(on)
-            points, forces = points.chosen(on), forces.chosen(on)
+            points, forces = chosen(points, on), forces.chosen(on)
         trial = trial.following(_Linear(points, forces), forces, worse)
         record.steps[going] += 1
     return record
@@ -555,17 +629,17 @@ class _BallReaction:
         self._points, self.place = points, place
         self._grooves = [np.broadcast_to(value, points.shape) for value in values]
 
-    def seats(self, ring: Array, chosen: IntArray) -> Seats:
-        """Seats of the balls at displacements, shape (3, m), of the points ``chosen``."""
-        centres = self._points.chosen(chosen).centres(ring).reshape(2, -1)
-        grooves = Grooves(*(value[:, chosen].ravel() for value in self._grooves))
-        seats = seat(grooves, centres, self.place[..., chosen].reshape(2, -1))
-        self.place[..., chosen] = seats.place.reshape(2, -1, len(chosen))
+    def seats(self, ring: Array, which: IntArray) -> Seats:
+        """Seats of the balls at displacements, shape (3, m), of the points ``which``."""
+        centres = chosen(self._points, which).centres(ring).reshape(2, -1)
+        grooves = Grooves(*(value[:, which].ravel() for value in self._grooves))
+        seats = seat(grooves, centres, self.place[..., which].reshape(2, -1))
+        self.place[..., which] = seats.place.reshape(2, -1, len(which))
         return seats
 
-    def __call__(self, ring: Array, chosen: IntArray) -> tuple[Array, Array]:
+    def __call__(self, ring: Array, which: IntArray) -> tuple[Array, Array]:
         """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
-        own, seats, shape = self._points.chosen(chosen), self.seats(ring.T, chosen), (-1, len(chosen))
+        own, seats, shape = chosen(self._points, which), self.seats(ring.T, which), (-1, len(which))
         force = own.summed(*(value.reshape(shape) for value in seats.inner.components))
         a, b, c, d, e, f = own.stiffness(*(value.reshape(shape) for value in seats.tangent))
         return force.T, np.stack([a, b, c, b, d, e, c, e, f], axis=-1).reshape(-1, 3, 3)
@@ -616,7 +690,7 @@ def _solved(points: _Points) -> tuple[_Forces, IntArray]:
     record = _together(points)
     stuck = np.flatnonzero(~(record.residual <= GOOD))
     if stuck.size:
-        state, steps = _nested(points.chosen(stuck))
+        state, steps = _nested(chosen(points, stuck))
         for mine, new in zip(vars(record.state).values(), vars(state).values(), strict=True):
             mine[..., stuck] = new
         record.steps[stuck] += steps
@@ -707,7 +781,7 @@ def ball_equilibrium(
     points = _Points.of(batch)
     number = points.shape[1]
     parts = [slice(first, first + _BLOCK) for first in range(0, max(1, number), _BLOCK)]
-    blocks, numbers = zip(*(_solved(points.chosen(part)) for part in parts), strict=True)
+    blocks, numbers = zip(*(_solved(chosen(points, part)) for part in parts), strict=True)
     forces, steps = _Forces.joined(blocks), np.concatenate(numbers)
     refuse_unbalanced(batch.spread(forces.residual), "balls")
     return _equilibrium(batch, points, forces, steps)
@@ -717,35 +791,20 @@ def _equilibrium(
     batch: Batch[BallBearing], points: _Points, forces: _Forces, steps: IntArray
 ) -> BallEquilibrium:
     """Equilibrium of all points of a batch."""
-    bearing, operation, contacts, spread = batch.bearing, batch.operation, forces.contacts, batch.spread
+    contacts = forces.contacts
     angles = np.arctan2(contacts.sine, contacts.cosine)
-    mean, signed = 0.5 * (angles[0] + angles[1]), points.sign * angles
-    speeds = (bearing.ball_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
-    rolling = rolling_speeds(*speeds, mean)
-    mass = bearing.element_mass(batch.density)
-    moment = gyroscopic_moment(mass, bearing.ball_diameter, rolling, mean)
     # The moments are about the centre of the circle of groove centres, which the contact forces pass through.
-    levers = bearing.inner_centre_radius * contacts.load[0] * contacts.sine[0] * points.sign
-    touching, gaps = np.maximum(0.0, contacts.depth), np.maximum(0.0, -contacts.depth)
-    return BallEquilibrium(
-        position=batch.position,
-        inner_load=spread(contacts.load[0]),
-        outer_load=spread(contacts.load[1]),
-        inner_angle=spread(signed[0]),
-        outer_angle=spread(signed[1]),
-        inner_approach=spread(touching[0]),
-        outer_approach=spread(touching[1]),
-        inner_gap=spread(gaps[0]),
-        outer_gap=spread(gaps[1]),
-        speeds=Speeds(*(spread(value) for value in vars(rolling).values())),
-        gyroscopic_moment=spread(moment),
-        cage_speed=spread(points.cage_speed(_mean_cosine(contacts))),
-        centrifugal_force=spread(forces.state.outward),
-        axial_displacement=spread(forces.state.ring[0]),
-        radial_displacement=spread(forces.state.ring[1]),
-        lateral_displacement=spread(forces.state.ring[2]),
-        moment=spread(np.add.reduce(levers * points.cosine, axis=0)),
-        lateral_moment=spread(np.add.reduce(levers * points.sine, axis=0)),
-        residual=spread(forces.residual),
-        iterations=spread(steps),
+    levers = batch.bearing.inner_centre_radius * contacts.load[0] * contacts.sine[0] * points.sign
+    return BallEquilibrium.of(
+        batch,
+        loads=contacts.load,
+        angles=points.sign * angles,
+        depths=contacts.depth,
+        rolling_angle=0.5 * (angles[0] + angles[1]),
+        cage_speed=points.cage_speed(_mean_cosine(contacts)),
+        outward=forces.state.outward,
+        ring=forces.state.ring,
+        moments=[np.add.reduce(levers * points.cosine, axis=0), np.add.reduce(levers * points.sine, axis=0)],
+        residual=forces.residual,
+        steps=steps,
     )

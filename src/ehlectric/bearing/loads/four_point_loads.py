@@ -23,16 +23,10 @@ from typing import TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
-from ehlectric.bearing.loads.ball_contacts import Contacts, Spans, significant, stiffness_at, stiffness_laws
-from ehlectric.bearing.loads.ball_loads import BallEquilibrium
-from ehlectric.bearing.loads.geometry import (
-    FourPointBearing,
-    Speeds,
-    centrifugal_force,
-    gyroscopic_moment,
-    rolling_speeds,
-)
-from ehlectric.bearing.loads.ring import AIM, Batch, Operation, balance, refuse_unbalanced
+from ehlectric.bearing.loads.ball_contacts import Contacts, Spans, stiffness_at
+from ehlectric.bearing.loads.ball_loads import BallEquilibrium, BallPoints, laws_of
+from ehlectric.bearing.loads.geometry import FourPointBearing
+from ehlectric.bearing.loads.ring import AIM, Batch, Operation, balance, chosen, joined, refuse_unbalanced
 
 # Points of operation that are computed together: few enough for the processor's cache.
 _BLOCK = 1024
@@ -43,12 +37,6 @@ _TINY = np.finfo(float).tiny
 _SIDES = np.array([1.0, -1.0])
 
 T = TypeVar("T")
-
-
-def _chosen(one: T, points: slice | Mask | IntArray) -> T:
-    """Same class with some of the points, the last dimension of its arrays; a dimension of 1 is for all."""
-    values = (getattr(one, each.name) for each in fields(one))  # type: ignore[arg-type]
-    return type(one)(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
 
 
 def _take(one: T, points: IntArray, other: T) -> None:
@@ -219,7 +207,7 @@ def _stepped(balls: _Balls, place: Array, pull: _Pull) -> tuple[Array, _Pull]:
         share = np.clip(ahead[on] / (ahead[on] - back[on]), _SHIFT, 1.0 - _SHIFT)
         part = low[on] + share * (high[on] - low[on])
         there[:, on] = place[:, on] + part * step[:, on]
-        new = _Pull.of(_chosen(balls, on), there[:, on])
+        new = _Pull.of(chosen(balls, on), there[:, on])
         _take(pull, on, new)
         force = np.sum(new.force * step[:, on], axis=0) / slope[on]
         before = force > 0.0
@@ -238,7 +226,7 @@ def _settled(balls: _Balls, start: Array) -> Array:
         if not moving.any():
             break
         if not moving.all():
-            on, here, pull, balls = on[moving], here[:, moving], _chosen(pull, moving), _chosen(balls, moving)
+            on, here, pull, balls = on[moving], here[:, moving], chosen(pull, moving), chosen(balls, moving)
         here, pull = _stepped(balls, here, pull)
         place[:, on] = here
     return place
@@ -260,83 +248,36 @@ def _seated(balls: _Balls, guess: Array, depth: Array) -> Array:
     # A ball at rest may have play now.
     unsure = ~lower & ~(near & turning)
     if unsure.any():
-        some = _chosen(balls, unsure)
+        some = chosen(balls, unsure)
         middle = some.middle()
         least = some.depth(middle)
         start = np.where(some.sunk > np.maximum(least, 0.0), bottom[:, unsure], middle)
         place[:, unsure] = np.where(near[unsure] & (least > 0.0), guess[:, unsure], start)
         loaded[unsure] |= least > 0.0
     if loaded.any():
-        place[:, loaded] = _settled(_chosen(balls, loaded), place[:, loaded])
+        place[:, loaded] = _settled(chosen(balls, loaded), place[:, loaded])
     return place
 
 
 @dataclass(frozen=True)
-class _Points:
-    """Bearings and their operation at n points; the last dimension of arrays is n, or 1 if all are equal."""
+class _Points(BallPoints):
+    """The same with the arches of a four-point contact bearing."""
 
-    # Cosine and sine of the position of each ball, shape (elements, n).
-    cosine: Array
-    sine: Array
-    load: Array  # axial, radial and lateral load on the ring [N], shape (3, n)
-    inner_speed: Array  # angular speed of the inner ring [rad/s]
-    outer_speed: Array
-    ratio: Array  # D/d_m
-    swing: Array  # centrifugal force over the square of the speed of the cage [kg m]
-    distance: Array  # radial distance of the groove centres in concentric rings [m]
-    free_cosine: Array  # cosine of the free contact angle
     endplay: Array  # axial internal clearance [m]
     apart: Array  # S_i and S_o [m], shape (2, 1, n)
-    offsets: Array  # lengths at first touch of the inner and outer contact [m], shape (2, 1, n)
     laws: Array  # coefficients of ln K of both rings' contacts, shape (m, 2, 1, 1, n)
 
     @classmethod
     def of(cls, batch: Batch[FourPointBearing]) -> _Points:
         """Points of a batch."""
-        bearing, operation, row = batch.bearing, batch.operation, np.atleast_1d
-        load = np.zeros((3, batch.number))
-        load[0], load[1] = operation.axial_load, operation.radial_load
-        position = np.atleast_2d(operation.positions(bearing.elements)).T
-        laws = np.stack(stiffness_laws(bearing, batch.modulus))
-        laws = significant(np.moveaxis(laws[:, np.newaxis] if laws.ndim == 2 else laws, -1, 0))
-        apart, offsets = (
-            np.stack(np.broadcast_arrays(*map(row, pair)))[:, np.newaxis]
-            for pair in (bearing.separations, bearing.offsets)
-        )
+        bearing, row = batch.bearing, np.atleast_1d
         return cls(
-            cosine=np.cos(position),
-            sine=np.sin(position),
-            load=load,
-            inner_speed=row(operation.inner_speed),
-            outer_speed=row(operation.outer_speed),
-            ratio=row(bearing.ball_diameter / bearing.pitch_diameter),
-            swing=row(centrifugal_force(bearing.element_mass(batch.density), bearing.pitch_diameter, 1.0)),
-            distance=row(bearing.radial_distance),
-            free_cosine=np.cos(row(bearing.free_angle)),
+            # Each ball once.
+            **cls.shared(batch, batch.rows[: bearing.elements]),
             endplay=row(bearing.endplay),
-            apart=apart,
-            offsets=offsets,
-            laws=laws[:, :, np.newaxis, np.newaxis],
+            apart=np.stack(np.broadcast_arrays(*map(row, bearing.separations)))[:, np.newaxis],
+            laws=laws_of(batch)[:, :, np.newaxis, np.newaxis],
         )
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Numbers of balls and of points."""
-        return len(self.cosine), self.load.shape[1]
-
-    @property
-    def size(self) -> Array:
-        """Resultant load [N], shape (n,)."""
-        return np.asarray(np.hypot(self.load[0], self.load[1]))
-
-    def cage_speed(self, cosine: Array) -> Array:
-        """Speed of the cage [rad/s] at the mean cosine of the contact angles, shape (n,)."""
-        share = self.ratio * cosine
-        return np.asarray(0.5 * (self.inner_speed * (1.0 - share) + self.outer_speed * (1.0 + share)))
-
-    def outward(self, cosine: Array) -> Array:
-        """Centrifugal force on a ball [N] at the mean cosine of the contact angles, shape (n,)."""
-        return np.asarray(self.swing * self.cage_speed(cosine) ** 2)
 
     def stiffness(self, cosines: Array) -> Array:
         """Stiffness K of contacts with cosines of shape (2, 2, elements, n) [N/m^(3/2)]."""
@@ -406,11 +347,11 @@ def _first_ring(points: _Points, stiffness: Array, outward: Array) -> Array:
     distance, apart = np.sum(points.offsets, axis=0)[0], np.sum(points.apart, axis=0)[0]
     touch = distance + (outward / (2.0 * outer * points.free_cosine)) ** (2.0 / 3.0)
 
-    def reaction(ring: Array, chosen: IntArray) -> tuple[Array, Array]:
-        own, (axial, radial) = _chosen(points, chosen), _chosen(points, chosen).middles(ring.T)
-        sides = np.multiply.outer(_SIDES, np.broadcast_to(apart, touch.shape)[chosen])[:, np.newaxis]
+    def reaction(ring: Array, which: IntArray) -> tuple[Array, Array]:
+        own, (axial, radial) = chosen(points, which), chosen(points, which).middles(ring.T)
+        sides = np.multiply.outer(_SIDES, np.broadcast_to(apart, touch.shape)[which])[:, np.newaxis]
         spans = Spans.of(*np.broadcast_arrays(axial + sides, radial))
-        contacts = spans.stiff_contacts(touch[chosen], series[chosen])
+        contacts = spans.stiff_contacts(touch[which], series[which])
         force, tangent = (
             tuple(np.add.reduce(value, axis=0) for value in values)
             for values in (contacts.components, contacts.tangent)
@@ -449,29 +390,29 @@ class _Reaction:
         self._stiffness = points.stiffness(state.cosines)
         self._outward, self._tolerance = state.outward, tolerance
 
-    def contacts(self, ring: Array, chosen: IntArray) -> Contacts:
-        """Contacts at displacements, shape (3, m), of the points ``chosen``, shape (2, 2, elements m)."""
-        own = _chosen(self._points, chosen)
+    def contacts(self, ring: Array, which: IntArray) -> Contacts:
+        """Contacts at displacements, shape (3, m), of the points ``which``, shape (2, 2, elements m)."""
+        own = chosen(self._points, which)
         shape = own.shape
         apart, offsets = (np.broadcast_to(value, (2, *shape)) for value in (own.apart, own.offsets))
         balls = _Balls(
             ring=own.middles(ring).reshape(2, -1),
             apart=apart.reshape(2, -1),
             offsets=offsets.reshape(2, -1),
-            stiffness=self._stiffness[..., chosen].reshape(2, 2, -1),
-            outward=np.broadcast_to(self._outward[chosen], shape).ravel(),
-            tolerance=np.broadcast_to(self._tolerance[chosen], shape).ravel(),
+            stiffness=self._stiffness[..., which].reshape(2, 2, -1),
+            outward=np.broadcast_to(self._outward[which], shape).ravel(),
+            tolerance=np.broadcast_to(self._tolerance[which], shape).ravel(),
         )
-        last = self.place[..., chosen].reshape(2, -1), self.depth[:, chosen].ravel()
+        last = self.place[..., which].reshape(2, -1), self.depth[:, which].ravel()
         place = _seated(balls, *last)
         contacts = balls.contacts(place)
-        self.place[..., chosen] = place.reshape(2, *shape)
-        self.depth[:, chosen] = np.max(contacts.depth, axis=(0, 1), initial=0.0).reshape(shape)
+        self.place[..., which] = place.reshape(2, *shape)
+        self.depth[:, which] = np.max(contacts.depth, axis=(0, 1), initial=0.0).reshape(shape)
         return contacts
 
-    def __call__(self, ring: Array, chosen: IntArray) -> tuple[Array, Array]:
+    def __call__(self, ring: Array, which: IntArray) -> tuple[Array, Array]:
         """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
-        own, contacts = _chosen(self._points, chosen), self.contacts(ring.T, chosen)
+        own, contacts = chosen(self._points, which), self.contacts(ring.T, which)
         axial, radial = (np.sum(value[0], axis=0).reshape(own.shape) for value in contacts.components)
         # Inner and outer contacts in series, A (A + B)^-1 B = (det(A) B + det(B) A)/det(A + B).
         (a, det_a), (b, det_b) = (_tangent(contacts.of(side)) for side in (0, 1))
@@ -518,7 +459,7 @@ def _solved(points: _Points) -> tuple[_State, IntArray]:
     for _ in range(_MOST_ROUNDS):
         if not going.size:
             break
-        new, change, more = _round(_chosen(points, going), _chosen(state, going), aim[going])
+        new, change, more = _round(chosen(points, going), chosen(state, going), aim[going])
         _take(state, going, new)
         steps[going] += more
         done = (change <= _CLOSE) & (aim[going] == AIM)
@@ -579,9 +520,8 @@ def four_point_equilibrium(
     points = _Points.of(batch)
     number = points.shape[1]
     parts = [slice(first, first + _BLOCK) for first in range(0, max(1, number), _BLOCK)]
-    states, numbers = zip(*(_solved(_chosen(points, part)) for part in parts), strict=True)
-    columns = zip(*(vars(each).values() for each in states), strict=True)
-    state = _State(*(np.concatenate(values, axis=-1) for values in columns))
+    states, numbers = zip(*(_solved(chosen(points, part)) for part in parts), strict=True)
+    state = joined(list(states))
     contacts = state.contacts(points)
     residual = _residual(points, state, contacts)
     refuse_unbalanced(batch.spread(residual), "balls")
@@ -597,46 +537,30 @@ def _equilibrium(
     steps: IntArray,
 ) -> BallEquilibrium:
     """Equilibrium of all points of a batch."""
-    bearing, operation, spread = batch.bearing, batch.operation, batch.spread
     elements, number = points.shape
 
     def both(values: Array) -> Array:
         """Values of both rings, of the balls on the first and then on the second diagonal."""
         return values.reshape(2, 2 * elements, number)
 
-    angles = np.arctan2(contacts.sine, contacts.cosine)
-    mean = both(angles).mean(axis=0)
-    speeds = (bearing.ball_diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
-    rolling = rolling_speeds(*speeds, mean)
-    mass = bearing.element_mass(batch.density)
-    moment = gyroscopic_moment(mass, bearing.ball_diameter, rolling, mean)
+    angles = both(np.arctan2(contacts.sine, contacts.cosine))
     # The contact forces pass through the centres of their arcs.
     axial, radial = (value[0] for value in contacts.components)
     levers = np.sum(
-        bearing.inner_centre_radius * axial - _SIDES[:, np.newaxis, np.newaxis] * points.apart[0] * radial,
+        batch.bearing.inner_centre_radius * axial
+        - _SIDES[:, np.newaxis, np.newaxis] * points.apart[0] * radial,
         axis=0,
     )
-    loads, depths, angles = both(contacts.load), both(contacts.depth), both(angles)
-    touching, gaps = np.maximum(0.0, depths), np.maximum(0.0, -depths)
-    return BallEquilibrium(
-        position=np.concatenate([batch.position[..., :elements]] * 2, axis=-1),
-        inner_load=spread(loads[0]),
-        outer_load=spread(loads[1]),
-        inner_angle=spread(angles[0]),
-        outer_angle=spread(angles[1]),
-        inner_approach=spread(touching[0]),
-        outer_approach=spread(touching[1]),
-        inner_gap=spread(gaps[0]),
-        outer_gap=spread(gaps[1]),
-        speeds=Speeds(*(spread(value) for value in vars(rolling).values())),
-        gyroscopic_moment=spread(moment),
-        cage_speed=spread(points.cage_speed(_mean_cosine(contacts))),
-        centrifugal_force=spread(state.outward),
-        axial_displacement=spread(state.ring[0]),
-        radial_displacement=spread(state.ring[1]),
-        lateral_displacement=spread(state.ring[2]),
-        moment=spread(np.add.reduce(levers * points.cosine, axis=0)),
-        lateral_moment=spread(np.add.reduce(levers * points.sine, axis=0)),
-        residual=spread(residual),
-        iterations=spread(steps),
+    return BallEquilibrium.of(
+        batch,
+        loads=both(contacts.load),
+        angles=angles,
+        depths=both(contacts.depth),
+        rolling_angle=angles.mean(axis=0),
+        cage_speed=points.cage_speed(_mean_cosine(contacts)),
+        outward=state.outward,
+        ring=state.ring,
+        moments=[np.add.reduce(levers * points.cosine, axis=0), np.add.reduce(levers * points.sine, axis=0)],
+        residual=residual,
+        steps=steps,
     )

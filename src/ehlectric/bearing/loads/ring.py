@@ -9,8 +9,8 @@ energy does not change even in its last digit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
@@ -161,6 +161,7 @@ class Operation:
         return np.asarray(cage + np.tile(2.0 * np.pi * np.arange(elements) / elements, rows))
 
 
+T = TypeVar("T")
 G = TypeVar("G", BallBearing, FourPointBearing, RollerBearing)
 
 
@@ -241,6 +242,18 @@ class Batch(Generic[G]):
             found[self.able.ravel()] = rows
         found = np.ascontiguousarray(found).reshape(self.shape + rows.shape[1:])
         return found.item() if found.ndim == 0 else found
+
+
+def chosen(one: T, points: slice | Mask | IntArray) -> T:
+    """Same class with some of the points, the last dimension of its arrays; a dimension of 1 is for all."""
+    values = (getattr(one, each.name) for each in fields(one))  # type: ignore[arg-type]
+    return type(one)(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
+
+
+def joined(parts: Sequence[T]) -> T:
+    """Same class with the points of all parts, along the last dimension of its arrays."""
+    columns = zip(*(vars(each).values() for each in parts), strict=True)
+    return type(parts[0])(*(np.concatenate(values, axis=-1) for values in columns))
 
 
 def direction(missing: Array, tangent: Array, reach: Array) -> Array:

@@ -17,15 +17,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ehlectric.arrays import Numbers
+from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.loads.ball_contacts import contact_stiffness
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium
 from ehlectric.bearing.loads.geometry import (
     BallBearing,
-    Speeds,
     ThrustBallBearing,
     centrifugal_force,
-    gyroscopic_moment,
     rolling_speeds,
 )
 from ehlectric.bearing.loads.ring import Batch, Operation
@@ -117,8 +115,7 @@ def thrust_ball_equilibrium(
     square = bearing.bottom_angle
     sizes = own.ball_diameter, own.pitch_diameter
     speeds = rolling_speeds(*sizes, duty.inner_speed, duty.outer_speed, square)
-    mass = own.element_mass(batch.density)
-    outward = centrifugal_force(mass, own.pitch_diameter, speeds.cage)
+    outward = centrifugal_force(own.element_mass(batch.density), own.pitch_diameter, speeds.cage)
     along = duty.axial_load / bearing.elements
     slopes = _slopes(own, batch.modulus, along, outward)
     loads = [along * np.hypot(1.0, slope) for slope in slopes]
@@ -132,31 +129,20 @@ def thrust_ball_equilibrium(
     # The distance of both grooves equals that of the ball from each of them up to rounding.
     residual = np.abs(loads[0] * np.sin(asides[0]) + loads[1] * np.sin(asides[1]) - outward)
 
-    def each(values: Numbers) -> Numbers:
-        return batch.spread(np.array(np.broadcast_to(values, rows)))
+    def both(values: Sequence[Numbers]) -> Array:
+        return np.array([np.broadcast_to(value, rows) for value in values])
 
-    def whole(values: Numbers) -> Numbers:
-        return batch.spread(np.array(np.broadcast_to(values, rows[1:])))
-
-    return BallEquilibrium(
-        position=batch.position,
-        inner_load=each(loads[0]),
-        outer_load=each(loads[1]),
-        inner_angle=each(angles[0]),
-        outer_angle=each(angles[1]),
-        inner_approach=each(depths[0]),
-        outer_approach=each(depths[1]),
-        inner_gap=each(0.0),
-        outer_gap=each(0.0),
-        speeds=Speeds(*(each(speed) for speed in vars(speeds).values())),
-        gyroscopic_moment=each(gyroscopic_moment(mass, own.ball_diameter, speeds, square)),
-        cage_speed=whole(speeds.cage),
-        centrifugal_force=whole(outward),
-        axial_displacement=whole(moved[0] + moved[1]),
-        radial_displacement=whole(0.0),
-        lateral_displacement=whole(0.0),
-        moment=whole(0.0),
-        lateral_moment=whole(0.0),
-        residual=whole(residual / (duty.axial_load + outward)),
-        iterations=batch.spread(np.zeros(rows[1], dtype=np.intp)),
+    nothing = np.zeros(batch.number)
+    return BallEquilibrium.of(
+        batch,
+        loads=both(loads),
+        angles=both(angles),
+        depths=both(depths),
+        rolling_angle=square,
+        cage_speed=speeds.cage,
+        outward=outward,
+        ring=np.array([np.broadcast_to(sum(moved), rows[1:]), nothing, nothing]),
+        moments=(nothing, nothing),
+        residual=np.array(np.broadcast_to(residual / (duty.axial_load + outward), rows[1:])),
+        steps=np.zeros(batch.number, dtype=np.intp),
     )
