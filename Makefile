@@ -60,9 +60,9 @@ $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
 	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,cluster]"
 	@touch $@
 
-# All extras in one step, in place of one step for each command below.
+# All extras in one step, in place of one step for each command below. Python compiles what is used at its first use.
 install: $(BIN)/python pyproject.toml requirements.lock
-	$(BIN)/python -m pip install --quiet --editable ".[dev,docs]"
+	$(BIN)/python -m pip install --quiet --no-compile --editable ".[dev,docs]"
 	@touch $(VENV)/.run $(VENV)/.app $(VENV)/.test $(VENV)/.dev $(VENV)/.docs
 
 run: $(VENV)/.run

@@ -15,7 +15,8 @@ wheel=$(ls "$dist"/*.whl)
 if [ "${VERSIONS:-}" = newest ]; then
   pip install --quiet "${wheel}[app,excel]"
 else
-  pip install --quiet --require-hashes --requirement "$root/requirements.hashes"
+  # What is used is compiled at its first use.
+  pip install --quiet --no-compile --require-hashes --requirement "$root/requirements.hashes"
   pip install --quiet --no-deps "$wheel"
 fi
 pip check

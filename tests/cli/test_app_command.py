@@ -38,12 +38,13 @@ def ask(server, path, method="GET", body=None, **headers):
         return response.status, response.headers, response.read().decode("utf-8", "replace")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "status"),
     [
         (signal.SIGINT, 0),
-        pytest.param(signal.SIGTERM, _TERMINATED, marks=pytest.mark.slow),
-        pytest.param(signal.SIGHUP, _HUNG_UP, marks=pytest.mark.slow),
+        (signal.SIGTERM, _TERMINATED),
+        (signal.SIGHUP, _HUNG_UP),
         (signal.SIGKILL, -signal.SIGKILL),
     ],
 )
@@ -97,6 +98,7 @@ def test_a_taken_port_is_one_line(ehlectric):
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_missing_nicegui_is_one_line(tmp_path):
     code = "import sys; sys.modules['nicegui'] = None; sys.argv[1:] = ['app']; "
     code += "from ehlectric.commands.command_line import main; main()"
@@ -192,6 +194,7 @@ def test_a_message_that_is_none_of_the_protocol_is_one_line_of_the_log(server, m
     assert "Error" in lines[0]
 
 
+@pytest.mark.slow
 def test_a_page_binds_its_browser_to_the_server(server):
     status, headers, text = ask(server, "/")
     assert status == 200

@@ -58,6 +58,7 @@ def test_run_writes_everything_plot_redraws_and_a_folder_holds_one_result(ehlect
     assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
 
 
+@pytest.mark.slow
 def test_a_run_is_printed_written_and_read_back(ehlectric, case_file, tmp_path):
     """With ``--json`` the summary is printed alone; the result is read back to the same.
 
@@ -163,6 +164,7 @@ def test_reader_that_leaves(case_file, tmp_path):
     assert process.returncode != 0
 
 
+@pytest.mark.slow
 def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
     """With nodes that are given, the domain stays that of the paper, which begins at -4 half-widths."""
     example = (EXAMPLES / "line_contact.toml").read_text(encoding="utf-8")
@@ -205,6 +207,7 @@ def test_rough_where_the_contact_is_not(ehlectric, case_file, tmp_path):
     assert summary["roughness"]["lambda_ratio"] is None
 
 
+@pytest.mark.slow
 def test_surface_shows_every_step(ehlectric, tmp_path):
     words = ["--form", "parabola", "--cutoff-long", "80 um", "--truncate", "0.05 um", "-o", "profile.png"]
     done = ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words)
@@ -214,6 +217,7 @@ def test_surface_shows_every_step(ehlectric, tmp_path):
     assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_surface_shows_its_summits(ehlectric):
     words = ["surface", EXAMPLES / "surfaces" / "dektak-1.csv", "--form", "parabola"]
     done = ehlectric(*words)
@@ -266,6 +270,7 @@ def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     assert "is a profile; expected a map" in one_line(ehlectric("surface", hfm, "--map"))
 
 
+@pytest.mark.slow
 def test_check_says_what_a_case_means(ehlectric, case_file):
     done = ehlectric("check", case_file)
     assert done.returncode == 0
@@ -305,6 +310,7 @@ def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, t
     assert "warning: a.csv: 1 of the 97 distances between positions are twice the others" in shown.stderr
 
 
+@pytest.mark.slow
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml").returncode == 0
     assert ehlectric("check", "new.toml").returncode == 0
@@ -377,6 +383,7 @@ BAD_FILES = [
 ]
 
 
+@pytest.mark.slow
 @each("old, new, names", BAD_FILES)
 def test_bad_case_is_one_line_and_nothing_is_written(typed, case_file, tmp_path, old, new, names):
     case_file.write_text(CASE.replace(old, new))
@@ -415,6 +422,7 @@ def test_permissions(ehlectric, case_file, tmp_path):
     assert "permission denied" in one_line(ehlectric("run", case_file))
 
 
+@pytest.mark.slow
 def test_the_papers_solvers(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--solver", "paper")
     assert done.returncode == 0, done.stderr

@@ -28,6 +28,7 @@ def refused(done):
     return text
 
 
+@pytest.mark.slow
 def test_plot_of_a_damaged_header(ehlectric, folder):
     """A byte of the header, without a seal and with one."""
     path = folder / "result.nc"

@@ -17,6 +17,7 @@ outlet = "fingers"
 """
 
 
+@pytest.mark.slow
 def test_run_with_a_discharge(ehlectric, case_file, tmp_path):
     case_file.write_text(CASE + DISCHARGE)
     done = ehlectric("run", case_file, "-o", "out", "--no-plots")

@@ -73,6 +73,7 @@ BEARING = ("bearing", EXAMPLES / "bearing_6208.toml", "--contacts", "formula")
 SURFACE = ("surface", EXAMPLES / "surfaces" / "dektak-1.csv")
 
 
+@pytest.mark.slow
 @each(
     "lock, words",
     [

@@ -59,6 +59,7 @@ def test_map_writes_both_figures(command, tmp_path):
     assert all(name in done.output.partition("written to grid:")[2] for name in names)
 
 
+@pytest.mark.slow
 def test_map_without_y_is_lines_in_another_folder(command, tmp_path):
     held = ("--at", f"{POTENTIAL}=1", "--at", f"{LOAD}=1 MN/m")
     done = command("map", "grid", "--x", SPEED, "--value", "film.minimum_thickness", *held, "-o", "out", "-q")
@@ -95,6 +96,7 @@ def test_what_is_wrong_is_one_line_before_anything_is_written(command, tmp_path,
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_sensitivity_prints_and_writes_the_same(command, tmp_path):
     done = command("sensitivity", "sobol")
     assert done.exit_code == 0, done.output

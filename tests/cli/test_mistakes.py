@@ -81,6 +81,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow
 @each("changes, names", [pytest.param(*case, id=name) for name, case in REFUSED.items()])
 def test_refused_bearings(typed, tmp_path, changes, names):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
@@ -102,6 +103,7 @@ ACCEPTED = {
 }
 
 
+@pytest.mark.slow
 @each("changes", [pytest.param(changes, id=name) for name, changes in ACCEPTED.items()])
 def test_units_that_people_print(typed, tmp_path, changes):
     """The speed and the temperature are those of the units that were always understood."""
@@ -170,6 +172,7 @@ def test_refused_contacts(typed, tmp_path, changes, names):
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_radii_and_speeds_that_no_machine_has_are_doubted(typed, tmp_path):
     """E20: a radius meant in millimetres, and 3000 rad/s as a string, are accepted with a warning."""
     for text, kind, names in (

@@ -59,6 +59,7 @@ def files(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.slow
 def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots")
     assert done.returncode == 0
@@ -123,6 +124,7 @@ BAD = [
 ]
 
 
+@pytest.mark.slow
 @each("command", ["run", "check"])
 @each("change, key, names", BAD)
 def test_wrong_input_is_one_line_before_anything_is_made(
@@ -193,6 +195,7 @@ def test_a_folder_holds_one_result(typed, tmp_path, case_file):
     assert files(out) == at_rest
 
 
+@pytest.mark.slow
 def test_a_step_that_is_not_solved(typed, tmp_path, monkeypatch, case_file):
     """What was found before is summed up all the same; the same command goes on, and fails again."""
     advance, done_before = UnsteadyFilm.advance, []
@@ -250,6 +253,7 @@ def kept(folder):
         return 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "number",
     [

@@ -79,6 +79,7 @@ def test_rough_run(ehlectric, point_file, tmp_path):
     assert roughness["rq_2"] == 0.0
 
 
+@pytest.mark.slow
 def test_not_converged_is_exit_3_with_all_files(ehlectric, point_file, tmp_path):
     point_file.write_text(POINT.replace("nodes = 65", "nodes = 65\n[solver]\nmax_iterations = 1"))
     done = ehlectric("run", point_file, "-o", "out", "--no-plots")

@@ -55,6 +55,7 @@ def has(text, part):
     return re.search(rf"(?<![\w.]){re.escape(part)}(?!\w|\.\w)", text) is not None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
 def test_refusals(file, tmp_path, subtests):
     data = tomllib.loads(file.read_text(encoding="utf-8"))

@@ -30,6 +30,7 @@ def contents(folder):
     return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
 def test_refused_commands(file, typed, tmp_path, subtests):
     data = tomllib.loads(file.read_text(encoding="utf-8"))

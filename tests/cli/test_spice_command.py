@@ -21,6 +21,7 @@ def bearing(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
     """The shaft voltage of the bench is that of the solved bearing."""
     (tmp_path / "sim").mkdir()
@@ -36,6 +37,7 @@ def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
     assert found["shaft_peak_to_peak"] == pytest.approx(2.0 * shaft, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("bearing")
 def test_a_table_over_speed_is_written(ehlectric, tmp_path):
     done = ehlectric("spice", "bearing.toml", "--speeds", "1500 rpm : 6000 rpm : 3", "--bench", "bench.cir")

@@ -72,6 +72,7 @@ def test_help_is_the_answer_to_no_words(typed):
     assert done.stdout == typed("--help").stdout
 
 
+@pytest.mark.slow
 @each("command", [one.name for one in app.registered_commands])
 def test_help_has_what_it_says_and_no_types_of_python(typed, command):
     text = typed(command, "--help").stdout

@@ -186,6 +186,7 @@ def wait_for_points(folder, points, process):
     assert wait_until(enough, every=0.02), "nothing is saved"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     swept(LONG)

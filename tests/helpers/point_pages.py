@@ -55,6 +55,12 @@ KINDS = {
 }
 
 
+# The first kind in every run, the others in long ones: figures take seconds to draw.
+EVERY_KIND = pytest.mark.parametrize(
+    "kind", [kind if kind == "circle" else pytest.param(kind, marks=pytest.mark.slow) for kind in KINDS]
+)
+
+
 @cache
 def result_of(kind):
     return solved(**KINDS[kind])

@@ -32,6 +32,7 @@ def test_measured_exponents():
     assert found == pytest.approx([0.408, 0.230, -0.146, -0.123, 0.230], abs=5e-4)
 
 
+@pytest.mark.slow
 @BEARINGS
 def test_flooded_films_depend_more_on_the_speed(bearing):
     """A miss: flooded films have 0.58 to 0.73 for each candidate, with and without heat in the inlet.
@@ -44,6 +45,7 @@ def test_flooded_films_depend_more_on_the_speed(bearing):
         assert most + 0.15 < hot < cold < 0.75
 
 
+@pytest.mark.slow
 @BEARINGS
 def test_supply_and_warmer_oil_have_the_measured_range(bearing):
     """Grease that fills the track only in part, and oil that is 0 to 40 K warmer, span the exponents."""

@@ -31,6 +31,7 @@ def solved(paper_case):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", LOADS)
 def test_ratio_to_plates(solved, load):
     ratios = [solved[load, u_s].discharge.capacitance_ratio for u_s in SPEEDS]
@@ -38,6 +39,7 @@ def test_ratio_to_plates(solved, load):
     assert ratios == sorted(ratios, reverse=True)
 
 
+@pytest.mark.slow
 @each("load", LOADS)
 @each("u_s", SPEEDS)
 def test_dry_contact_with_a_film_is_nearly_it(solved, load, u_s):
@@ -74,6 +76,7 @@ def hertz_zone(result):
     return x, thickness, film.central_thickness, solved, dry
 
 
+@pytest.mark.slow
 @each("load", LOADS)
 @each("u_s", SPEEDS)
 def test_spike_and_constriction_hardly_matter(solved, load, u_s):

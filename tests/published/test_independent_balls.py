@@ -50,6 +50,7 @@ def test_film_of_another_program_on_its_grid():
     assert film.max_pressure == pytest.approx(row.p_max * result.conditions.max_pressure, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OTHERS)
 def test_films_of_another_program_are_thicker_than_ours_by_their_first_order_wedge(name):
     """By 0 to 1.2 %, as its first-order wedge makes films too thick."""

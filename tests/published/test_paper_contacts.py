@@ -46,6 +46,7 @@ def row_name(row):
     return f"{row['load_per_length']:.3g} N/m, {row['u_s']:g} m/s"
 
 
+@pytest.mark.slow
 @each("row", FILMS, ids=row_name)
 def test_first_order_film_agrees_with_independent_computation(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "first-order")
@@ -61,6 +62,7 @@ def test_first_order_film_agrees_with_independent_computation(solved, row):
     )
 
 
+@pytest.mark.slow
 @each("row", FILMS, ids=row_name)
 def test_second_order_film_agrees_with_independent_computation(solved, row):
     film = solved(row["load_per_length"], row["u_s"], "second-order").film
@@ -68,6 +70,7 @@ def test_second_order_film_agrees_with_independent_computation(solved, row):
     assert film.central_thickness == pytest.approx(row["second_h_0"] * MICRO, rel=1e-3, abs=0.0)
 
 
+@pytest.mark.slow
 @each("row", FILMS, ids=row_name)
 def test_second_order_film_is_near_the_converged_one(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")
@@ -80,6 +83,7 @@ def test_second_order_film_is_near_the_converged_one(solved, row):
     )
 
 
+@pytest.mark.slow
 @each("wedge", ["first-order", "second-order"])
 @each("row", FILMS, ids=row_name)
 def test_solution_meets_its_equations(solved, row, wedge):
@@ -96,6 +100,7 @@ def test_solution_meets_its_equations(solved, row, wedge):
     assert film.cavitates
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
@@ -113,6 +118,7 @@ def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
     assert np.min(finest.state.pressure) >= problem.fluid.ambient_pressure - 1e-9
 
 
+@pytest.mark.slow
 @each("row", TABLE_3)
 def test_table_3(solved, row):
     result = solved(1.57e6, row["u_s"], "second-order")
@@ -130,6 +136,7 @@ def test_table_3(solved, row):
             assert abs(computed - printed * MICRO) <= tolerance * printed * MICRO + HALF_PRINT
 
 
+@pytest.mark.slow
 @each("row", FILMS, ids=row_name)
 def test_field_is_v12_over_h_min_at_the_constriction(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")

@@ -105,6 +105,7 @@ def test_field_of_over_relaxation_is_ours_to_its_grid_error(paper_case, row):
     assert errors[1] / errors[2] > 3.0
 
 
+@pytest.mark.slow
 def test_a_case_takes_either_solver(paper_case):
     case = paper_contact(paper_case, FILMS[0], wedge="first-order", nodes=801)
     theirs, ours = solve(case, solvers=PAPER), solve(case)

@@ -42,6 +42,7 @@ def grids(most):
     return [pytest.param(int(n), marks=[pytest.mark.slow] if int(n) > most else []) for n in FILMS]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nodes", grids(129))
 def test_first_order_film_agrees_with_independent_computation(solved, nodes):
     film = solved(nodes, "first-order").film
@@ -54,6 +55,7 @@ def test_second_order_film_is_near_the_extrapolated_one(solved):
     assert np.max(np.abs(off(solved(257, "second-order").film, EXTRAPOLATED))) < 7e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("nodes", grids(129))
 def test_error_estimate_is_the_true_error(solved, nodes, wedge):
@@ -63,6 +65,7 @@ def test_error_estimate_is_the_true_error(solved, nodes, wedge):
     assert (true - rounding) / 3.0 < film.discretisation_error < 3.0 * (true + rounding)
 
 
+@pytest.mark.slow
 def test_film_formulas(solved):
     """Hamrock-Dowson gives 0.251 and 0.438 um; their fits are within 10 % of this film."""
     result = solved(257, "second-order")
@@ -75,6 +78,7 @@ def test_film_formulas(solved):
     assert np.max(np.abs(off(result.film, expected))) < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("nodes", [129])
 def test_solution_meets_its_equations(solved, nodes, wedge):
@@ -91,6 +95,7 @@ def test_solution_meets_its_equations(solved, nodes, wedge):
     np.testing.assert_array_equal(film.thickness, film.thickness[:, ::-1])
 
 
+@pytest.mark.slow
 def test_horseshoe(solved):
     """The film is thinnest at the two sides, not at the exit, and the field largest there: V12/h_min."""
     result = solved(257, "second-order")

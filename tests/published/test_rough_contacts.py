@@ -38,6 +38,7 @@ def test_v12_over_h_min_is_the_largest_field(load, speed, nodes):
     assert result.film.minimum_thickness < 1.01 * result.smooth.minimum_thickness
 
 
+@pytest.mark.slow
 def test_film_does_not_tell_which_surface_is_rough():
     first, second = (solve(rough_case(surface)) for surface in (1, 2))
     np.testing.assert_allclose(second.film.thickness, first.film.thickness, rtol=1e-10)
@@ -49,6 +50,7 @@ def test_film_does_not_tell_which_surface_is_rough():
     np.testing.assert_allclose(second.field.strength[:, ::-1], first.field.strength, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_field_of_unequal_bodies_tells():
     # A small body in a tight ring: the walls slope, and so it matters which of them is rough.
     radii = {"reduced_radius": None, "radius_1": 14.1e-3 / 3, "radius_2": -14.1e-3 / 2}
@@ -83,6 +85,7 @@ def test_grid_that_does_not_resolve_the_profile_is_said():
     )
 
 
+@pytest.mark.slow
 def test_roughness_is_in_the_summary():
     summary = solve(rough_case(nodes=1601)).summary()
     steps = summary["roughness"]["surfaces"][0]["steps"]
@@ -121,6 +124,7 @@ def test_lambda_ratio_is_of_what_the_film_feels():
             assert roughness["lambda_ratio_smooth"] == pytest.approx(smooth / rq, rel=0.02, abs=0.0)
 
 
+@pytest.mark.slow
 def test_smooth_contact_is_beside_the_rough_one():
     result = solve(rough_case(nodes=1601))
     alone = solve(result.case.replace(roughness=()))
@@ -163,6 +167,7 @@ def test_film_of_the_order_of_its_roughness():
     assert touching.minimum_thickness == pytest.approx(1e-9, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_waves_in_the_outlet_do_not_fill_it():
     """Waves of 4 µm narrow the gap behind the exit, where there is too little oil to fill it."""
     wave = {"surface": 1, "generator": "sinusoid", "amplitude": 20e-9, "wavelength": 4e-6, "phase": 1.0}

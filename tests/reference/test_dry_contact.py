@@ -93,6 +93,7 @@ def test_smooth_line_is_hertz(linear):
     assert pressure[-1] < 3e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [1.0, 3.0])
 def test_smooth_point_is_hertz(k):
     ratio, compliance = dry.ellipse(k)
@@ -144,6 +145,7 @@ def test_complete_contact_of_a_sinusoid():
     np.testing.assert_allclose(found.pressure, 4.0 + np.pi * 2.0 * 3.0 / 5.0 * wave, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_complete_contact_of_a_map():
     # The pressure of a wave z is E* q z/2, so that its mean square is that of the gradient times E*^2/4.
     heights, gradient = rough_map(128)

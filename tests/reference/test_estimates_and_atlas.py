@@ -42,6 +42,7 @@ def test_estimates_are_those_of_the_program(name):
     assert found["true"] == pytest.approx(float(stored["true"]), rel=0.05, abs=1e-5)
 
 
+@pytest.mark.slow
 @each(
     ("kind", "least", "median"),
     [
@@ -61,6 +62,7 @@ def test_films_of_the_atlas_keep_their_stated_error(kind, least, median):
     assert np.all(np.mean(off <= stated, axis=0) >= 0.95)
 
 
+@pytest.mark.slow
 def test_classes_of_the_points():
     """Light and heavy, slender and wide contacts each keep their stated error in 95 % of the films."""
     laws = atlas.laws_of("points")

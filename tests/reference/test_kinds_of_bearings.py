@@ -221,6 +221,7 @@ def differences(found, own):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_loads_and_displacement(name):
     for number in range(POINTS):
@@ -230,6 +231,7 @@ def test_loads_and_displacement(name):
         assert max(found.values()) < 1e-6, (number, found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_loads_with_the_cage_turned(name):
     """A quarter, a half and three quarters of a pitch on; the last one mirrors the first."""
@@ -252,6 +254,7 @@ def check_electric(table, oil, positions=1):
     assert np.min(breaks) == pytest.approx(np.min(first), rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_capacitance_and_breakdown(name):
     for number in range(3):

@@ -35,6 +35,7 @@ def test_files_are_those_of_the_manifest():
     assert sum(path.stat().st_size for path in TARGET.iterdir() if path.is_file()) < 20e6
 
 
+@pytest.mark.slow
 def test_inputs_are_those_of_the_design():
     drawn, written = dict(contacts()), rows("contacts.csv")
     assert len(written) == 240
@@ -65,6 +66,7 @@ def test_profiles_pass_through_the_central_film():
         assert film == pytest.approx(float(results[name]["central_film"]), rel=0.02), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["line-002", "line-050", "rough-003", "hot-002"])
 def test_lines_agree_on_a_coarser_grid(name):
     exact = rows("results.csv")[name]
@@ -100,6 +102,7 @@ def test_comparison_finds_what_is_wrong(tmp_path):
     assert lines["rough"][2:5] == ["20", "1.00%", "+1.00%"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -23,6 +23,7 @@ def test_pressure_carries_the_load(film):
     assert load == pytest.approx(point_film.LOAD, rel=1e-10, abs=0.0)
 
 
+@pytest.mark.slow
 @each("film", FILMS)
 @each("at", [(-0.3, 0.01), (0.7, 1.0), (INLET, 0.4), (1.0, SIDE), (-1.89, -1.79)])
 def test_deflection_is_the_potential(film, at):

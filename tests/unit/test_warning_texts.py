@@ -5,6 +5,8 @@ import string
 import tomllib
 from pathlib import Path
 
+import pytest
+
 import ehlectric
 from ehlectric.errors import CODES
 from tests.unit.test_warnings import FOREIGN
@@ -39,6 +41,7 @@ def calls():
         yield file, (code, situation), {each.arg for each in node.keywords}
 
 
+@pytest.mark.slow
 def test_every_warning_has_the_values_of_its_text():
     known, used = dict(texts()), set()
     for file, key, names in calls():
@@ -61,6 +64,7 @@ def test_every_code_has_its_text():
     assert {code for code, _ in dict(texts())} == set(CODES) - FOREIGN
 
 
+@pytest.mark.slow
 def test_no_text_is_written_where_a_warning_is_given():
     """Only a warning that was made before is made again, with its place in front of its text."""
     given = {ast.unparse(node.args[0]) for file, node in calls_of("ResultWarning") if file != "errors.py"}

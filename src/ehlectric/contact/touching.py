@@ -609,9 +609,9 @@ def asperities(
     --------
     >>> from ehlectric import solve
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 0.001}
-    >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.3 um", "wavelength": "20 um"}
+    >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.3 um", "wavelength": "40 um"}
     >>> table = {"contact": contact | {"max_hertz_pressure": "0.5 GPa"}, "lubricant": {"base": "paper"}}
-    >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 401}, "roughness": [wave]}))
+    >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 201}, "roughness": [wave]}))
     >>> result.asperities.touching.spots > 0, result.asperities.electrical.behaviour
     (True, 'resistive')
     """

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
@@ -294,8 +295,15 @@ def _even(line: str, size: float, room: float) -> list[str]:
 
 def _width(text: str, size: float, *, math: bool = False) -> float:
     """Width of a line of text of a size [pt]."""
+    family, own = mpl.rcParams["font.family"], mpl.rcParams["font.sans-serif"]
+    return _width_in((*family, *own), text, size, math=math and "$" in text)
+
+
+@lru_cache(maxsize=4096)
+def _width_in(_fonts: tuple[str, ...], text: str, size: float, *, math: bool) -> float:
+    """The same, kept for the fonts of a style, because each line is broken at many widths."""
     letters = FontProperties(size=size)
-    return float(text_to_path.get_text_width_height_descent(text, letters, ismath=math and "$" in text)[0])
+    return float(text_to_path.get_text_width_height_descent(text, letters, ismath=math)[0])
 
 
 def _size_of(setting: str) -> float:

@@ -23,6 +23,7 @@ def far(film):
     return film.x[0] / film.scales.length
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("load", "speed"), [(3e5, 4.0), (5e4, 4.0), (1e4, 4.0), (3e3, 2.0)])
 def test_the_error_asked_for_has_the_domain_in_it(load, speed):
     """Beside an inlet of 240 half-widths, which costs 0.2 % at most; the default one costs up to 75 %."""

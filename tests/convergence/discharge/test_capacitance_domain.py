@@ -44,6 +44,7 @@ def dry_gap(x, b):
     return 0.5 * (x / b * np.sqrt((x / b) ** 2 - 1.0) - np.arccosh(x / b))
 
 
+@pytest.mark.slow
 def test_capacitance_of_a_line_contact_tends_to_a_limit():
     """What a longer domain adds is that of the dry gap and the film; far out it goes with 1/x."""
     results = [line(size) for size in (1, 2, 4, 8)]

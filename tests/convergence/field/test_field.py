@@ -26,6 +26,7 @@ def sinusoidal_field(amplitude, wavenumber, columns=6401, degree=12):
     return solve_field(FieldProblem(x, 0 * x, upper, 1 + 0 * x, 0.0, 1.0, degree=degree))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("qh", [0.01, 0.03, 0.1, 0.3, 1.0, 3.0])
 def test_sinusoidal_wall_to_its_next_order(slope, qh):
     """The formulas are of second order in A/h, so the difference is of third; of fourth for C."""

@@ -21,6 +21,7 @@ def manufactured():
     return [sp.lambdify((x, y), f, "numpy") for f in (lower, upper, v, eps, charge)]
 
 
+@pytest.mark.slow
 def test_manufactured_solution_is_met_to_second_order(slope):
     """Cut cells, varying permittivity across and along, and free charge."""
     lower, upper, v, eps, charge = manufactured()

@@ -55,6 +55,7 @@ def sphere_over_plane(columns, gap, *, degree=8):
 
 
 # The charges within r/2 by the series of images, printed in the design.
+@pytest.mark.slow
 @pytest.mark.parametrize(("gap", "printed"), [(1e-6, 1.7854e-12), (1e-4, 5.4641e-13)])
 def test_sphere_over_plane(slope, gap, printed):
     exact = sphere_plane_charge(RADIUS / 2, RADIUS, gap)
@@ -214,6 +215,7 @@ def test_manufactured_solution_along_the_gap(exact, slope):
         assert slope(1 / (columns[1:] - 1), component[1:]) == pytest.approx(2.0, abs=0.3)
 
 
+@pytest.mark.slow
 def test_manufactured_solution_across_the_gap(exact):
     """Exponential: every two degrees come a decade nearer to what the same columns give in the limit."""
 

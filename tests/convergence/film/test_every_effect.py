@@ -83,6 +83,7 @@ COMBINATIONS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("geometry", "effects"), COMBINATIONS)
 def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
     """Oil to 1e-6 of the mean flow, heat to 1 %, load to 1e-9."""
@@ -97,6 +98,7 @@ def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
         assert film.heated.max_temperature_rise > 0.5
 
 
+@pytest.mark.slow
 @each("hot", [False, True])
 def test_a_layer_that_floods_is_no_supply(hot):
     """To 1e-8 of the film."""
@@ -107,6 +109,7 @@ def test_a_layer_that_floods_is_no_supply(hot):
     np.testing.assert_allclose(film_of(supplied).thickness, flooded.thickness, rtol=1e-8)
 
 
+@pytest.mark.slow
 @each("starved", [False, True])
 def test_a_boundary_film_that_is_thin_changes_no_hot_film(starved):
     """To 1e-8 of the film: nowhere do the surfaces touch."""
@@ -127,6 +130,7 @@ def test_a_newtonian_rheology_is_the_film_without_it(effects):
     np.testing.assert_allclose(sheared.central_thickness, plain.central_thickness, rtol=1e-8)
 
 
+@pytest.mark.slow
 @each("part", [0.3, 0.8])
 def test_oil_that_conducts_all_heat_leaves_a_starved_film_isothermal(part):
     """To 1e-6: with 1.4e4 W/(m K) in the oil and 1e9 in the bodies no temperature builds up."""
@@ -162,6 +166,7 @@ def carried_across(problem, temperature, zeta):
     return trapezoid(density * (1.0 - 0.5 * slip + slip * share / share[-1]), fine, axis=0)
 
 
+@pytest.mark.slow
 def test_a_hot_film_of_sliding_surfaces_gets_its_layer_and_no_more():
     """The slow surface is hot ahead of the contact, and the oil there moves with the fast one.
 
@@ -192,6 +197,7 @@ def moving(geometry, **effects):
     return contact, MovingFilm(contact.problem, contact.moving_gap)
 
 
+@pytest.mark.slow
 @each("hot", [False, True])
 @each("starved", [False, True])
 def test_without_motion_every_film_stays(hot, starved):

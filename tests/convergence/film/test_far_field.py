@@ -45,6 +45,7 @@ def test_load_outside_of_a_wide_domain():
     )
 
 
+@pytest.mark.slow
 def test_rigid_ball_on_any_domain():
     """With the oil around it, the film does not depend on where the domain ends.
 
@@ -72,6 +73,7 @@ def test_rigid_ball_on_any_domain():
 LAWS = reference_laws()
 
 
+@pytest.mark.slow
 @each(
     ("load", "lubricant", "ratio"),
     [

@@ -40,6 +40,7 @@ def martin_film(nodes, *, wedge_order):
     return solve_film(problem)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("wedge_order", "order"), [(1, 1.0), (2, 2.0), (3, 2.0)])
 def test_rigid_isoviscous_film_converges_to_martin(slope, wedge_order, order):
     intervals = np.array([825, 1650, 3300, 6600])
@@ -57,6 +58,7 @@ def test_rigid_film_cavitates_where_martin_does():
     assert begin == pytest.approx(exact, abs=2.0 * (film.x[1] - film.x[0]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("wedge", "order"), [("first-order", 1.0), ("second-order", 2.0)])
 def test_order_of_the_elastic_film(paper_case, slope, wedge, order):
     """From the differences between grids that double, at 1 GPa and 2 m/s."""
@@ -122,6 +124,7 @@ def test_iterations_do_not_grow_with_the_grid(paper_case, wedge, load, u_s):
     assert krylov_iterations(fine).mean() <= 1.5 * krylov_iterations(coarse).mean()
 
 
+@pytest.mark.slow
 @each("nodes", [65, 100, 101, 102, 200, 201, 202, 1000, 1603, 2048, 3200, 5000])
 def test_any_number_of_nodes(paper_case, nodes):
     film = film_alone(paper_case.replace({"contact.max_hertz_pressure": "1 GPa", "grid.nodes": nodes}))

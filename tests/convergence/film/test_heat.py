@@ -10,6 +10,7 @@ from ehlectric.film.heated_film import DEGREE
 from tests.helpers.hot import couette
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("nahme", "largest", "stress", "error"),
     [
@@ -34,6 +35,7 @@ def test_newtonian_thermoviscous_couette_flow(nahme, largest, stress, error):
         assert found[0] == pytest.approx(exact_stress, rel=relative)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("nahme", "rate", "stress", "largest", "error"),
     [

@@ -20,6 +20,7 @@ def table_line(**options):
     return solve_heated_film(hot_contact(hot_oil(), nodes=301, **options))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speed", "central", "minimum"),
     [
@@ -40,6 +41,7 @@ def test_loss_of_film_in_pure_rolling(speed, central, minimum):
     assert found.energy_imbalance < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("slip", "central", "minimum", "traction", "middle"),
     [
@@ -63,6 +65,7 @@ def test_film_and_traction_over_slip(slip, central, minimum, traction, middle):
         assert rise == pytest.approx(middle, rel=0.05)
 
 
+@pytest.mark.slow
 def test_traction_has_its_peak_at_a_tenth_of_slip():
     slips = (0.02, 0.1, 0.5)
     found = [table_line(speed=4.0, slide_to_roll_ratio=s, rheology=EYRING) for s in slips]
@@ -105,6 +108,7 @@ def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
     assert [hot, thin] == pytest.approx([cold, cold_thin], rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "film", "kelvin"),
     [
@@ -125,6 +129,7 @@ def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):
     np.testing.assert_allclose(plus.temperature, minus.temperature[::-1], atol=kelvin)
 
 
+@pytest.mark.slow
 def test_order_along_x_and_error_of_the_rise():
     speed = {"speed": 5.0, "slide_to_roll_ratio": 0.25, "rheology": EYRING}
     *found, fine = (solve_heated_film(paper_line(nodes=n, **speed)) for n in (101, 201, 401, 801))
@@ -138,6 +143,7 @@ def test_order_along_x_and_error_of_the_rise():
     assert found[-1].temperature_rise_error < 0.01 * fine.max_temperature_rise
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_random_lines_converge(seed):
     found = solve_heated_film(random_contact(seed, nodes=201))
@@ -163,6 +169,7 @@ def test_half_of_a_point_contact_is_the_whole():
     assert half.power_loss == pytest.approx(both.power_loss, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_random_point_converges():
     found = solve_heated_film(random_contact(2, point=True, nodes=49))
     assert found.status == "converged"

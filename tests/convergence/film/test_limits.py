@@ -65,6 +65,7 @@ def test_light_isoviscous_contacts_tend_to_the_rigid_one(slope):
     assert slope(groups, differences) == pytest.approx(2.0, abs=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bend", [0.0, 0.7])
 def test_long_gaps_tend_to_the_thin_one(slope, bend):
     """Walls and permittivity of one shape, ever longer against the gap.

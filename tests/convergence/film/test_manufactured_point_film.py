@@ -21,11 +21,12 @@ def errors(exact, nodes, *, wedge_order):
     return [np.max(np.abs(pressure)), np.max(np.abs(thickness)), abs(h00[0, 0])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("skew", "nodes"),
     [
         pytest.param(0.0, [49, 97], id="symmetric"),
-        pytest.param(0.5, [65, 129], id="whole", marks=pytest.mark.slow),
+        pytest.param(0.5, [65, 129], id="whole"),
     ],
 )
 def test_second_order(slope, skew, nodes):

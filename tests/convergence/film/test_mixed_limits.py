@@ -88,6 +88,7 @@ def test_film_at_its_tolerance_is_that_of_a_smaller_one(table):
     np.testing.assert_allclose(found.film_outside, exact.film_outside, rtol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hardness", ["0.8 GPa", "1 GPa"])
 def test_hard_line_at_rest_is_the_dry_contact_with_this_hardness(hardness):
     """Both solvers hold the pressure at the hardness on the same nodes, and agree on the flattened gap."""
@@ -137,6 +138,7 @@ THICK = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", THICK)
 def test_thick_film_does_not_know_the_boundary_film(case):
     """The same steps with and without a boundary film, and the same film from the solver of touching ones."""

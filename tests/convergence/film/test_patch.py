@@ -47,6 +47,7 @@ def key_thicknesses(solution):
     return np.array([at_centre(solution.level.mesh, film), np.min(film)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CONTACTS)
 def test_patch_with_the_spacing_of_the_coarse_grid_has_its_film(name):
     """Nothing is refined: pressure outside, load and edges alone must give the same film again."""
@@ -159,6 +160,7 @@ def test_rough_film_on_a_patch_is_that_of_the_whole_domain(name):
     )
 
 
+@pytest.mark.slow
 def test_load_cut_off_is_that_of_the_whole_domain():
     """A film refined inside a patch has the domain of the coarse film, and the load of the contact."""
     case = contact("20 N", "8 m/s")

@@ -34,6 +34,7 @@ def test_speed_by_hand():
     assert entrainment_speed(1000.0) == pytest.approx(1.509, abs=5e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 def test_much_too_coarse_a_grid_is_said(wedge):
     """65 x 65 nodes give half of the film or less, or twice it; the next coarser grid gives none."""

@@ -86,6 +86,7 @@ def test_traction_under_a_hertz_pressure(width, share):
     assert found.sliding == pytest.approx(expected, rel=3e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
 def test_reversed_slip_gives_the_same_film(contact, nodes):
     """Equal bodies: the film is the same, the traction has the other sign."""
@@ -102,6 +103,7 @@ def test_reversed_slip_gives_the_same_film(contact, nodes):
     assert 0.0 < tractions[0].rolling < 0.05 * tractions[0].sliding
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "stress", "speed", "ratio"),
     [(0.5, 6e6, 4.0, 0.0), (0.5, 6e5, 4.0, 0.0), (0.7, 1e5, 4.0, 0.0), (0.8, 3e4, 4.0, 0.5)],
@@ -132,6 +134,7 @@ def test_traction_tends_to_the_limiting_coefficient():
     assert tractions[-1] == pytest.approx(0.05, rel=0.04)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
 def test_evenly_hot_film_is_that_of_a_thinner_oil(contact, nodes):
     """A temperature profile on all grids, the same everywhere, against an oil with these properties."""
@@ -159,6 +162,7 @@ def test_evenly_hot_film_is_that_of_a_thinner_oil(contact, nodes):
     np.testing.assert_allclose(films[2], films[1], rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_sheared_film_converges_with_second_order():
     """Differences of the central thickness on four grids fall by about four from grid to grid."""
     films = [

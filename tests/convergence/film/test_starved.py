@@ -46,6 +46,7 @@ def at_rest(found):
     return float(CubicSpline(mesh.x, mass)(place))
 
 
+@pytest.mark.slow
 @each("part", [0.95, 0.7, 0.4, 0.1, 0.02])
 def test_layer_of_oil_passes_a_line_contact(part):
     """What passes where no pressure drives oil is what came: rho h there is the layer, to 1e-6."""
@@ -71,6 +72,7 @@ def test_thick_layer_floods_a_line_contact():
     assert problem.inlet < thin.starvation.meniscus / problem.scales.length < -1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("meniscus", [-3.0, -1.0, -0.5])
 def test_rigid_line_from_its_meniscus(meniscus):
     """Martin's quadrature from the meniscus: film and meniscus follow from load and layer.
@@ -105,6 +107,7 @@ def test_starved_circle_between_the_published_exponents():
     assert np.all(np.diff(ratios) > 0.0)
 
 
+@pytest.mark.slow
 def test_mass_is_conserved_in_a_point_contact():
     """What enters through the inlet edge leaves through outlet and sides, to rounding."""
     problem = posed(CIRCLE)
@@ -125,6 +128,7 @@ def test_mass_is_conserved_in_a_point_contact():
     assert leaving + sideways - driven == pytest.approx(entering, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_side_of_a_thin_layer_has_the_thinner_film():
     """A layer that is thinner at y > 0 starves that side; mirrored, the film is the mirror image."""
     problem = posed(CIRCLE)

@@ -30,6 +30,7 @@ def bump(height, width, start, speed=1.0):
     return gap
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("posed", "ratio", "steps"), [(line, 0.9, 40), (line, 0.2, 40), (line, 0.05, 40), (point, 0.1, 8)]
 )
@@ -47,6 +48,7 @@ def test_a_steady_starved_film_stays(posed, ratio, steps):
     assert np.max(np.abs(last.mass - first.mass)[inner]) < 1e-11
 
 
+@pytest.mark.slow
 def test_a_thick_layer_gives_the_flooded_motion():
     """A layer thicker than the gap at the inlet: the same numbers as without a layer."""
     problem = line(1000.0)
@@ -137,6 +139,7 @@ def with_wave(moving, history, wave, step):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [1.0, 2.0])
 def test_a_wave_of_the_layer_travels_unchanged_to_the_meniscus(courant):
     """Between the inlet edge and the meniscus the oil is where it was a time T before, T upstream."""

@@ -69,6 +69,7 @@ def test_a_step_is_solved_far_below_its_error(paper_case, monkeypatch):
     assert 0.0 < np.max(np.abs(loose / close - 1.0)) < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [ridge(0.0, 1.0, 0.0), ridge(HEIGHT, 0.1, 0.1, speed=0.0)])
 def test_a_steady_film_stays(paper_case, gap):
     """With steps of one spacing the time steps are the steady scheme: smooth and rough, P, H and the mass."""

@@ -30,6 +30,7 @@ def problem_of(nodes):
     return replace(point_film_problem(case, resolve_point(case)), wedge_order=2)
 
 
+@pytest.mark.slow
 def test_a_steady_film_stays():
     """With steps of one spacing the time steps are the steady scheme."""
     problem = problem_of(65)

@@ -187,6 +187,7 @@ def test_the_voltage_that_ceramic_elements_must_insulate_decides():
     assert "capacitance-bound" in [told.code for told in capacitance.warnings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("motor", [True, False])
 def test_no_card_of_ceramic_elements_is_none(motor):
     table = inputs(element_material="silicon-nitride")
@@ -467,6 +468,7 @@ def test_without_a_motor_the_first_breakdown_decides():
     assert (touching.deciding.key, touching.number("bearing.margin").known) == ("", False)
 
 
+@pytest.mark.slow
 def test_curves_come_before_the_probability():
     table = inputs()
     before, whole = answer_over_speed(table), whole_quick_answer(table)

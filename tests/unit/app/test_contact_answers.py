@@ -70,6 +70,7 @@ def words(answer):
     return " ".join([judged.lead, judged.meaning, judged.numbers, *judged.reasons, judged.assumptions])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "quick"), [("line_contact", True), ("ball_contact", False), ("discharge", True)]
 )
@@ -142,6 +143,7 @@ def test_answer_without_files_is_that_with_files(tmp_path):
     assert at_once.figures == stored.figures
 
 
+@pytest.mark.slow
 def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(tmp_path):
     strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
     view = solved_at_once(strong, str(tmp_path))
@@ -334,6 +336,7 @@ def test_length_of_a_line_contact_is_left_when_it_becomes_a_point():
     assert contact_case(point.table, "").discharge.length is None
 
 
+@pytest.mark.slow
 def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
     table = table_of("ball_contact", grid={"nodes": 129, "inlet": -2.5, "side": 2.0})
     view = solved_at_once(table, str(tmp_path))

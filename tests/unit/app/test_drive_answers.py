@@ -42,6 +42,7 @@ def number(text):
     return float(text.replace("\u202f", "").split()[0])
 
 
+@pytest.mark.slow
 def test_the_first_answer_has_the_numbers_of_check():
     answer, meaning = quick(), check(case_of(DRIVE))
     about = meaning.summary["drive_end"]
@@ -61,6 +62,7 @@ def test_the_first_answer_has_the_numbers_of_check():
     assert (answer.simulated, answer.figures, answer.remedies) == (False, {}, None)
 
 
+@pytest.mark.slow
 def test_both_ends_are_told_apart():
     other = {**DRIVE.value("drive_end"), "bearing": {**DRIVE.value("drive_end.bearing"), "base": "6206"}}
     answer = quick(non_drive_end=other)
@@ -102,6 +104,7 @@ def test_verdict_by_the_divider():
     assert level(**{"source.dc_link": "10 V"})[0] == "green"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "grade", "told"),
     [
@@ -247,6 +250,7 @@ def test_discharges_of_the_shown_time_are_marked(simulated):
     assert all(any(abs(volt - one) < 1e-4 * abs(one) for one in volts) for volt in found)
 
 
+@pytest.mark.slow
 def test_without_discharges_there_are_no_distributions(tmp_path):
     isothermal = {"drive_end.bearing.film_factor": "none"}
     calm = SHORT.changed({"source.dc_link": "20 V", "remedies": None} | isothermal)
@@ -259,6 +263,7 @@ def test_without_discharges_there_are_no_distributions(tmp_path):
     assert not answer.number("end.energy_mean").known
 
 
+@pytest.mark.slow
 def test_a_choke_is_simulated(tmp_path):
     """Right after an edge the choke has all of the voltage; the capacitances share it later."""
     changes = {"circuit.common_mode_inductance": "1 uH", "circuit.common_mode_resistance": "50 ohm"}
@@ -293,6 +298,7 @@ def test_estimated_capacitances_are_told_beside_them():
     ]
 
 
+@pytest.mark.slow
 @mock.patch("ehlectric.drive.drive_cycle.SIMULATED", 12)
 def test_a_duty_cycle_is_simulated_with_the_drive(tmp_path):
     """Its figure and rows are those of the command; the answer at once does not need its file."""

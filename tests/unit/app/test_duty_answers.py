@@ -82,6 +82,7 @@ def summary(session, tmp_path_factory):
     return json.loads((folder / "result" / "summary.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 def test_the_page_has_the_numbers_of_the_command(answer, summary):
     rows = [row for row in total_rows(summary) if row.key.startswith("duty.")]
     assert answer.lines == lines_of(row for row in rows if not row.key.startswith("duty.stretches"))
@@ -102,6 +103,7 @@ def test_the_page_has_the_numbers_of_the_command(answer, summary):
     assert [one.code for one in answer.warnings] == ["columns-ignored"]
 
 
+@pytest.mark.slow
 def test_the_answer_about_the_bearing_does_not_wait_for_its_cycle(session, table):
     """It reads no file: one that is not there does not matter, and its rows stand with the cycle."""
     lost = table | {"duty": {"file": f"{SURFACES}/lost.csv"}}
@@ -113,12 +115,14 @@ def test_the_answer_about_the_bearing_does_not_wait_for_its_cycle(session, table
         duty_answer(lost, session)
 
 
+@pytest.mark.slow
 def test_a_solved_answer_has_the_cycle_of_its_run(session, table, answer):
     found = answer_of(solve_bearing(bearing_case(table, session=session), workers=1), whole=True)
     assert found.duty.lines == answer.lines
     assert not any("cycle" in line.name for line in found.lines)
 
 
+@pytest.mark.slow
 def test_the_figure_has_the_rows_of_the_cycle(answer, duty):
     plot = answer.figure.plot
     lines = {trace["name"]: trace for trace in plot["data"] if "fill" not in trace and trace.get("name")}
@@ -161,6 +165,7 @@ def test_a_long_curve_keeps_its_extremes_beside_its_gaps():
     assert np.any(np.isnan(values[kept])), "the curve has its gap"
 
 
+@pytest.mark.slow
 def test_the_table_of_a_long_cycle_is_short(session):
     rows = "".join(f"{k},3000,1800,70\n" for k in range(1001))
     file = stored(session, f"{HEADS.removesuffix(',gear')}\n{rows}", "surface-3.csv")
@@ -209,6 +214,7 @@ def test_a_cycle_that_does_not_suit_the_bearing_is_refused(tmp_path):
         duty_answer(table, tmp_path)
 
 
+@pytest.mark.slow
 def test_downloads_have_the_cycle_and_its_rows(session, table):
     written = write(table, "formula", session, silent)
     assert "duty.csv" in written.names

@@ -332,6 +332,7 @@ def test_usual_values_of_the_library_are_its_ends(source):
         assert [min(values), max(values)] == pytest.approx(about.usual, rel=2e-3), key
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_usual_factors_of_films_are_those_of_a_fast_cold_greased_bearing():
     changes = {

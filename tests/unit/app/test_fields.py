@@ -67,6 +67,7 @@ def test_ends_of_a_slider_make_a_case(key, place):
     case_of_dict(EXAMPLE.changed({key: field.from_slider(place)}).table, written=True)
 
 
+@pytest.mark.slow
 @given(st.floats(0.0, 1.0), st.sampled_from(NUMBERS))
 def test_place_is_the_inverse_of_at(place, field):
     value = field.at(place)

@@ -305,6 +305,7 @@ def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
 _TEMPERATURES = {"mid-film", "surface 1", "surface 2", "oil in the inlet"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("film", "title", "curves"),
     [

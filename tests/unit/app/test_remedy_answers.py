@@ -11,6 +11,9 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, drive_with
 from tests.helpers.each import each
 
+# The drives of this file take seconds to solve.
+pytestmark = pytest.mark.slow
+
 
 def remedied(name, inputs=BEARING):
     """Drive of a bearing with the remedy of a button, as the page asks for it."""

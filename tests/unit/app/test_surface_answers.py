@@ -62,6 +62,7 @@ def command(file, *options):
     return CliRunner().invoke(app, ["surface", str(file), "--json", *options])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("steps", [({}, []), (STEPS, OPTIONS)])
 def test_parameters_of_a_line_are_those_of_the_command(name, steps):
@@ -71,6 +72,7 @@ def test_parameters_of_a_line_are_those_of_the_command(name, steps):
     assert len(answer.rows) == len(answer.figures) == len(answer.described["steps"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["x3p", "al3d"])
 def test_parameters_of_a_map_are_those_of_the_command(name):
     answer = look({"surface": 1, "file": str(FILES[name]), **STEPS}, POINT, str(FILES[name].parent))
@@ -147,6 +149,7 @@ def bad_files(folder):
     return [*contents, "bomb.x3p"]
 
 
+@pytest.mark.slow
 def test_bad_files_give_the_line_of_the_command(tmp_path):
     for name in bad_files(tmp_path):
         done = command(tmp_path / name)
@@ -166,6 +169,7 @@ def test_an_error_names_the_file_as_it_was_uploaded(tmp_path):
     assert str(tmp_path) not in str(raised.value)
 
 
+@pytest.mark.slow
 @each(
     "keys, key",
     [

@@ -243,6 +243,7 @@ def test_a_bearing_with_a_motor_is_ranked_by_its_margin_on_its_page_too():
     assert next(iter(sweep_answers.choices(alone).values)) == "bearing.first_break"
 
 
+@pytest.mark.slow
 def test_a_line_of_margins_is_compared_with_one(tmp_path):
     vary = {"motor": {"winding_rotor_capacitance": ["5 pF", "20 pF"]}}
     table = {"case": CASE, "vary": vary}
@@ -254,6 +255,7 @@ def test_a_line_of_margins_is_compared_with_one(tmp_path):
     assert "1" in chart.voltage
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact"])
 def test_offered_ranges_are_valid(name):
     table = dict(start(name).table)

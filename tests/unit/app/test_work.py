@@ -49,6 +49,7 @@ def test_a_work_closed_when_a_job_ends_closes_no_file_of_others():
         assert working(Limits(memory=MEMORY), use) == 0
 
 
+@pytest.mark.slow
 def test_a_quick_answer():
     assert working(None, lambda work: work.share().quick(calls.double, 21)) == 42
 
@@ -79,6 +80,7 @@ def test_a_killed_process_loses_its_answer_only_and_another_takes_its_place():
     assert working(None, use) == (1.0, [2] * 8)
 
 
+@pytest.mark.slow
 def test_an_answer_that_takes_too_long_is_given_up():
     async def use(work):
         # The first answers wait until the processes have loaded the physics.
@@ -132,6 +134,7 @@ def test_a_job_tells_its_progress_and_returns():
     assert working(None, use) == ("done", 5, None, 4, 5, "points")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("function", "values", "told"),
     [
@@ -188,6 +191,7 @@ def test_a_job_ends_with_all_that_it_started(how, forks, tmp_path):
     assert wait_until(lambda: not any(map(alive, numbers)))
 
 
+@pytest.mark.slow
 def test_sessions_take_turns_with_their_jobs():
     async def use(work):
         one, other = work.share(), work.share()

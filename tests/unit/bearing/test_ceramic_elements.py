@@ -67,6 +67,7 @@ def test_the_voltage_is_a_bound_without_a_capacitance():
     assert all(one["bearing.element_breakdown"] == "≥" for one in signs)
 
 
+@pytest.mark.slow
 def test_conducting_elements_have_none_of_these_numbers():
     own = totals()
     assert {own[f"element_{name}"] for name in ("voltage", "field", "breakdown", "margin")} == {None}

@@ -168,6 +168,7 @@ def test_a_solution_tells_what_its_case_does():
         assert bool(found.warnings) != converged
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tables", "load", "exponent"), [(BALLS, 60.0, 0.67), (ROLLERS, 1200.0, 0.69)])
 def test_a_film_factor_acts_once(tables, load, exponent):
     """The film of a factor is that of a case at the speed u factor^(1/exponent); the ring's speed stays u."""
@@ -189,6 +190,7 @@ def test_a_film_factor_acts_once(tables, load, exponent):
     assert formula.values.columns() == pytest.approx(thin.values.columns(), rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
 def test_a_contact_of_a_bearing_makes_no_case(monkeypatch, tables):
     ring, solver = of(tables)
@@ -203,6 +205,7 @@ def test_a_contact_of_a_bearing_makes_no_case(monkeypatch, tables):
     assert formula_contact(ring, 60.0).converged
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [5.0, 60.0, 1200.0])
 def test_a_rollers_capacitance_does_not_depend_on_where_its_film_ends(load):
     """Film and tails beside a domain twice as long: within 1 %, the film's own part of that with it.

@@ -69,6 +69,7 @@ def test_loads_of_points_are_those_of_each(bearings, inner):
     assert len(numbers) > 1
 
 
+@pytest.mark.slow
 @each("inner", [True, False])
 @each("way", ["atlas", "formula"])
 def test_contacts_of_points_are_those_of_each(bearings, inner, way):

@@ -88,6 +88,7 @@ def changed(result, **values):
     return BearingResult(dataclasses.replace(result.solution, **values))
 
 
+@pytest.mark.slow
 def test_what_is_not_known_stays_unknown(result, tmp_path):
     """A strength that is none, a Weibull shape, an error of one contact alone, and another version."""
     solution = result.solution
@@ -123,6 +124,7 @@ def test_a_bearing_without_strength_and_conductivity(tmp_path):
     assert loaded.summary() == result.summary()
 
 
+@pytest.mark.slow
 def test_variables_have_units(result, tmp_path):
     save(result, tmp_path)
     with xr.open_dataset(tmp_path / NETCDF, engine="h5netcdf") as dataset:

@@ -68,6 +68,7 @@ def test_the_tables_of_kinds_agree():
     assert set(KINDS) - set(GEOMETRY_CONSTANTS) == {"needle roller"}
 
 
+@pytest.mark.slow
 @each("name", list(BEARINGS))
 def test_points_together_are_those_of_each_alone(name):
     case = case_of(name)

@@ -79,6 +79,7 @@ def at(value, index):
     return value if np.ndim(value) == 0 else value[index]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_points_are_those_of_single_bearings(name):
     changes, ends = CASES[name]

@@ -62,6 +62,7 @@ def by_elements(result, at, fill):
     return parts
 
 
+@pytest.mark.slow
 def test_a_bearing_from_its_elements(result):
     """1/C = 1/C_i + 1/C_o, elements added; V/s of each contact, then what its partner holds.
 

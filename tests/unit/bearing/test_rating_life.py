@@ -21,10 +21,12 @@ def life(tables=BALLS, **changes):
     return solution.summary(probable=False)["life"]
 
 
+@pytest.mark.slow
 def test_without_its_table_there_is_no_life():
     assert life() == dict.fromkeys(KEYS)
 
 
+@pytest.mark.slow
 def test_ball_bearing_by_hand():
     """6208 under 1800 N and 300 N: F_a/F_r = 0.167 is below e = 0.19, so P = F_r. L_10 = (29.1/1.8)^3
     million turns, at 3000 rpm 180 000 an hour."""
@@ -38,12 +40,14 @@ def test_ball_bearing_by_hand():
     assert found["film_modified_life"] == pytest.approx(factor * found["basic_life"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_own_ratings_are_the_printed_ones_within_a_per_cent():
     own, printed = life(**CLEAN), life(bearing__life=PRINTED)
     assert own["dynamic_rating"] == pytest.approx(printed["dynamic_rating"], rel=0.01)
     assert own["static_rating"] == pytest.approx(printed["static_rating"], rel=0.01)
 
 
+@pytest.mark.slow
 @each(("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})])
 def test_reference_life_is_near_the_basic_one(tables, power, changes):
     """Half of the ring is loaded without clearance, as ISO 281 takes it.
@@ -55,12 +59,14 @@ def test_reference_life_is_near_the_basic_one(tables, power, changes):
     assert found["reference_life"] == pytest.approx(steeper * found["basic_life"], rel=0.15)
 
 
+@pytest.mark.slow
 def test_clearance_shortens_the_reference_life_only():
     tight, loose = (life(**CLEAN, bearing__radial_clearance=play) for play in ("0 um", "40 um"))
     assert loose["basic_life"] == tight["basic_life"]
     assert loose["reference_life"] < 0.95 * tight["reference_life"]
 
 
+@pytest.mark.slow
 def test_roughened_raceways_shorten_the_life():
     smooth, rough = (
         life(bearing__life={"contamination_factor": 0.5, "roughened_rq": rq}) for rq in ("0.03 um", "0.5 um")
@@ -91,6 +97,7 @@ def test_contact_angles_without_a_table_have_no_load(degrees):
     assert np.isnan(equivalent_load(1000.0, 500.0, np.deg2rad(degrees), 1.0))
 
 
+@pytest.mark.slow
 def test_many_points_are_single_ones():
     case = bearing_case(BALLS, contacts="atlas", **CLEAN)
     loads = [900.0, 1800.0, 5000.0]
@@ -118,6 +125,7 @@ def test_wrong_tables_name_their_key(table, key):
     assert error.value.key == key
 
 
+@pytest.mark.slow
 @each(
     ("changes", "text"),
     [

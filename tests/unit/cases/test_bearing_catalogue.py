@@ -53,6 +53,7 @@ def test_ratings_follow_from_the_internal_geometry(bearing):
     assert static == pytest.approx(bearing.rating.static, rel=margin, abs=0.0)
 
 
+@pytest.mark.slow
 @over([bearing for bearing in RATED if bearing.roller_length is None])
 def test_number_and_ball_are_the_only_ones_of_the_inch_series_with_both_ratings(bearing):
     """The rule of the catalogue finds the published balls, too, and the next best are clearly worse.

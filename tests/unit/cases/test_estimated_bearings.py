@@ -88,6 +88,7 @@ def test_diameter_series_of_iso_15_are_the_same_for_all_kinds(thin, same):
     assert {(one.bore, one.outer_diameter, one.width) for one in ALL if one.series == thin} <= sizes
 
 
+@pytest.mark.slow
 @each("kind", sorted(ESTIMATE_ERRORS))
 def test_every_bearing_of_the_series_is_a_valid_bearing(kind):
     """At its estimate and at both ends of the ranges of it."""
@@ -116,6 +117,7 @@ def ratings_of(bearing):
     return tuple(rate(*sizes, found.roller_length, angle) for rate in rates)
 
 
+@pytest.mark.slow
 @each(
     ("kind", "dynamic", "static"),
     [

@@ -185,6 +185,7 @@ PARTS = (
 ENDS = ("", "x", "!", "\n", "y\nz", ",", "]")
 
 
+@pytest.mark.slow
 @each("search", named(PATTERNS))
 def test_the_time_of_a_regular_expression_grows_with_the_length_of_the_text(search):
     """40 000 characters take below 1 s; an expression that takes the square of them takes seconds."""
@@ -208,6 +209,7 @@ def test_names_of_files_of_maps_are_recognised_soon():
     assert time.thread_time() - began < SOON
 
 
+@pytest.mark.slow
 @each(
     "text, message",
     [
@@ -321,6 +323,7 @@ def test_the_nearest_name_of_a_long_one_is_found_soon():
     assert time.thread_time() - began < SOON
 
 
+@pytest.mark.slow
 @each(
     "content",
     [

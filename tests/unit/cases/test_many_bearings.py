@@ -134,6 +134,7 @@ def test_a_case_of_many_points_has_no_file():
         many.with_arrays({"bearing.inner_speed": [1.0, 2.0]})
 
 
+@pytest.mark.slow
 def test_pint_quantities_keep_their_units():
     pint = pytest.importorskip("pint")
     unit = pint.get_application_registry()

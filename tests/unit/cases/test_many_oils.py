@@ -138,6 +138,7 @@ def check_each(many, single, indices):
             np.testing.assert_allclose(of_point, value, rtol=1e-12, atol=1e-300, err_msg=name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*COMPLETE, *OILS])
 def test_temperatures(name):
     """From glass to gas, so that many points are refused between those that are not."""
@@ -158,6 +159,7 @@ VARIED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", VARIED)
 @pytest.mark.parametrize("scatter", [1e-3, 0.3])
 def test_properties(name, scatter):

@@ -14,6 +14,7 @@ CONTACT = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz
 CONTACT |= {"entrainment_speed": "4 m/s", "lubricant": "paper"}
 
 
+@pytest.mark.slow
 def test_every_alias_leads_to_keys_that_exist():
     """A key whose name changes would otherwise stay in messages; an alias that became a key is none."""
     for name, keys in ALIASES.items():

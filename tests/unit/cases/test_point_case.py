@@ -232,6 +232,7 @@ def test_replace_takes_parts_of_another_case():
     assert case.replace(contact=other.contact, grid=other.grid) == other
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(table=point_tables)
 def test_cases_of_all_kinds_survive_tables_and_files(table, tmp_path_factory):

@@ -107,6 +107,7 @@ def test_every_number_has_bounds():
                 assert f"{prefix}.{name}" in INPUTS
 
 
+@pytest.mark.slow
 @each("key", INPUTS)
 def test_numbers_out_of_bounds_are_refused_by_name(key):
     kind = INPUTS[key]

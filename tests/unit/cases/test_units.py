@@ -336,6 +336,7 @@ COMPOUND = [
 ]
 
 
+@pytest.mark.slow
 @each("written", sorted({*NAMES, *units._PLAIN_NAMES, *COMPOUND} - {"C"}))
 def test_units_that_are_read_without_pint_are_those_of_pint(written):
     """Pint is the reference; it rounds products of prefixes. C alone may also be a degree Celsius."""

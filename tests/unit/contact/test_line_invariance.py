@@ -76,6 +76,7 @@ def test_the_film_depends_on_m_and_l_alone(radius, modulus, load, viscosity):
         np.testing.assert_allclose(values, expected, rtol=1e-10)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(radius=factor, modulus=factor, viscosity=factor)
 def test_the_field_of_similar_contacts_is_similar(radius, modulus, viscosity):
@@ -87,6 +88,7 @@ def test_the_field_of_similar_contacts_is_similar(radius, modulus, viscosity):
     assert ours["high_field_width"] == pytest.approx(radius * theirs["high_field_width"], rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(voltage=st.floats(1e-3, 1e3), common=st.floats(-1e3, 1e3), sign=st.sampled_from([-1.0, 1.0]))
 def test_the_field_of_a_contact_is_linear_in_the_voltage(voltage, common, sign):

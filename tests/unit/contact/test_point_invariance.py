@@ -105,6 +105,7 @@ def test_half_of_the_contact_is_the_whole_one(wedge):
     assert ours.discretisation_error == pytest.approx(theirs.discretisation_error, rel=1e-4, abs=0.0)
 
 
+@pytest.mark.slow
 def test_any_number_of_nodes_across():
     """Odd numbers are solved by half, even ones as a whole: neighbours differ by their grids alone."""
     films = {}
@@ -123,6 +124,7 @@ def test_any_number_of_nodes_across():
         assert even.minimum_thickness == pytest.approx(odd.minimum_thickness, rel=5e-3, abs=0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nodes", [66, 70])
 def test_any_number_of_nodes_along(nodes):
     case = point({"entrainment_speed": 4.0}, grid={"nodes": nodes, "nodes_y": 65})

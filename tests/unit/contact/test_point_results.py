@@ -50,6 +50,7 @@ def rough_result():
     return solve(point({"entrainment_speed": "4 m/s"}, grid={"nodes": 65}, roughness=[PIT]))
 
 
+@pytest.mark.slow
 def test_summary_has_the_agreed_keys(result, rough_result):
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))
     assert set(summary) == {
@@ -112,6 +113,7 @@ def thicknesses(film):
     return np.array([film.minimum_thickness, film.central_thickness])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", [SLOW("first-order"), "second-order"])
 def test_discretisation_error_is_richardsons(wedge):
     """From two solutions of their own; of first order with the distance from the third order."""
@@ -131,6 +133,7 @@ def test_discretisation_error_is_richardsons(wedge):
     assert found.discretisation_error == pytest.approx(max(estimates), rel=1e-3, abs=0.0)
 
 
+@pytest.mark.slow
 def test_dataset_has_dimensions_and_units(rough_result):
     dataset = rough_result.to_xarray()
     for variable in dataset.variables.values():
@@ -163,6 +166,7 @@ def test_dataset_has_dimensions_and_units(rough_result):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["smooth", "rough"])
 def test_results_survive_the_disk(request, kind, tmp_path):
     original = request.getfixturevalue("result" if kind == "smooth" else "rough_result")
@@ -269,6 +273,7 @@ WARNINGS = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("keys", "message", "code"), WARNINGS)
 def test_warnings(keys, message, code):
     result = solve(point(grid={"nodes": 65}).replace(keys))

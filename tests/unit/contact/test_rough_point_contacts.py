@@ -21,6 +21,7 @@ PIT = {"surface": 1, "generator": "pit", "depth": "0.2 um", "width": "60 um", "r
 PIT |= {"position": "20 um"}
 
 
+@pytest.mark.slow
 def test_a_pit_and_its_mirror_image():
     """Off the middle no half of the contact is like the other; everything is turned over with the pit."""
     left = rough(PIT | {"position_y": "-40 um"})

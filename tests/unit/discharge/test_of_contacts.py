@@ -82,6 +82,7 @@ KINDS += [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "law"), KINDS)
 def test_breakdown_of_one_solve_is_that_of_a_solve_at_it(solved, kind, law):
     """The field is linear in the voltage: 1e-9, the rounding of the solutions."""
@@ -189,6 +190,7 @@ def test_solved_over_the_whole_domain(solved, kind):
     assert before == near(whole.field.capacitance, 2e-3 if kind == "point" else 2e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reach", [0.5, 1.25, 1.9])
 def test_zones_of_a_line_by_quadrature(reach):
     """eps0 eps/h of the film, linear between nodes. The solved field is a thin gap's to about a twelfth of
@@ -236,6 +238,7 @@ def test_the_papers_solvers_agree():
     assert theirs.breakdown_voltage == near(ours.breakdown_voltage, 1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_nothing_new_is_said_of_an_ordinary_case(solved, kind):
     with_discharge = solve(case_of(kind, LAWS["constant"]))
@@ -261,6 +264,7 @@ ALL = LAWS["weibull"] | {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["line", "point"])
 @pytest.mark.parametrize("discharge", [{}, LAWS["constant"], ALL], ids=["nothing", "constant", "all"])
 def test_summary_and_files(solved, kind, discharge, tmp_path):
@@ -318,6 +322,7 @@ def rows(table):
     return {row.key: (row.shown, row.unit + row.note) for row in table}
 
 
+@pytest.mark.slow
 def test_valleys_behind_a_rough_exit_are_filled_by_the_oil_that_leaves_it():
     """The rough example's film ends at x/b = 1.065, and does not form again behind.
 
@@ -356,6 +361,7 @@ def test_beyond_a_paraboloid():
     assert found == pytest.approx(expected, rel=1e-5, abs=0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_a_domain_twice_as_large_has_what_is_told_of_it(geometry):
     """The elastic gap grows faster than the square: by a factor 6 and not 4 from two half-widths to four."""

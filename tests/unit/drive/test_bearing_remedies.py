@@ -44,6 +44,7 @@ def totals(case, changes):
     return solve_bearing(with_remedy(case, changes), workers=1).summary(probable=False)["bearing"]
 
 
+@pytest.mark.slow
 def test_a_coating_in_series_takes_its_share(case, now):
     """On the 80 mm x 18 mm of the outer ring, 200 um of a permittivity of 9."""
     own, found = now.summary(probable=False)["bearing"], totals(case, COATED)
@@ -92,6 +93,7 @@ def test_without_a_motor_a_ring_has_no_voltage(case):
     assert grounded_voltage(bare.solution, 1.0, 1e-7) is None
 
 
+@pytest.mark.slow
 def test_margins_follow_the_shaft_voltage(now):
     summary = now.summary(probable=False)
     found = at_shaft_voltage(summary, 0.5 * summary["bearing"]["shaft_voltage"])

@@ -17,6 +17,7 @@ def drive():
     return DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"drive.duration": "1 ms"})
 
 
+@pytest.mark.slow
 def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
     meaning, solved = check(drive), drive_summary(solve(drive))
     for end in ENDS:
@@ -31,6 +32,7 @@ def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
     assert names.count("breakdown voltage, weakest position") == 2
 
 
+@pytest.mark.slow
 def test_a_source_that_follows_the_speed_is_the_same_source(drive):
     """At the speed at which the frequency and the index are those of the example."""
     quick = drive.replace({"drive.contacts": "formula", "remedies": []})
@@ -78,6 +80,7 @@ def test_a_wrong_remedy_is_refused_before_anything_is_solved(drive, look, change
         look(drive.replace({"remedies": remedies}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("conductivity", "told"), [("1 pS/m", False), ("1 uS/m", True), ("1 mS/m", False)])
 def test_an_oil_slower_than_the_edges_is_noted(drive, conductivity, told):
     """2.4 eps0 over 1 uS/m is 21 us: a fifth of a period of 100 us, and 200 edges of 100 ns."""

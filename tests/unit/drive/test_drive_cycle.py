@@ -50,6 +50,7 @@ def by_speed(case):
     return as_record(case, [rate, 2.0 * rate], [1e-8 * rate, 3e-8 * rate])
 
 
+@pytest.mark.slow
 def test_sums_are_those_of_a_law_that_is_known(tmp_path):
     """The sum over the rows by hand is within the stated interval, which is narrow for a smooth law."""
     duty = run_drive_cycle(cycle_of(tmp_path), PEAK, by_speed)
@@ -65,6 +66,7 @@ def test_sums_are_those_of_a_law_that_is_known(tmp_path):
     assert duty.points == SIMULATED
 
 
+@pytest.mark.slow
 def test_interval_covers_a_law_with_noise(tmp_path):
     """The interval of 95 % misses the sum for at most three of ten seeds: more has a probability of 0.1 %."""
     case = cycle_of(tmp_path)
@@ -85,6 +87,7 @@ def test_interval_covers_a_law_with_noise(tmp_path):
     assert missed <= 3
 
 
+@pytest.mark.slow
 def test_a_standstill_and_a_source_that_is_off_have_no_discharges(tmp_path):
     head = "time [s],speed [rpm],common-mode voltage [V]"
     case = cycle_of(tmp_path, [0.0, 3000.0, 3000.0, 3000.0], head, [280.0, 280.0, 0.0, 140.0])
@@ -122,6 +125,7 @@ def test_slow_rows_are_simulated_for_a_limited_time(tmp_path):
     assert set(times) == {MOST_TIME}
 
 
+@pytest.mark.slow
 def test_no_discharge_is_bounded_by_the_simulated_time(tmp_path):
     """None in T seconds: below 3.689/T at 95 %, as exp(-3.689) = 2.5 %; their energy has no bound."""
     duty = run_drive_cycle(cycle_of(tmp_path), PEAK, lambda case: as_record(case, [0.0] * 2, [0.0] * 2))
@@ -132,6 +136,7 @@ def test_no_discharge_is_bounded_by_the_simulated_time(tmp_path):
     assert [one.high for one in duty.energy] == [None, None]
 
 
+@pytest.mark.slow
 def test_rows_that_cannot_be_simulated_are_left_out_and_named(tmp_path):
     def refusing(case):
         if case.drive.speed > 3000.0 * RPM:
@@ -171,6 +176,7 @@ def solved(tmp_path_factory):
         return folder, solve_drive(cycle_of(folder, [0.0, 1500.0, 3000.0, 3000.0]), workers=1)
 
 
+@pytest.mark.slow
 def test_a_solved_cycle_agrees_with_every_row_simulated_alone(solved):
     """Independent sum: each row with its own long simulation, other random numbers."""
     _, result = solved
@@ -187,6 +193,7 @@ def test_a_solved_cycle_agrees_with_every_row_simulated_alone(solved):
         assert found.low - scatter < expected[b] < found.high + scatter
 
 
+@pytest.mark.slow
 def test_summary_and_files(solved, tmp_path):
     _, result = solved
     summary = json.loads(json.dumps(result.summary()))
@@ -213,6 +220,7 @@ def test_summary_and_files(solved, tmp_path):
     assert loaded.summary()["duty"] == result.summary()["duty"]
 
 
+@pytest.mark.slow
 def test_figure_and_tables(solved):
     _, result = solved
     assert "drive_duty" in figure_names(result)

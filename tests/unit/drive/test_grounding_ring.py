@@ -108,6 +108,7 @@ def test_without_a_speed_of_the_drive_that_of_its_bearing_counts():
     assert ring_of(case) == 50.0
 
 
+@pytest.mark.slow
 @each("rpm, table, ohm", [(3000, BRUSH, 5.0), (1500, {**BRUSH, "resistance": ["7 ohm"] * 3}, 7.0)])
 def test_a_drive_is_that_with_the_resistance_at_its_speed(rpm, table, ohm):
     """At an entry, and for a table of one value, to the last bit."""
@@ -168,6 +169,7 @@ def test_a_speed_beyond_the_table_has_a_note(rpm, words):
     assert {note.severity for note in notes} <= {"note"}
 
 
+@pytest.mark.slow
 def test_a_check_has_the_resistance_and_no_verdict_from_the_divider():
     meaning = check(driven(1500))
     (row,) = (row for row in meaning.rows if row.key == RING)
@@ -202,6 +204,7 @@ def test_the_netlist_has_the_resistance_at_the_speed():
 # Many speeds.
 
 
+@pytest.mark.slow
 def test_each_point_of_a_sweep_has_its_own_resistance(tmp_path):
     """And the numbers of a single drive with this resistance."""
     speeds = ["1500 rpm", "3000 rpm", "12000 rpm"]

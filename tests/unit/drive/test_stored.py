@@ -45,6 +45,7 @@ def test_a_loaded_result_equals_the_saved_one(drive, tmp_path):
     assert len(drive.solution.bearings) == 2
 
 
+@pytest.mark.slow
 def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
     """Its variables are missing, and half of them are a damaged file."""
     whole = drive.to_xarray()
@@ -60,6 +61,7 @@ def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
         check(whole.drop_vars("line_amplitude"), 2)
 
 
+@pytest.mark.slow
 def test_a_file_that_knows_no_summits_has_smooth_films(drive):
     dataset = drive.to_xarray()
     lines = drive.case.replace({"bearings.bearing.film_factor": 0.9}).to_toml().splitlines()
@@ -70,6 +72,7 @@ def test_a_file_that_knows_no_summits_has_smooth_films(drive):
     assert [one.bearing.summit_height for one in solution.case.bearings] == [0.0, 0.0]
 
 
+@pytest.mark.slow
 def test_a_result_without_discharges_is_loaded_too(drive, tmp_path):
     _, _, grounded = drive.remedies[0]
     result = DriveResult(replace(grounded, case=grounded.case.replace({"remedies": []})))
@@ -88,6 +91,7 @@ def test_numbers_that_differ_make_another_result(drive):
     assert other != drive
 
 
+@pytest.mark.slow
 def test_a_file_of_version_1_0_has_no_numbers_of_the_shaft_and_of_signs(drive, tmp_path):
     """Their keys are null; all other numbers are the same, and what is saved again is the same result."""
     whole = drive.to_xarray()
@@ -125,6 +129,7 @@ def test_what_is_wrong_is_named(drive, tmp_path, name, change):
         of_drives.result_of(changed, tmp_path / "drive.nc")
 
 
+@pytest.mark.slow
 def test_the_file_of_another_result_is_refused(drive, tmp_path):
     other = drive.to_xarray().assign_attrs(schema="ehlectric.bearing.solution/1")
     with pytest.raises(InputError, match=r"drive\.nc: "):

@@ -61,6 +61,7 @@ def test_the_degree_is_not_raised_beyond_its_bound():
     assert 0.005 < error <= field.strength_error < 1.5 * error
 
 
+@pytest.mark.slow
 @each("per_wave", [8, 16, 32])
 @each(
     "wave",

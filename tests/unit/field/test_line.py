@@ -139,6 +139,7 @@ def test_capacitance_lies_between_its_variational_bounds(lower, gap, permittivit
     assert (1 - 3e-5) * straight <= field.capacitance <= (1 + 3e-5) * linear
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(lower=waves, gap=waves, density=st.floats(-100.0, 100.0), voltage=st.floats(0.1, 100.0))
 def test_voltage_and_charge_superpose(lower, gap, density, voltage):

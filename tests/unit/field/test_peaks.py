@@ -25,6 +25,7 @@ def patch_beside_constriction(wavelength, share, **changes):
     return FieldProblem(x, lower, upper, 1.0 + 0.0 * x, 0.0, 1.0, **changes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wavelength", "share", "least"), [(0.7e-6, 0.75, 0.035), (0.5e-6, 0.6, 0.07), (0.4e-6, 0.6, 0.085)]
 )
@@ -113,6 +114,7 @@ def test_places_are_local_maxima_and_the_first_is_the_largest_field():
     assert not broad
 
 
+@pytest.mark.slow
 def test_a_point_contact_finds_hidden_waves():
     gap, wavelength, amplitude = 1.4e-6, 0.7e-6, 20e-9
     x, y = np.arange(-24, 97) * wavelength / 8.0, np.linspace(-1e-6, 1e-6, 5)

@@ -116,6 +116,7 @@ def test_outlines_boxes_and_lines_of_one_colour_are_exchanged_and_maps_are_not()
     assert mesh.get_cmap().name == "viridis"
 
 
+@pytest.mark.slow
 def test_a_figure_drawn_outside_of_the_style_is_dark_too(tmp_path):
     """Colours of the page are those of the figure, whatever the settings of Matplotlib are later."""
     drawn = figure(load(ROOT / "tests/data/releases/1.0.0/line"), "film", style="dark")

@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+import pytest
 
 from ehlectric.figures.style import figure_of, new_panels, scale_axis, style
 from ehlectric.paper import paper_figures
@@ -13,6 +14,7 @@ def extents(figure, artists):
     return [artist.get_window_extent(figure.canvas.get_renderer()) for artist in artists]
 
 
+@pytest.mark.slow
 def test_both_titles_of_a_panel_stand_apart():
     """Three panels beside each other are as wide as two with a colour bar."""
     with style("journal"):
@@ -27,6 +29,7 @@ def test_both_titles_of_a_panel_stand_apart():
     assert right.x0 > left.x1 or left.y0 + below > right.y1 - 0.2 * right.height
 
 
+@pytest.mark.slow
 def test_legends_of_two_panels_lie_in_their_figure():
     with style("journal"):
         panels = new_panels(1, 2, (10.0, 4.6))

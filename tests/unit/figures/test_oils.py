@@ -117,6 +117,7 @@ def test_an_oil_without_temperature_has_one_figure(tmp_path):
     assert axes[1].get_legend() is None
 
 
+@pytest.mark.slow
 def test_files_have_the_look_of_all_figures(tmp_path, monkeypatch):
     """A program that calls it outside of any style gets no overlapping titles either."""
     sizes = []

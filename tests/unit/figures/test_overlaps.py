@@ -77,6 +77,7 @@ def of_result(result, names=None):
     return found
 
 
+@pytest.mark.slow
 def test_a_stored_contact():
     assert of_result(load(STORED / "line")) == {}
 
@@ -87,6 +88,7 @@ def test_other_stored_results(name):
     assert of_result(load(STORED / name)) == {}
 
 
+@pytest.mark.slow
 @each("file", ["bearing_6208.toml", "bearing_greased.toml"])
 def test_bearings_over_speed(file):
     """Names of lines that end beside each other, shadings of three kinds, and speeds up to 24 000 rpm."""
@@ -155,6 +157,7 @@ def test_stored_sweeps(name):
     assert of_result(results, [*names[::8], *names[1::8]]) == {}
 
 
+@pytest.mark.slow
 def test_sensitivity():
     ranges = {SPEED: Range(1.0, 8.0, "log"), LOAD: Range(0.5e6, 2e6, "log")}
     assert of_result(sobol(ranges, 64, breakdown), ["sensitivity"]) == {}
@@ -167,6 +170,7 @@ def test_oils():
     assert drawn(draws, lambda name: figure_of(draws[name](report)[0])) == {}
 
 
+@pytest.mark.slow
 def test_surfaces(monkeypatch, tmp_path):
     kept = []
     monkeypatch.setattr(surface_figures, "save_figure", lambda drawn, *_: kept.append(drawn))
@@ -227,6 +231,7 @@ def two_narrow_panels(ax):
     ax.set_position((0.2, 0.2, 0.05, 0.7))
 
 
+@pytest.mark.slow
 @each(
     "spoil, told",
     [

@@ -137,6 +137,7 @@ def test_figures_of_a_sweep(tmp_path):
         figure(results, f"map_{value}.png", x=SPEED)
 
 
+@pytest.mark.slow
 def test_a_sweep_lists_figures_that_it_draws_without_further_options():
     results = grid({SPEED: (1.0, 2.0, 4.0), LOAD: (1e5, 1e6)}, breakdown)
     listed = figure_names(results)
@@ -152,6 +153,7 @@ def test_a_sweep_lists_figures_that_it_draws_without_further_options():
         results.plot("discharge.margin")
 
 
+@pytest.mark.slow
 def test_a_figure_that_a_bearing_lacks_is_told_with_its_cause_and_those_that_there_are(bearing):
     """Without a strength nothing breaks down; the circuit and the capacitance are drawn."""
     tables = bearing.case.to_dict()
@@ -276,6 +278,7 @@ def test_unknown_formats_and_styles_are_refused(line, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_titles_are_not_broken_between_a_number_and_its_unit():
     """At every width of the page, "8 V" and "2.28 to 3.25 m/s" keep their units."""
     text = "Breakdown expected below 2.28 to 3.25 m/s at 12 °C and 70 % (applied voltage 8 V)"

@@ -88,6 +88,7 @@ def test_value_at_the_centre(nodes_y, symmetric):
     assert at_centre(mesh, values) == pytest.approx(3.0, rel=1e-13, abs=0.0)
 
 
+@pytest.mark.slow
 @each("nodes", [65, 66, 100, 129])
 @each("nodes_y", [65, 66, 67, 68, 129, 130])
 @EITHER

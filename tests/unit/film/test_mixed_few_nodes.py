@@ -43,6 +43,7 @@ def test_dry_contact_on_a_node_or_two(nodes):
     assert np.vdot(level.weights, dry.pressure) == pytest.approx(level.load, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
     """An asperity at the last node has the gap of the boundary film, and no pressure."""
     table = LIGHT["roughness"][0] | {"correlation_length": 6.014948025679727e-06, "seed": 2}
@@ -58,6 +59,7 @@ def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
     np.testing.assert_array_equal(load(save(result, tmp_path)[1]).film.thickness, film.thickness)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [1, 2, 3])
 def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundary_film(steps):
     """After few Newton steps asperities are still pressed into each other; the gap is that of the flow."""

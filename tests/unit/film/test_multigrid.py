@@ -218,11 +218,13 @@ def convergence_factor(levels):
     return factor
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nodes", [401, 800, 1601, 6401])
 def test_v_cycle_reduces_the_error_fivefold(nodes):
     assert convergence_factor(jacobians(nodes)) < 0.2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nodes", [801, 3201, 12_801])
 @pytest.mark.parametrize(("wedge", "factor"), [("second-order", 0.4), ("third-order", 0.45)])
 def test_v_cycle_on_the_paper_contact(paper_case, nodes, wedge, factor):

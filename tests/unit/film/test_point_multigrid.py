@@ -120,6 +120,7 @@ def test_relaxation_of_a_half_is_that_of_the_whole(circle, whole_circle):
     np.testing.assert_allclose(mirrored(half.relax(r)), expected, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_a_cycle_reduces_the_residual(name):
     """A random one to a quarter or less.
@@ -153,6 +154,7 @@ def krylov_iterations(solutions):
     return [step.krylov_iterations for solution in solutions for step in solution.steps]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_iterations_of_a_newton_step(name):
     """To a relative tolerance of 1e-3; the coarsest grid is solved by its own dense matrix."""

@@ -108,6 +108,7 @@ def test_nodes_that_overflow_or_are_under_tension_change():
     assert not moved(excess)[first + 3, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [1.0, 0.025], ids=["uniform", "little beside the middle"])
 def test_a_layer_that_fills_the_gap_at_the_inlet_edge_on_some_lines(part):
     """The gap at the edge is 11.5 in the middle and grows to the sides: a layer of 12 fills the middle."""

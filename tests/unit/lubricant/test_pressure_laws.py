@@ -63,6 +63,7 @@ def difference(function, at, step):
     return (8.0 * near - far) / (12.0 * step)
 
 
+@pytest.mark.slow
 @by_law
 @given(data=st.data(), pressure=pressures, temperature=temperatures)
 def test_slope_is_the_derivative(name, data, pressure, temperature):
@@ -192,6 +193,7 @@ def of_the_free_volume(pressure, temperature, oil):
     )
 
 
+@pytest.mark.slow
 @given(oil=around(DOOLITTLE, 0.05), pressure=st.floats(0.0, 0.5e9), temperature=st.floats(310.0, 400.0))
 def test_doolittle_is_the_printed_law_below_its_cap(oil, pressure, temperature):
     expected = of_the_free_volume(pressure, temperature, oil)

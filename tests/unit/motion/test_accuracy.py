@@ -52,6 +52,7 @@ def test_the_place_between_the_nodes_counts():
     assert estimated((fine, fine), (fine, fine), 1.0).minimum == pytest.approx(0.02)
 
 
+@pytest.mark.slow
 def test_a_companion_that_does_not_converge_leaves_the_error_unknown(tmp_path, monkeypatch):
     case = moving(motion={"passes": 0.25, "steps": 8, "record": 3})
     after = Companion.after
@@ -64,6 +65,7 @@ def test_a_companion_that_does_not_converge_leaves_the_error_unknown(tmp_path, m
     assert "error-unknown" in summary["warning_codes"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lag", "code"), [(0.005, None), (0.03, "grid-too-coarse"), (0.3, "grid-far-too-coarse")]
 )

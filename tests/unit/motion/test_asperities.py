@@ -101,6 +101,7 @@ def test_every_step_has_what_its_film_has(written):
     assert dataset["spots"].values[34] == 0 < dataset["spots"].values[41]
 
 
+@pytest.mark.slow
 def test_oil_is_kept_where_surfaces_come_into_contact():
     """Change of the oil of every node by the Couette flow, less what the pressure drives in: nothing is left.
 

@@ -44,6 +44,7 @@ def of_case(case, *axes):
     )
 
 
+@pytest.mark.slow
 @each("ratio", SPEEDS)
 @each("surface", [1, 2])
 @each(

@@ -114,6 +114,7 @@ def stepped():
     return solver, {0: history, **dict(solver.run(history))}
 
 
+@pytest.mark.slow
 def test_all_steps_and_the_instants_are_there(whole, stepped):
     solver, histories = stepped
     contact = solver.contact
@@ -136,6 +137,7 @@ def test_all_steps_and_the_instants_are_there(whole, stepped):
     assert whole["newton_iterations"].values[1:].min() >= 1
 
 
+@pytest.mark.slow
 def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
     solver, histories = stepped
     contact = solver.contact
@@ -167,6 +169,7 @@ def test_maps_are_those_of_the_instants_within_single_precision(whole, stepped):
     assert not np.any(whole["roughness_2"].values)
 
 
+@pytest.mark.slow
 def test_everything_has_its_name_and_unit(whole):
     units = {name: variable.attrs["units"] for name, variable in whole.variables.items()}
     assert all(variable.attrs["long_name"] for variable in whole.variables.values())
@@ -259,6 +262,7 @@ def set_attribute(name, value):
     return lambda file: file.attrs.__setitem__(name, value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change",
     [
@@ -293,6 +297,7 @@ def test_another_case_is_not_gone_on_with(stopped, changes):
     assert found(path, CASE.replace(changes)) is None
 
 
+@pytest.mark.slow
 def test_a_damaged_run_is_not_replaced_without_a_word(stopped):
     path = stopped(4)
     with h5py.File(path) as file:
@@ -305,6 +310,7 @@ def test_a_damaged_run_is_not_replaced_without_a_word(stopped):
     assert path.read_bytes() == content
 
 
+@pytest.mark.slow
 def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
     stopped(4)
     other = CASE.replace({"electric.potential_2": 3.0})
@@ -314,6 +320,7 @@ def test_another_case_is_solved_in_the_place_of_the_first(tmp_path, stopped):
     assert dict(replaced.sizes) == {"x": 65, "step": 1, "frame": 1}
 
 
+@pytest.mark.slow
 def test_a_surface_that_was_measured_again_is_solved_anew(tmp_path):
     heights = np.random.default_rng(1).normal(0.0, 1e-8, 400)
     x = 5e-6 * np.arange(400)
@@ -330,6 +337,7 @@ def test_a_surface_that_was_measured_again_is_solved_anew(tmp_path):
     assert found(tmp_path / MOTION, case) is None
 
 
+@pytest.mark.slow
 def test_a_run_that_is_complete_is_solved_anew(tmp_path, stopped):
     stopped(12)
     assert run(CASE, tmp_path, 0) == ANEW[:2]
@@ -352,6 +360,7 @@ def test_a_file_cut_short_is_refused_and_an_empty_one_replaced(tmp_path, stopped
     assert run(CASE, tmp_path, 0) == ANEW[:2]
 
 
+@pytest.mark.slow
 def test_what_cannot_be_read_is_said(tmp_path):
     with pytest.raises(InputError, match=r"motion\.nc: .*no such file"):
         read_motion(tmp_path)
@@ -366,6 +375,7 @@ def test_what_cannot_be_read_is_said(tmp_path):
         read_motion(tmp_path / "other.nc")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [set_attribute("frames", 0), set_attribute("case", "title = 3")])
 def test_a_motion_without_an_instant_or_a_case_is_none(stopped, change):
     path = stopped(4)
@@ -374,6 +384,7 @@ def test_a_motion_without_an_instant_or_a_case_is_none(stopped, change):
         read_motion(path)
 
 
+@pytest.mark.slow
 def test_a_step_that_is_not_solved_leaves_what_was_found(tmp_path, monkeypatch, whole, stopped):
     stopped(0)
     advance, solved = UnsteadyFilm.advance, []
@@ -405,6 +416,7 @@ def test_a_film_before_the_motion_that_is_not_found(tmp_path):
     assert not (tmp_path / MOTION).exists()
 
 
+@pytest.mark.slow
 def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypatch):
     from ehlectric.contact.solver import solve
     from ehlectric.motion import run as motion_run
@@ -449,6 +461,7 @@ def test_warnings_are_of_the_grid_of_the_case(tmp_path):
 PITS = [{"surface": 1, "generator": "pit", "depth": "100 nm", "width": "90 um"}]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("beside", [0.0, pytest.param(3e-5, marks=pytest.mark.slow)])
 def test_a_point_contact(tmp_path, beside):
     """65 x 65 nodes, a pit in the middle or beside it; what is solved in one half is there in both."""
@@ -493,6 +506,7 @@ def held(path):
     return reader
 
 
+@pytest.mark.slow
 def test_who_looks_at_a_run_does_not_end_it(tmp_path, monkeypatch, whole, stopped):
     reader, sleep = held(stopped(8)), time.sleep
 
@@ -506,6 +520,7 @@ def test_who_looks_at_a_run_does_not_end_it(tmp_path, monkeypatch, whole, stoppe
     same(read_motion(tmp_path), whole)
 
 
+@pytest.mark.slow
 def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
     monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
     with held(stopped(12)) as reader:
@@ -528,6 +543,7 @@ def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
     reader.close()
 
 
+@pytest.mark.slow
 def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
     """Whichever comes to write after the other has."""
     stopped(4)

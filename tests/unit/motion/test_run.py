@@ -51,6 +51,7 @@ def fail_at(monkeypatch, step):
     return calls
 
 
+@pytest.mark.slow
 def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, complete):
     """As it is left by who stops a run between its last step and its summary; files of others go."""
     (complete / "result.nc").write_text("of another result")
@@ -64,6 +65,7 @@ def test_a_complete_run_without_a_summary_is_summed_up_alone(monkeypatch, comple
     assert outcome.summary["motion"]["steps_done"] == outcome.result.sizes["step"] - 1 == 12
 
 
+@pytest.mark.slow
 def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
     (complete / "summary.json").write_text("{}")
     calls = fail_at(monkeypatch, 1)
@@ -72,6 +74,7 @@ def test_a_complete_run_with_a_summary_is_solved_again(monkeypatch, complete):
     assert outcome.failure == "not converged: step 1 of 12: film not found"
 
 
+@pytest.mark.slow
 def test_the_steps_before_a_failure_are_summed_up(monkeypatch, tmp_path):
     fail_at(monkeypatch, 7)
     told = []
@@ -87,6 +90,7 @@ def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_run_reads_each_surface_once(tmp_path, monkeypatch):
     """Checked, moved and at rest: one surface from one reading of its file."""
     read, paths = rough_surfaces.read_surface, []

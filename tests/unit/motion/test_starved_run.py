@@ -84,6 +84,7 @@ def test_a_stopped_run_goes_on_as_if_it_had_not_been_stopped(outcome, monkeypatc
         np.testing.assert_array_equal(resumed[name].values, outcome.result[name].values)
 
 
+@pytest.mark.slow
 def test_a_layer_that_floods_the_inlet_is_told(tmp_path):
     case = moving(LINE, inlet={"oil_layer": "20 um"}, motion={"passes": 0.1, "record": 2})
     found = run(case, tmp_path)
@@ -107,12 +108,14 @@ def test_a_point_contact_runs_with_a_layer_over_y(tmp_path):
     assert upper > 1.3 * lower
 
 
+@pytest.mark.slow
 def test_a_layer_thinner_than_the_boundary_film_leaves_the_load_to_asperities(tmp_path):
     found = run(moving(LINE, inlet={"oil_layer": 1e-9}, motion=SHORT), tmp_path)
     assert found.failure is None
     assert found.result["asperity_load_share"].values[-1] > 0.9
 
 
+@pytest.mark.slow
 def test_a_starved_film_touches_where_waves_grow():
     """Waves that grow in a film just above the boundary film: it is the least gap, and oil is conserved."""
     problem = line(0.2, nodes=101)

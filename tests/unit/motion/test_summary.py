@@ -408,6 +408,7 @@ def test_json_has_no_nan(table, passes):
     assert summary["field"]["local_maxima"] == 0
 
 
+@pytest.mark.slow
 def test_a_run_is_told_as_it_was_solved(tmp_path):
     """One pass in sixteen steps: what it says of the bump, moving and held still, is that of its maps."""
     case = moving(LINE, motion={"passes": 1.0, "steps": 16, "record": 2})

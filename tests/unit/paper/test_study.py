@@ -20,6 +20,9 @@ from ehlectric.runtime.worker_processes import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 
+# The contacts of this file take seconds to solve.
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def study():
@@ -49,7 +52,6 @@ def verdicts(study):
     return paper_report.verdicts(tables_of(study))
 
 
-@pytest.mark.slow
 def test_names_are_the_printed_ones_but_one(smooth):
     odd = []
     for contact, result in smooth.items():
@@ -61,14 +63,12 @@ def test_names_are_the_printed_ones_but_one(smooth):
     assert odd == ["M68L13"]
 
 
-@pytest.mark.slow
 def test_load_of_1_gpa_is_a_quarter(smooth):
     assert LOADS[2] == 4.0 * LOADS[1]
     for contact, result in smooth.items():
         assert result.conditions.max_pressure == pytest.approx(contact.gigapascal * 1e9, rel=2e-3, abs=0.0)
 
 
-@pytest.mark.slow
 def test_a_film_that_does_not_agree_is_said(smooth):
     """A film of half the speed in a row is not that of the table; 4 % and half of the last digit are."""
     table = printed_table(Study(smooth=smooth, first_order=smooth))
@@ -112,7 +112,6 @@ def test_a_film_that_was_not_found_is_said(study):
     assert not dataclasses.replace(study, placed={CONTACTS[0]: places}).converged
 
 
-@pytest.mark.slow
 def test_straight_line_between_smooth_equal_bodies_is_the_middle(smooth):
     for result in smooth.values():
         assert readings_differ_by(result) < 1e-9
@@ -158,7 +157,6 @@ def test_every_figure_and_table_takes_parts_of_a_study():
         assert set(needed) <= parts
 
 
-@pytest.mark.slow
 def test_checks_of_the_slips(study):
     """Each number by hand, or by a bound that the slip would break."""
     said = {slip.printed.split(":")[0]: slip.check(study) for slip in errata.SLIPS}
@@ -198,7 +196,6 @@ def test_cores_without_affinity(monkeypatch):
     assert cores() >= 1
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("number", [4, 5, 6, 9, 10])
 def test_sections_that_are_compared_share_their_heights_and_one_colour_bar(study, number):
     """Heights are in one unit, the thickest film fits, and every panel says its speed."""

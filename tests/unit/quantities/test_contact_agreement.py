@@ -34,6 +34,7 @@ def plain(text):
     return " ".join(unescape(text).replace("\xa0", " ").split())
 
 
+@pytest.mark.slow
 @each("name", STORED)
 def test_every_output_has_the_label_unit_digits_and_bound_of_the_book(results, name):
     result = results[name]

@@ -58,6 +58,7 @@ def reported(summary):
 DIVIDED = ("capacitance", "voltage_ratio", "voltage_at_peak", "peak_voltage", "rms_voltage")
 
 
+@pytest.mark.slow
 def test_rows_are_those_of_the_book(summary):
     for key, row in rows_by_key(drive_rows(summary)).items():
         about = DRIVE_BOOK[of_book(key)]

@@ -42,6 +42,7 @@ def rows(result):
     return {row.key: row for row in run_rows(summary) if row.key}
 
 
+@pytest.mark.slow
 def test_rows_are_those_of_the_book(result, rows):
     geometry = result.case.contact.geometry
     keys = {key for section in MOTION for key in section.keys}
@@ -54,6 +55,7 @@ def test_rows_are_those_of_the_book(result, rows):
             assert (row.unit, row.digits) == (shown_unit(about, row.value), about.digits), key
 
 
+@pytest.mark.slow
 def test_values_are_those_of_the_summary(result, rows):
     summary = result.summary()
     for key, row in rows.items():
@@ -62,6 +64,7 @@ def test_values_are_those_of_the_summary(result, rows):
             assert row.value == stored, key
 
 
+@pytest.mark.slow
 def test_bounds_are_shown_in_every_output(rows):
     assert rows["field.max_strength"].bound == "≥"
     if "discharge.breakdown_voltage" in rows:

@@ -64,6 +64,7 @@ def cells(report, section):
     return {getattr(row[0], "key", row[0]): row for row in rows}
 
 
+@pytest.mark.slow
 def test_numbers_are_those_of_the_summary(report, folder):
     summary = json.loads((folder / "summary.json").read_text())
     found = cells(report, "Key numbers")
@@ -73,6 +74,7 @@ def test_numbers_are_those_of_the_summary(report, folder):
     assert breakdown[1:3] == (f"≤\xa0{summary['discharge']['breakdown_voltage']:.4g}", "V")
 
 
+@pytest.mark.slow
 def test_the_input_file_is_solved_again_to_the_same_case(report, folder):
     (code,) = [block for block in report.blocks() if isinstance(block, Text) and block.tone == "code"]
     path = folder / "again.toml"
@@ -80,6 +82,7 @@ def test_the_input_file_is_solved_again_to_the_same_case(report, folder):
     assert Case.from_toml(path) == Case.from_dict(tomllib.loads(code.text)) == Case.from_dict(TABLE)
 
 
+@pytest.mark.slow
 def test_every_input_has_its_origin(report):
     found = cells(report, "Inputs")
     radius = found["contact.reduced_radius"]
@@ -98,6 +101,7 @@ def test_every_input_has_its_origin(report):
     assert source[2].address == "https://doi.org/10.3390/lubricants10050087"
 
 
+@pytest.mark.slow
 def test_the_light_has_the_level_of_the_verdict_and_never_hides_an_upper_bound(report, folder):
     (light,) = [block for block in report.blocks() if isinstance(block, Light)]
     verdict = load(folder).verdict
@@ -220,6 +224,7 @@ def test_a_starved_contact_has_no_heat_to_switch_on():
     assert "[film]" not in limits_text(case)
 
 
+@pytest.mark.slow
 def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):
     table = TABLE | {"solver": {"max_iterations": 1}}
     save(solve(table, require_convergence=False), tmp_path)

@@ -201,6 +201,7 @@ def test_numbers_and_remedies_of_a_drive(pages):
         assert text in machine
 
 
+@pytest.mark.slow
 def test_a_drive_without_remedies_shows_its_voltages(tmp_path):
     case = drive_with_remedy(**{"drive.duration": "20 ms"})
     table = case.to_dict()

@@ -67,6 +67,7 @@ def test_the_finding_of_a_figure_is_said_once(touching):
         assert not picture.figure.get_suptitle().strip()
 
 
+@pytest.mark.slow
 def test_the_minimum_film_has_the_contact_that_it_belongs_to():
     result = solve(bearing_case(BALLS, contacts="formula"))
     (loads,) = pictures_of(result, converged=True, names=["bearing_loads"])
@@ -132,6 +133,7 @@ def test_warnings_of_one_code_have_one_heading():
     assert [(line.code, line.texts) for line in lines] == [("points-with-warnings", ("one", "two"))]
 
 
+@pytest.mark.slow
 def test_words_are_broken_after_a_mark_where_they_are_too_long():
     assert _parted("kinematic_viscosity_40", 80.0, 8.0) == "kinematic_<br/>viscosity_40"
     assert _parted("a<b", 80.0, 8.0) == "a&lt;b"

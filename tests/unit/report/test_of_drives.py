@@ -91,6 +91,7 @@ def test_sections_begin_with_the_answer(report):
     assert (light.level, light.words.startswith("Discharges")) == ("red", True)
 
 
+@pytest.mark.slow
 def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
     summary, found = drive.summary(), tables(report, "Key numbers")
     events = rows(found["discharges"])
@@ -113,6 +114,7 @@ def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
     assert len(times) < 6  # beyond the first voltage that is never reached there is nothing to say
 
 
+@pytest.mark.slow
 def test_voltages_of_the_shaft_and_signs_of_discharges_are_those_of_the_simulation(report, drive):
     """Without a coating the shaft has the voltage of the films, whose times at each voltage are stored."""
     found, record = tables(report, "Key numbers"), drive.solution.record
@@ -148,6 +150,7 @@ def test_current_densities_stand_beside_each_limit_with_its_source():
     assert [row[1] for row in alone.rows] == ["above"] * 3
 
 
+@pytest.mark.slow
 def test_standards_are_dated_and_have_their_source(report):
     found = tables(report, "Sources")
     (caption,) = [caption for caption in found if caption.startswith("Standards")]
@@ -161,6 +164,7 @@ def test_standards_are_dated_and_have_their_source(report):
     assert not [row for row in found[caption].rows if re.search(r"\d ?m?[VA]\b", " ".join(row))]
 
 
+@pytest.mark.slow
 def test_no_dotted_key_is_in_the_text(report):
     """The input file at the end has them; a name of an input shows its key under the pointer alone."""
     text = Page(html_of(replace(report, sections=report.sections[:-1]))).text

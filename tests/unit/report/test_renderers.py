@@ -64,6 +64,7 @@ def test_heads_of_a_long_table_stand_on_every_page():
     assert text.count("name value") >= pages - 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("render", [html_of, pdf_of])
 def test_equal_reports_are_equal_files(render):
     assert render(small_report()) == render(small_report())

@@ -233,6 +233,7 @@ def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):
         load(tmp_path / "empty")
 
 
+@pytest.mark.slow
 def test_runs_need_no_terminal_and_no_figures():
     code = "import sys, ehlectric.runs.by_kind; print(*sys.modules)"
     loaded = set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split())

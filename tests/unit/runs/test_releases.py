@@ -99,6 +99,7 @@ def test_a_renamed_run_with_moving_roughness_is_read(tmp_path):
     assert load(tmp_path / "run7.nc") == load(folder)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", [path for path in RESULTS if path.parent.name == __version__], ids=name_of)
 def test_a_later_format_is_told(folder, tmp_path):
     shutil.copytree(folder, tmp_path / "out")

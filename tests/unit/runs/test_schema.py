@@ -29,11 +29,13 @@ def validators():
     return {kind: Draft7Validator(schema_of(kind)) for kind in SCHEMAS}
 
 
+@pytest.mark.slow
 @each("kind", SCHEMAS)
 def test_schemas_are_of_draft_7(kind):
     Draft7Validator.check_schema(schema_of(kind))
 
 
+@pytest.mark.slow
 @each("path", FILES, ids=lambda path: path.stem)
 def test_files_of_the_package_are_valid(validators, path):
     table = read(path)
@@ -84,6 +86,7 @@ def test_keys_have_their_texts_units_and_examples():
     assert {"type": "string"} in load["anyOf"]
 
 
+@pytest.mark.slow
 @each("kind", SCHEMAS)
 def test_every_key_is_explained(kind):
     schema = schema_of(kind)
@@ -96,6 +99,7 @@ def test_every_table_has_texts():
     assert all(descriptions(name) for name in TABLES)
 
 
+@pytest.mark.slow
 def test_nothing_refers_to_a_table_that_is_not_there():
     for kind in SCHEMAS:
         schema = schema_of(kind)

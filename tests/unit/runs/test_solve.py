@@ -65,6 +65,7 @@ def test_a_bearing_in_every_form(tmp_path):
     assert results[0] == results[1] == results[2]
 
 
+@pytest.mark.slow
 def test_a_drive_in_every_form(tmp_path):
     drive = small_drive(**{"drive.duration": "1 ms"})
     (tmp_path / "drive.toml").write_text(drive.to_toml(), encoding="utf-8")
@@ -165,6 +166,7 @@ def test_nothing_is_printed_without_a_handler(capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_a_motion_in_memory(motion, tmp_path):
     """The same as the file that run_motion writes, and as the folder is loaded."""
     assert motion.converged
@@ -182,6 +184,7 @@ def test_a_motion_needs_one():
         solve_motion(Case.from_dict(CONTACT))
 
 
+@pytest.mark.slow
 def test_a_motion_that_ends_early_says_so(monkeypatch, caplog):
     def stopped(case, folder, *, progress):
         run_motion(case, folder, progress=progress)
@@ -202,6 +205,7 @@ def test_saved_results_are_equal(table, tmp_path):
     assert load(tmp_path) == load(next(path for path in files if path.suffix == ".nc")) == result
 
 
+@pytest.mark.slow
 def test_what_is_not_saved(motion, tmp_path):
     with pytest.raises(
         InputError, match="result: got 'MotionResult'; expected a result of a contact, a bearing or a drive"

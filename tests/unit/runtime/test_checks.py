@@ -53,6 +53,7 @@ def test_a_seal_tells_every_changed_byte(tmp_path):
             sealed(path)
 
 
+@pytest.mark.slow
 def test_a_seal_is_no_obstacle_to_other_programs(tmp_path):
     path, unsealed = tmp_path / "result.nc", tmp_path / "unsealed.nc"
     path.write_bytes(UNSEALED)
@@ -66,6 +67,7 @@ def test_a_seal_is_no_obstacle_to_other_programs(tmp_path):
     assert read_dataset(path).attrs["comment"] == "changed on purpose"
 
 
+@pytest.mark.slow
 def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
     path = tmp_path / "result.nc"
     path.write_bytes(UNSEALED)
@@ -120,6 +122,7 @@ def test_a_file_on_which_hdf5_crashes(damaged, monkeypatch):
         read_dataset(damaged(0, b""))
 
 
+@pytest.mark.slow
 def test_a_file_that_is_held_open_by_others(damaged, monkeypatch):
     monkeypatch.setattr(hdf5_soundness, "_PATIENCE", 0.0)
     path = damaged(0, b"")
@@ -130,6 +133,7 @@ def test_a_file_that_is_held_open_by_others(damaged, monkeypatch):
     assert read_dataset(path).sizes["x"] == 101
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("in_thread", [False, True])
 def test_nothing_of_the_library_is_printed(damaged, capfd, in_thread):
     path, caught = damaged(96, b"\xff" * 8), []

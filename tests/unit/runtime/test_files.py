@@ -38,6 +38,7 @@ print(len(calls))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("umask", "mode"), [("077", 0o600), ("022", 0o644), ("002", 0o664)])
 def test_the_umask_holds_and_is_never_set(umask, mode, tmp_path):
     file = tmp_path / "summary.json"

@@ -132,6 +132,7 @@ def test_sizes_in_words():
     assert [in_bytes(size) for size in (999, 1000, 1.5e6, 999_600_000)] == ["999 B", "1 kB", "1.5 MB", "1 GB"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("megabytes", [30, 100, 300, 500])
 def test_limits_below_which_nothing_starts(megabytes):
     """BLAS would wait for ever, or end the process with lines of its own."""

@@ -154,6 +154,7 @@ def test_html_has_the_title_as_text():
     assert r"&lt;script&gt;alert(1)&lt;/script&gt;\u202e" in page
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "title", ["$", "$$", r"$\frac{$", r"\$a$", "$x^{" * 50 + "$", "a\x1b[0m", "\u202eabc", "_a", "a" * 200]
 )
@@ -171,6 +172,7 @@ def test_any_title_can_be_drawn_as_text(tmp_path, title, kind):
     assert figure.get_label() == f"finding. {printable(title)}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["screen", "journal"])
 def test_texts_of_a_varied_key_are_no_formulas_in_the_legend_of_a_figure(kind):
     texts = ["$\\frac{$", "one $ more", "\u202ea", "_b"]
@@ -203,6 +205,7 @@ def test_numbers_in_a_csv_stay_numbers(tmp_path):
     assert rows == [["'=head", "x [m]"], ["'=1+1", "-1.5"], ["-2", "-3"], [r"\udc80", ""]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", [text for text in FORMULAS[:-2] if "\r" not in text])
 def test_titles_and_reasons_in_sweep_csv_are_no_formulas(tmp_path, title):
     results = grid({"title": [title, "b"], "electric.potential_2": [-3.0]})

@@ -22,6 +22,7 @@ def compressed(path, values, *, chunk=10_000_000, group=""):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("group", ["", "inner"])
 def test_a_small_file_of_five_gigabytes_of_values(tmp_path, group):
     path = compressed(tmp_path / "bomb.nc", 640_000_000, group=group)
@@ -51,6 +52,7 @@ def test_texts_count_as_python_keeps_them(tmp_path):
         read_dataset(path)
 
 
+@pytest.mark.slow
 def test_values_of_ordinary_size_are_read(tmp_path):
     path = tmp_path / "map.nc"
     with h5netcdf.File(path, "w") as file:
@@ -83,6 +85,7 @@ def test_shapes_are_those_of_the_library(tmp_path):
                 assert np.array_equal(found[...], expected[...], equal_nan=True)
 
 
+@pytest.mark.slow
 def test_values_that_do_not_fit_into_the_memory(tmp_path, monkeypatch):
     """The second bound: the reader makes a copy of the values."""
     path = tmp_path / "large.nc"

@@ -58,6 +58,7 @@ def test_a_small_file_of_a_hundred_million_points(tmp_path):
     assert peak < 10e6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pack", PACKS[1:])
 def test_a_member_that_is_larger_than_it_says(tmp_path, pack):
     """20 MB under the size of the map: the reader ends where the map is full, and refuses the rest."""

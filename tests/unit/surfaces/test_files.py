@@ -23,6 +23,7 @@ def rq_after(surface, **steps):
     return statistics(processed(surface.line(), Processing(**steps))[-1][1]).rq
 
 
+@pytest.mark.slow
 def test_dektak_spacing_is_that_of_the_whole_length():
     """Its positions are rounded to 0.1 um: neighbours are 0.1 or 0.2 um apart, the truth is 0.15625."""
     surface = read_surface(DEKTAK)
@@ -33,6 +34,7 @@ def test_dektak_spacing_is_that_of_the_whole_length():
 
 
 # Computed by another reader and filter, and recorded with the file: nm.
+@pytest.mark.slow
 @each(
     "steps, rq",
     [
@@ -51,6 +53,7 @@ def rq_of_line(surface, index, along, form="parabola"):
 
 
 # Sizes, spacings and roughness recorded with the files by another reader and filter: um and nm.
+@pytest.mark.slow
 @each(
     "steps, rq",
     [

@@ -148,6 +148,7 @@ PACKS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [*PACKS, "al3d", "text"])
 def test_any_changed_byte_is_read_or_refused(tmp_path, kind):
     """No file, whatever is in it, may end in a traceback."""

@@ -47,6 +47,7 @@ def test_many_small_maps_have_the_variance_of_theory():
         assert np.sqrt(np.mean(np.square(heights))) == pytest.approx(1e-8, rel=4 / np.sqrt(400))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.3, 0.8])
 def test_self_affine_spectrum_has_its_slope(hurst):
     """The power falls as q^(-2 - 2 hurst) between roll-off and the shortest wave, alike in all directions."""
@@ -67,6 +68,7 @@ def test_self_affine_spectrum_has_its_slope(hurst):
     assert np.max(power[q > 1.1 / 2e-6]) < 1e-4 * mean[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [GAUSSIAN, RIDGES, SELF_AFFINE], ids=["round", "ridges", "self-affine"])
 @pytest.mark.parametrize("reach", [(3e-4, 1.1e-4), (1.5e-4, 3.3e-4)])
 def test_larger_maps_are_the_same_in_their_middle(make, reach):

@@ -49,6 +49,7 @@ def test_cutoffs_that_cannot_be(cutoff):
     waviness(mapped(level(0.0)), 119.9e-6)
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(-1.0, 1.0), min_size=6, max_size=6))
 def test_form_removal_is_exact_for_its_own_form(coefficients):
     c, length = coefficients, 1e-4

@@ -110,6 +110,7 @@ def test_trim_that_leaves_nothing():
         trimmed(Profile(1e-6, np.zeros(100)), 60e-6)
 
 
+@pytest.mark.slow
 def test_random_profiles_are_reproducible_and_as_asked():
     """Rq is that of all such profiles: one of n independent lengths is within 1/sqrt(2 n) of it.
 
@@ -128,6 +129,7 @@ def test_random_profiles_are_reproducible_and_as_asked():
     assert s.rms_slope == pytest.approx(np.sqrt(2) * 1e-8 / 5e-6, rel=0.02, abs=0.0)
 
 
+@pytest.mark.slow
 def test_self_affine_spectrum_has_its_slope():
     """The power spectrum falls as q^(-1 - 2 hurst) between roll-off and the shortest wave."""
     hurst = 0.7

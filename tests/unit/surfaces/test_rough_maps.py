@@ -39,6 +39,7 @@ def texts_of(*tables, dx=2e-6, dy=2e-6, domain=DOMAIN):
     return list(map(str, surface_warnings(made, rough_maps(made, domain), domain, dx, dy)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE, RIDGES], ids=["gaussian", "self-affine", "ridges"])
 def test_a_seed_is_one_surface_whatever_the_contact(table):
     (one,) = surfaces_of(table)
@@ -59,6 +60,7 @@ def test_shifts_move_a_surface_along_both_axes():
     assert top.height(np.array([1e-5]), np.array([5e-5])) == pytest.approx(2e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", [RIDGES, RIDGES | {"orientation": -70.0}], ids=["30", "-70"])
 def test_ridges_lie_across_their_orientation(table):
     """Autocorrelation exp(-d.A d), A of 1/l^2 in turned axes: 1/sqrt(A_xx) along x; the mean product of the
@@ -136,6 +138,7 @@ def test_along_turns_a_map_and_does_not_mirror_it(tmp_path):
     np.testing.assert_allclose(by_columns.height(y, -x), z.T, rtol=0.0, atol=1e-20)
 
 
+@pytest.mark.slow
 def test_profiles_and_lines_are_extended_along_the_lay():
     dektak = {"surface": 1, "file": str(DEKTAK), "form": "parabola", "shift": "20 um", "shift_y": "70 um"}
     line = {"surface": 1, "file": AL3D, "form": "line", "line": 7}
@@ -311,6 +314,7 @@ SHAPES = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @each("table, message", SHAPES)
 def test_shapes_finer_than_the_grid_are_said(table, message):
     said = texts_of(table, dx=3e-6, dy=2e-6)
@@ -337,6 +341,7 @@ def test_variance_that_the_grid_misses_is_measured(orientation):
         assert variance_beyond(surface, 1e7, 0.9 * fy, orientation) == pytest.approx(0.1, rel=2e-2, abs=0.0)
 
 
+@pytest.mark.slow
 def test_variance_that_the_grid_misses_is_said():
     rough = SELF_AFFINE | {"hurst": 0.2, "rolloff_wavelength": "30 um", "shortest_wavelength": "2.5 um"}
     small = Domain(-2e-4, 2e-4, 2e-4)

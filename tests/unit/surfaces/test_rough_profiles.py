@@ -109,6 +109,7 @@ def test_a_cut_that_takes_much_is_said():
     assert not any("truncate" in text for text in texts_of(paper, nodes=6401))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("extend", ["mirror", "repeat", "flat"])
 def test_nothing_is_above_a_cut(extend):
     """A spline through cut heights overshoots them by some per cent between the points."""

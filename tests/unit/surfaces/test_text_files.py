@@ -139,6 +139,7 @@ def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
     assert_read(read_surface(path, **given))
 
 
+@pytest.mark.slow
 @each("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
 def test_units_that_are_no_length(tmp_path, unit):
     path = written(tmp_path / "a.txt", [], rows_of(";"))
@@ -168,6 +169,7 @@ def test_samples_that_may_be_missing(tmp_path):
             read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))
 
 
+@pytest.mark.slow
 def test_rounded_positions_are_no_gap(tmp_path):
     """The Dektak writes 0.15625 um in steps of 0.1: neighbours are 0.1 or 0.2 apart, at three missing 0.3."""
     assert read_surface(DEKTAK).warnings == ()

@@ -60,6 +60,7 @@ def check_same(together, single):
     check_equal(one, other)
 
 
+@pytest.mark.slow
 @each("shape", [BALLS, ROLLERS])
 @each("contacts", ["atlas", "formula"])
 def test_a_batch_has_the_numbers_and_codes_of_its_points(shape, contacts):
@@ -78,6 +79,7 @@ def test_a_batch_has_the_numbers_and_codes_of_its_points(shape, contacts):
         check_same(outcome, solve_point(table))
 
 
+@pytest.mark.slow
 def test_points_without_a_result_have_the_reason_that_they_have_alone():
     """The grooves of a bearing end before the contact of a ball with a load of tons."""
     loads = {LOAD: ["1 kN", "30 kN", "300 kN"], "bearing.axial_load": ["0 N", "300 kN"]}
@@ -132,6 +134,7 @@ def speeds(count, **keys):
     return swept(bearing_case(BALLS, contacts="formula", **keys), {SPEED: [100.0 + k for k in range(count)]})
 
 
+@pytest.mark.slow
 def test_what_a_batch_stores_is_read_as_that_of_single_points(tmp_path):
     """The texts of warnings are the meanings of their codes; tables have the columns of a point alone."""
     results = run(speeds(3), tmp_path, solvers=nullcontext(this_process())).result
@@ -145,6 +148,7 @@ def test_what_a_batch_stores_is_read_as_that_of_single_points(tmp_path):
     assert (results.verdict.level, read_sweep(tmp_path)) == (alone.verdict.level, results)
 
 
+@pytest.mark.slow
 def test_an_interrupted_sweep_keeps_the_batches_that_are_done(tmp_path, monkeypatch):
     monkeypatch.setattr("ehlectric.sweep.batches.TOGETHER", 4)
     solved = []

@@ -4,6 +4,7 @@ import itertools
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
@@ -76,6 +77,7 @@ def test_the_seed_alone_makes_the_points():
     assert list(sobol(over, 8, 3)) != list(sobol(over, 8, 4))
 
 
+@pytest.mark.slow
 @each("seed", [0, 1, 2])
 def test_indices_of_a_function_that_are_known(seed):
     """Ishigami's function with a = 7, b = 0.1, whose variance is split so (Ishigami and Homma, 1990)."""

@@ -52,6 +52,7 @@ def inputs(number, seed):
     }
 
 
+@pytest.mark.slow
 @each("base", list(KINDS))
 def test_points_are_those_of_each_bearing_alone(base):
     case, given = bearing(base), inputs(POINTS, 1)
@@ -142,6 +143,7 @@ def test_both_bearings_of_a_drive_are_evaluated():
         evaluate(drive, {"source.dc_link_voltage": ["500 V"]})
 
 
+@pytest.mark.slow
 @each(
     "inputs",
     [

@@ -150,6 +150,7 @@ def test_the_share_of_samples_below_the_voltage_of_the_shaft():
     )
 
 
+@pytest.mark.slow
 def test_speeds_alone_are_drawn_as_capacitance_and_breakdown_voltages(tmp_path):
     found = over(**{TEMPERATURE: (300.0, 330.0)})
     held = take(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "330"})

@@ -75,6 +75,7 @@ def test_results_are_compared_by_their_points(results):
     assert results != grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6)})
 
 
+@pytest.mark.slow
 def test_a_sweep_is_read_back_from_its_file(results, tmp_path):
     """Also a rotational speed, which a file takes with its unit alone."""
     speeds = {"bearing.inner_speed": ["1000 rpm", "2000 rpm"]}

@@ -40,6 +40,7 @@ def solved_by(sweep, folder, most=10**9):
             return None, [case["contact"]["entrainment_speed"] for case in executor.cases]
 
 
+@pytest.mark.slow
 def test_points_are_the_solutions_of_their_cases(tmp_path):
     told = []
     sweep = sweep_over({SPEED: [1.0, 2.0], PRESSURE: ["0.5 GPa", "1 GPa"]})
@@ -57,6 +58,7 @@ def test_points_are_the_solutions_of_their_cases(tmp_path):
     assert read_sweep(tmp_path / "new" / "folder") == results
 
 
+@pytest.mark.slow
 def test_a_sweep_that_was_stopped_goes_on(tmp_path):
     first, begun = solved_by(speeds(6), tmp_path, most=4)
     assert (first, begun) == (None, [1.0, 2.0, 3.0, 4.0])
@@ -71,6 +73,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path):
     assert (again, nothing) == (results, [])
 
 
+@pytest.mark.slow
 def test_a_changed_sweep_solves_what_it_does_not_share(tmp_path):
     solved_by(speeds(3), tmp_path)
     results, rest = solved_by(speeds(5), tmp_path)
@@ -83,6 +86,7 @@ def test_a_changed_sweep_solves_what_it_does_not_share(tmp_path):
     assert {point.summary["title"] for point in results.points} == {"Renamed"}
 
 
+@pytest.mark.slow
 def test_points_that_fail_are_rows_and_the_others_are_solved(tmp_path):
     vary = {NODES: [129, 400], "grid.outlet": [2.0, 20.0], "solver.max_iterations": [1, 30]}
     results, rest = solved_by(sweep_over(vary), tmp_path)

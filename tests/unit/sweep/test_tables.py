@@ -49,6 +49,7 @@ def rows_of(folder):
         return [{key.partition(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
 
 
+@pytest.mark.slow
 def test_heads_of_the_csv_have_units(gridded):
     folder, results = gridded
     heads = (folder / "sweep.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
@@ -62,6 +63,7 @@ def test_heads_of_the_csv_have_units(gridded):
     np.testing.assert_array_equal(frame[THICKNESS].to_numpy(dtype=float), results.values(THICKNESS))
 
 
+@pytest.mark.slow
 def test_the_csv_is_the_database(gridded):
     folder, _ = gridded
     with sqlite3.connect(folder / NAME) as file:
@@ -107,6 +109,7 @@ def test_parquet_is_the_csv(gridded):
     assert {type(value) for value in table[NODES]} == {int}
 
 
+@pytest.mark.slow
 def test_the_netcdf_is_the_csv(gridded):
     folder, results = gridded
     with xr.open_dataset(folder / "sweep.nc") as file:
@@ -162,6 +165,7 @@ def test_inputs_that_stay_are_left_out_and_resolved_ones_kept(tmp_path):
     assert dataset[PRESSURE].values.tolist() == [0.5e9, 1e9]
 
 
+@pytest.mark.slow
 def test_tables_of_an_earlier_sweep_are_replaced_whole(gridded, tmp_path):
     _, results = gridded
     for name in ("sweep.csv", "sweep.parquet", "sweep.nc"):

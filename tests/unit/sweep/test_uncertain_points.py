@@ -65,6 +65,7 @@ def check_tables(one, other, rel):
         assert one[key] == (pytest.approx(value, rel=rel) if isinstance(value, float) else value), key
 
 
+@pytest.mark.slow
 def test_points_have_the_probability_of_their_bearing_alone():
     """From touching surfaces, where there is none, to full films; the ranges follow the temperature."""
     vary = {
@@ -79,6 +80,7 @@ def test_points_have_the_probability_of_their_bearing_alone():
     assert {one["breakdown_probability"] for one in known if one} > {0.0}
 
 
+@pytest.mark.slow
 def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
     """Without the shares, which points do not have, nothing else differs."""
     solution = solve_bearing(with_motor()).solution
@@ -88,6 +90,7 @@ def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
     assert spread.summary() == {k: v for k, v in whole.summary().items() if k not in shares}
 
 
+@pytest.mark.slow
 @each(
     "changes",
     [
@@ -102,6 +105,7 @@ def test_ranges_laws_and_ways_are_those_of_the_bearing_alone(changes):
         check_alone(outcome, table)
 
 
+@pytest.mark.slow
 def test_a_point_without_samples_says_why(monkeypatch):
     def refused(*_):
         raise InputError.worded(None, "no sample has a result")
@@ -113,6 +117,7 @@ def test_a_point_without_samples_says_why(monkeypatch):
         assert outcome.summary["margin"]["left_out"] == ["probability of breakdown: no sample has a result"]
 
 
+@pytest.mark.slow
 def test_rollers_have_probabilities_too():
     case = bearing_case(ROLLERS, contacts="atlas").replace(
         {"motor": MOTOR, "discharge.dielectric_strength": 15e6}
@@ -121,6 +126,7 @@ def test_rollers_have_probabilities_too():
         check_alone(outcome, table)
 
 
+@pytest.mark.slow
 def test_the_larger_load_changes_where_components_cross():
     """The load that is uncertain is the radial one below 1800 N of axial load, and the axial one above."""
     found = outcomes(swept({"bearing.axial_load": ["1 kN", "1.7 kN", "2.5 kN"]}, with_motor()))
@@ -128,6 +134,7 @@ def test_the_larger_load_changes_where_components_cross():
         check_alone(outcome, table)
 
 
+@pytest.mark.slow
 def test_the_probability_rises_with_the_voltage():
     """The same samples at all points: their margins are in proportion to 1 / voltage."""
     voltages = [100.0, 200.0, 300.0, 400.0, 800.0]
@@ -142,6 +149,7 @@ def test_the_probability_rises_with_the_voltage():
     assert scaled == pytest.approx([scaled[0]] * len(scaled), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_sweep_has_columns_only_where_it_is_asked_for_them(tmp_path):
     """Points without the probability are others, so that none is taken for one with it."""
     vary = {SPEED: ["1500 rpm", "6000 rpm"]}
@@ -163,6 +171,7 @@ def test_a_sweep_has_columns_only_where_it_is_asked_for_them(tmp_path):
     assert again.numbers == plain.numbers
 
 
+@pytest.mark.slow
 def test_a_sweep_of_an_earlier_version_has_no_samples(tmp_path):
     """Its database lacks the setting."""
     import sqlite3
@@ -228,6 +237,7 @@ def test_contacts_have_no_probability():
         )
 
 
+@pytest.mark.slow
 def test_a_wrong_key_names_the_nearest(tmp_path):
     found = run_sweep(swept({SPEED: ["1500 rpm", "6000 rpm"]}), tmp_path, workers=1)
     with pytest.raises(InputError, match=rf"nearest is {PROBABILITY}$"):

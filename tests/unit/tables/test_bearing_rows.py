@@ -109,6 +109,7 @@ def test_the_pressure_viscosity_coefficient_is_that_of_the_film_formulas(steel):
     assert f"α = {steel['lubricant']['pressure_viscosity_coefficient'] * 1e9:.4g} 1/GPa" in row.note
 
 
+@pytest.mark.slow
 def test_angles_have_no_negative_zero():
     summary = solve(BearingCase.from_dict(changed(BALLS, contacts="formula"))).summary()
     for row in summary["contacts"]:

@@ -192,6 +192,7 @@ def test_discharges_are_drawn_by_their_field():
     assert "field" in result.plot().axes[0].get_ylabel()
 
 
+@pytest.mark.slow
 def test_plot_of_sweeps():
     lines = grid({SPEED: (1.0, 2.0, 4.0)}).plot()
     assert "breakdown voltage" in lines.axes[0].get_ylabel()

@@ -73,6 +73,7 @@ def printed(moved):
     }
 
 
+@pytest.mark.slow
 @each("table", PRINTED)
 def test_labels_are_understood_alone(printed, table):
     """No label continues the row above, none is there twice, and none has words of our own."""

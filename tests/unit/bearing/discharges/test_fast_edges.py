@@ -12,6 +12,7 @@ def summary(**changes):
     return solve_bearing(case, workers=1).summary(probable=False)
 
 
+@pytest.mark.slow
 def test_current_at_an_edge():
     """i = C BVR dv/dt: 228.4 pF, 1.354 % and 20 V/ns would make 61.9 mA."""
     own = summary(motor__voltage_slope="20 V/ns")["bearing"]
@@ -20,6 +21,7 @@ def test_current_at_an_edge():
     assert summary()["bearing"]["edge_current"] is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("current", "warned"), [("0.1 mA", True), ("100 mA", False)])
 def test_low_current_densities_are_warned_of(current, warned):
     found = summary(discharge__peak_current=current)

@@ -51,6 +51,7 @@ def test_a_tight_oil_says_nothing():
     assert found["shaft_voltage_after_period"] == pytest.approx(found["shaft_voltage"], rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("over", [0.9, 1.1])
 def test_the_period_decides(over):
     time = totals(solved(**LEAKY))["shaft_time_constant"]
@@ -88,6 +89,7 @@ def test_the_conductance_is_that_of_high_frequencies():
     assert leakage_conductance(inner, outer, 1.0) == pytest.approx(high.real, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

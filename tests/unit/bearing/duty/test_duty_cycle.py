@@ -73,6 +73,7 @@ def at_row(case, rows, k):
     )
 
 
+@pytest.mark.slow
 def test_each_row_is_the_bearing_alone(case, duty):
     rows = duty.rows
     for k in (2, 3, 4, 6):
@@ -85,6 +86,7 @@ def test_each_row_is_the_bearing_alone(case, duty):
             assert np.isnan(found) if value is None else found == pytest.approx(value, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_states_follow_from_speed_and_lambda_ratio(duty):
     states = [STATES[int(state)] for state in duty.rows.state]
     assert states[:3] == ["standstill", "standstill", "touching"]
@@ -96,6 +98,7 @@ def test_states_follow_from_speed_and_lambda_ratio(duty):
     assert {"partial film", "full film"} <= set(states)
 
 
+@pytest.mark.slow
 def test_shares_are_those_of_the_durations(duty):
     # Half of the intervals on both sides: 5, 10, 10, 10, 15, 30 and 20 s of 100 s.
     durations = np.array([5.0, 10.0, 10.0, 10.0, 15.0, 30.0, 20.0])
@@ -110,6 +113,7 @@ def test_shares_are_those_of_the_durations(duty):
     assert sum(found[f"{name}_share"] for name in names) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_the_probability_of_each_row_is_that_of_its_bearing(case, duty):
     """The probability of the cycle is their mean over the time; rows without a margin do not count."""
     rows = duty.rows
@@ -145,6 +149,7 @@ def test_an_inverter_that_is_off_leaves_no_voltage(duty):
     assert duty.rows.lambda_ratio[5] == pytest.approx(duty.rows.lambda_ratio[4], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_rings_keep_their_difference_from_the_oil(tmp_path):
     rows = "0,70\n1,90\n"
     bearing = BALLS["bearing"] | {"inner_ring_temperature": "85 degC"}
@@ -166,6 +171,7 @@ def test_a_stretch_lies_between_the_rows_around_it(tmp_path):
     assert stretch.why.startswith("speed 700 rpm; ")
 
 
+@pytest.mark.slow
 def test_the_reason_of_a_stretch_is_the_input_that_raises_the_margin(tmp_path):
     # The speed hardly changes, and the voltage is ten times its usual value for a while.
     volts = [60, 60, 60, 600, 60, 60]
@@ -177,6 +183,7 @@ def test_the_reason_of_a_stretch_is_the_input_that_raises_the_margin(tmp_path):
     assert stretch.why.startswith("common-mode voltage 600 V; ")
 
 
+@pytest.mark.slow
 def test_at_most_ten_stretches_the_worst_first(tmp_path):
     speeds = np.where(np.arange(40) % 3 == 1, 500.0 + np.arange(40), 6000.0)
     rows = "".join(f"{k},{speed}\n" for k, speed in enumerate(speeds))
@@ -187,11 +194,13 @@ def test_at_most_ten_stretches_the_worst_first(tmp_path):
     assert worst[0] == np.min(duty.rows.lambda_ratio)
 
 
+@pytest.mark.slow
 def test_equal_points_are_computed_once(tmp_path):
     rows = "".join(f"{k},{1000 * (k % 3)}\n" for k in range(30))
     assert run_duty(case_of(tmp_path, rows, "time [s],speed [rpm]")).points == 2
 
 
+@pytest.mark.slow
 def test_interpolation_holds_its_error(case, monkeypatch):
     rng = np.random.default_rng(5)
     speed, load = 2.0 * np.pi * rng.uniform(10.0, 100.0, 900), rng.uniform(500.0, 3000.0, 900)
@@ -263,6 +272,7 @@ def test_ceramic_elements_have_states_and_no_margin(tmp_path):
     assert found["left_out_share"] == 0.0
 
 
+@pytest.mark.slow
 def test_files_of_a_cycle(case, duty, tmp_path):
     outcome = run(case, tmp_path / "out")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
@@ -280,6 +290,7 @@ def test_files_of_a_cycle(case, duty, tmp_path):
         (tmp_path / "moved.csv").rename(case.duty.file)
 
 
+@pytest.mark.slow
 def test_a_bearing_without_a_cycle_has_no_table():
     result = solve_bearing(BearingCase.from_dict({**BALLS, "contacts": "formula"}))
     assert result.duty is None

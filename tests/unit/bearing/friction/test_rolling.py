@@ -196,6 +196,7 @@ def test_without_solved_heat_there_is_no_friction(factor, known):
     assert found["inlet_shear_factor"] == (found["heat_factor"] if known else None)
 
 
+@pytest.mark.slow
 def test_a_given_film_factor_has_no_friction():
     """Films of another thickness are not those whose friction was solved."""
     changed = with_film_factor(prepare_bearing(case(ROLLERS), 1), 0.8).conditions
@@ -203,6 +204,7 @@ def test_a_given_film_factor_has_no_friction():
     assert changed.part_of_film_factor("inlet_shear_factor") is None
 
 
+@pytest.mark.slow
 def test_stored_friction(rollers, tmp_path):
     """A file keeps it; one of films of another thickness has none, and a damaged one is refused."""
     result = solve_bearing(case(ROLLERS))
@@ -240,6 +242,7 @@ def film_exponent(solution, isothermal):
     return math.log(ratio) / math.log(solution.conditions.inner.film_factor)
 
 
+@pytest.mark.slow
 def test_solved_rollers_with_solved_heat(rollers):
     """Films and friction are both solved: the friction is that beside contacts by formula."""
     solution = solve_bearing(case(ROLLERS, contacts="solved"), workers=1).solution

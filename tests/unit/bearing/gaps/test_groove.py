@@ -107,6 +107,7 @@ def test_radii_of_a_catalogues_bearing(outer, angle):
     assert across == pytest.approx(0.5e-12 * (2.0 - 1.0 / 0.53) / D, rel=1e-6, abs=0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [5e-6, 1e-4])
 @pytest.mark.parametrize(
     ("outer", "groove", "angle"), [(False, 0.52, 0.0), (True, 0.505, 0.0), (True, 0.6, 0.6)]
@@ -443,6 +444,7 @@ def by_cells(*, outer, shoulder, gap, cells=(200, 600)):
     ]
 
 
+@pytest.mark.slow
 @each("outer", [False, True])
 @each("shoulder", [0.2, 0.07])
 @each("gap", [2e-6, 5e-6, 2e-5])

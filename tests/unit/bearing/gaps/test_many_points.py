@@ -138,6 +138,7 @@ def direct(race, b, ends, films):
     return around, between.reshape(shape), before.reshape(shape), behind.reshape(shape), whole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("outer", [False, True])
 def test_polynomials_are_the_integrals(outer):
     """Differences over the capacitance of the whole contact, of its Hertz area and of all of its gap."""
@@ -169,6 +170,7 @@ def test_few_contacts_are_integrated():
     assert found[1] == pytest.approx(behind, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_refused_contact_disturbs_no_other():
     race, b, ends, films = contacts(400, outer=False)
     found = around_of_balls(race, b, ends, films, BALL_DOMAINS)
@@ -180,6 +182,7 @@ def test_a_refused_contact_disturbs_no_other():
     assert again[known] == pytest.approx(found[known], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_domain_that_reaches_the_shoulder_is_integrated():
     """At 0.45 rad a shoulder at 0.883 rad is 2.7 mm away; long domains of light contacts are wider."""
     race, b, ends, films = contacts(400, outer=False)

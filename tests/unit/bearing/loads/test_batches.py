@@ -62,6 +62,7 @@ def assert_same(many, index, single):
     assert many.radial_displacement[index] == pytest.approx(single.radial_displacement, rel=1e-6, abs=1e-11)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([DEEP, ANGULAR, TIGHT]), rows=st.lists(duties, min_size=1, max_size=6))
 def test_balls(bearing, rows):
@@ -72,6 +73,7 @@ def test_balls(bearing, rows):
         assert_same(many, k, ball_equilibrium(bearing, operation, E, DENSITY))
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([DEEP, TIGHT, LOOSE]), rows=st.lists(radial_duties, min_size=1, max_size=6))
 def test_balls_under_radial_loads(bearing, rows):
@@ -83,6 +85,7 @@ def test_balls_under_radial_loads(bearing, rows):
         assert_same(many, k, ball_equilibrium(bearing, operation, E, DENSITY))
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([ROLLERS, LONG]), rows=st.lists(radial_duties, min_size=1, max_size=6))
 def test_rollers(bearing, rows):

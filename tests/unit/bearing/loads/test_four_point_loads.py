@@ -254,6 +254,7 @@ def check_balance(state, radial, axial):
     assert state.residual < 1e-9
 
 
+@pytest.mark.slow
 @each("bearing", [QJ, TIGHT, PRELOADED])
 @each("radial, axial", [(0.0, 500.0), (800.0, 0.0), (800.0, -200.0), (30.0, 3000.0)])
 @each("speed", [0.0, 5.0, 3000.0])
@@ -280,6 +281,7 @@ def test_fast_balls_touch_three_arcs():
     np.testing.assert_allclose(first, second, rtol=1e-9)
 
 
+@pytest.mark.slow
 @each("radial", [0.0, 400.0, 4000.0])
 @each("speed", [0.0, 800.0])
 def test_opposite_axial_loads_swap_the_diagonals(radial, speed):
@@ -298,6 +300,7 @@ def test_opposite_axial_loads_swap_the_diagonals(radial, speed):
     assert back.moment == pytest.approx(-ahead.moment, rel=1e-7, abs=1e-9 * size * 30e-3)
 
 
+@pytest.mark.slow
 def test_many_points_equal_single_ones():
     points = [random_point(seed)[1] for seed in range(100, 112)]
     values = {key: np.array([vars(point)[key] for point in points]).reshape(4, 3) for key in vars(points[0])}
@@ -343,6 +346,7 @@ def test_one_diagonal_is_an_angular_contact_bearing(axial):
     assert state.cage_speed == same.cage_speed == 0.0
 
 
+@pytest.mark.slow
 @each("axial", [0.0, 15.0, -40.0])
 @each("bearing", [QJ, dataclasses.replace(QJ, inner_groove=0.51, outer_groove=0.54)])
 def test_balls_with_play_at_rest_have_the_largest_gaps(bearing, axial):

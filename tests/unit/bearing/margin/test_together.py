@@ -40,6 +40,7 @@ def margins(request):
     return QuickMargins.of(solve_bearing(bearing_case(tables, contacts=way), workers=1).solution)
 
 
+@pytest.mark.slow
 def test_margins_together_are_those_of_each(margins):
     """Every change alone is solved by itself; errors have the same words."""
     together = margins.at_all(CHANGES)
@@ -57,6 +58,7 @@ def test_margins_together_are_those_of_each(margins):
         assert found.lambda_ratio == pytest.approx(own.lambda_ratio, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_margins_over_the_speed_are_those_of_single_bearings(margins):
     """A single bearing has floats, and its own path through the equilibrium and the contacts."""
     speeds = margins.case.bearing.inner_speed * np.array([0.5, 1.0, 2.0])
@@ -109,6 +111,7 @@ def test_inputs_that_are_no_quantities_stand_apart():
     assert groups[0, 2].bearing.radial_load.tolist() == [900.0, 1200.0]
 
 
+@pytest.mark.slow
 def test_no_array_is_left_in_a_summary():
     """Every number of a whole answer is a number of Python, which JSON has."""
     result = solve_bearing(bearing_case(BALLS, contacts="formula", ranges={SPEED: ["2500 rpm", "3500 rpm"]}))
@@ -117,6 +120,7 @@ def test_no_array_is_left_in_a_summary():
     assert {type(one) for one in summary["margin"].values()} <= {float, str, list, type(None)}
 
 
+@pytest.mark.slow
 def test_numbers_over_the_speed_are_those_of_whole_bearings():
     """Whole bearings have eight cage positions and more loads; 1e-3 is what is stated."""
     case = bearing_case(BALLS, contacts="formula")

@@ -67,6 +67,7 @@ def usual():
     return analysed(bearing())
 
 
+@pytest.mark.slow
 def test_the_probability_is_that_of_plain_random_points(usual):
     """4000 points of an independent generator, whose own sampling error counts too."""
     solution, margins = usual
@@ -82,6 +83,7 @@ def test_the_probability_is_that_of_plain_random_points(usual):
     assert found.predicted > 0.99
 
 
+@pytest.mark.slow
 def test_the_strength_alone_has_an_even_distribution(usual):
     """Ranges that close in on all other inputs leave the even distribution of the strength."""
     solution, margins = usual
@@ -102,6 +104,7 @@ def test_the_strength_alone_has_an_even_distribution(usual):
     assert not found.inputs[0].assumed
 
 
+@pytest.mark.slow
 def test_shares_add_up_and_name_the_input_to_measure_first(usual):
     found = uncertainty_of(*usual)
     assert found.inputs[0].key == ROTOR
@@ -114,6 +117,7 @@ def test_shares_add_up_and_name_the_input_to_measure_first(usual):
     assert found.inputs[0].first_order == pytest.approx(np.var(logs) / whole, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_weibull_law_scatters(usual):
     """The logarithm of a strength by a Weibull law of shape m has the variance pi^2/(6 m^2)."""
     weibull = {"scale": "15 V/um", "shape": 4.0, "reference_area": "1 mm^2"}
@@ -127,6 +131,7 @@ def test_a_weibull_law_scatters(usual):
     assert found.probability > uncertainty_of(*usual).probability
 
 
+@pytest.mark.slow
 def test_surfaces_that_touch_count_as_breakdown(usual):
     """Films that are 5 % thicker than the roughness: a warmer bearing touches."""
     rough = float(usual[0].least_film / 1.05)
@@ -137,6 +142,7 @@ def test_surfaces_that_touch_count_as_breakdown(usual):
     assert found.interval[0] == 0.0
 
 
+@pytest.mark.slow
 def test_the_band_falls_to_no_breakdown_at_high_speed(usual):
     solution, margins = usual
     band = margin_band(solution, margins)
@@ -150,6 +156,7 @@ def test_the_band_falls_to_no_breakdown_at_high_speed(usual):
     assert at.probability[0] == pytest.approx(own.probability, abs=2.0 * sampling_error(own.probability, 128))
 
 
+@pytest.mark.slow
 def test_the_chance_at_once_is_near_the_whole_one(usual):
     """Its films are those of the bearing: temperature, load and clearance have a tenth of the spread here."""
     at_once, whole = quick_chance(usual[0]), uncertainty_of(*usual).chance
@@ -159,6 +166,7 @@ def test_the_chance_at_once_is_near_the_whole_one(usual):
     assert "follows" in at_once.sentence
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_numbers(usual):
     first, again, other = (uncertainty_of(*usual, samples=64, seed=seed) for seed in (1, 1, 2))
     assert first.summary() == again.summary()
@@ -178,6 +186,7 @@ def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
     assert abs(found.probability - below) < found.probability_error
 
 
+@pytest.mark.slow
 def test_a_probability_that_is_not_computed_says_why(monkeypatch):
     def refused(_):
         raise InputError.worded(None, "no point has a result")
@@ -191,6 +200,7 @@ def test_a_probability_that_is_not_computed_says_why(monkeypatch):
     assert "probability" not in result.verdict.text
 
 
+@pytest.mark.slow
 def test_points_without_a_result_are_told_in_the_table():
     """Above some temperature the viscosity is below the range of its equation."""
     case = bearing(ranges={"bearing.temperature": ["60 degC", "230 degC"]})

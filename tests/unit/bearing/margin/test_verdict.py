@@ -108,6 +108,7 @@ def test_words_for_other_speeds_are_no_surer_than_the_verdict(balls):
     assert "at all speeds" not in bearing_verdict(balls.solution, MarginAnalysis(margin, alone)).text
 
 
+@pytest.mark.slow
 def test_rollers_by_formula_may_be_40_percent_off():
     """A margin of 1.35 is beyond the error of balls, and within that of rollers."""
     rollers = solve_bearing(bearing_case(ROLLERS, contacts="formula"), workers=1)
@@ -181,6 +182,7 @@ def test_surfaces_that_touch_do_not_read_as_safe():
     assert (unknown.level, unknown.text) == ("yellow", verdict.text)
 
 
+@pytest.mark.slow
 def test_a_thinner_film_has_no_milder_verdict():
     """The level does not fall from speed to speed, across a margin of 1 and a lambda ratio of 1."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "formula"})
@@ -197,6 +199,7 @@ def test_a_thinner_film_has_no_milder_verdict():
     assert sum(ratio < 1.0 for ratio in ratios) == 3
 
 
+@pytest.mark.slow
 def test_ceramic_elements_insulate_also_where_surfaces_touch():
     slow = solved(bearing__element_material="silicon-nitride", bearing__inner_speed="30 rpm").verdict
     assert slow.level == "green"
@@ -234,6 +237,7 @@ def test_a_film_factor_is_said(balls):
     assert sheared.margin < balls.breaks()["margin"]
 
 
+@pytest.mark.slow
 def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
     """A little rougher, and the first breakdown is gone: the verdict turns red, and says what happens."""
     above, below = (solved(bearing__composite_rq=rq) for rq in ("0.18 um", "0.2 um"))

@@ -35,6 +35,7 @@ def point(rpm, case="axial"):
     return OperatingPoint.of(made, {"bearing.inner_speed": rpm * math.pi / 30.0})
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=12)
 @given(st.floats(0.05, 2.9), st.sampled_from([600, 3000, 9000]), st.floats(0.2, 2.0))
 def test_inverse_of_the_model(factor, rpm, guess):

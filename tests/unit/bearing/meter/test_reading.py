@@ -199,6 +199,7 @@ def test_films_behind_a_coating_decay_as_in_small_steps():
     assert decay.after_rise(time) == pytest.approx(mean, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_film_that_discharges_within_a_period_is_told():
     leaky = {"discharge__conductivity": "10 uS/m", "motor__switching_frequency": "10 kHz"}
     result = solved(**leaky, bearing__coating=COATING)

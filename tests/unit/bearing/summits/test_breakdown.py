@@ -129,6 +129,7 @@ def test_thinner_films_by_hand(smooth):
     assert margin_with_films(rough, scale) == pytest.approx([*expected, 0.0], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_points_together_have_the_numbers_of_single_ones():
     case = bearing_case(BALLS, contacts="atlas", bearing__film_factor="inlet-shear",
                         lubricant__thermal_conductivity="0.14 W/m/K")  # fmt: skip
@@ -184,6 +185,7 @@ def test_a_height_out_of_bounds_is_refused_with_its_key(value):
     assert all(word in str(error.value) for word in ("0", "6"))
 
 
+@pytest.mark.slow
 @each(
     ("factor", "height", "words"),
     [

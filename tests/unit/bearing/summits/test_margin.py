@@ -69,6 +69,7 @@ def thicker(solution, factor):
     return dataclasses.replace(solution, positions=positions)
 
 
+@pytest.mark.slow
 @each("changes", [{SPEED: 120.0}, {SPEED: 80.0}, {HEIGHT: 4.0}, {RQ: 6e-8}])
 def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, changes):
     """A solution whose films are 4 % thicker than those of the atlas, at inputs at which summits matter."""
@@ -81,6 +82,7 @@ def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, chang
     assert found.margin == pytest.approx(first_margin(expected), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_error_of_the_films_acts_on_the_gap_that_summits_leave(rough):
     """By plain points: the margin at films of a random thickness, each by hand from least film and height."""
     solution, margins = rough
@@ -101,6 +103,7 @@ def test_the_error_of_the_films_acts_on_the_gap_that_summits_leave(rough):
     assert {FILMS, HEIGHT} < set(keys)
 
 
+@pytest.mark.slow
 def test_summits_and_films_that_touch_count_as_breakdown():
     thin = solution_of(case(**{SPEED: 75.0}))
     assert 2.0 < lambda_ratio(thin) < 3.0
@@ -155,6 +158,7 @@ def test_curves_over_the_speed_are_near_bearings_between_their_speeds():
         assert curves.at("first_break", at) == pytest.approx(found, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_duty_cycle_between_a_design_ends_at_the_summits(monkeypatch):
     """Interpolated points: no voltage up to the height, and otherwise that of the point itself."""
     speeds = np.geomspace(20.0, 400.0, 900)

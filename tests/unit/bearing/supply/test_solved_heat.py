@@ -48,6 +48,7 @@ def test_solved_factor_of_balls_is_near_to_the_formula():
     assert solved < 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("supply", [1.0, 0.6])
 def test_films_of_the_bearing_have_the_solved_factor(rollers, supply):
     """The contacts have the films of the same number given; the supply multiplies the factor of the heat."""
@@ -79,6 +80,7 @@ def test_rollers_lose_more_film_the_faster_they_turn():
         assert solved == pytest.approx(formula.film_factor, rel=0.03)
 
 
+@pytest.mark.slow
 def test_warmer_elements_thin_the_film():
     """The element heats the oil in the inlet; without fits it is as warm as the rings."""
     fits = {
@@ -99,6 +101,7 @@ def test_warmer_elements_thin_the_film():
     assert warm.outer.heat_factor < 0.97 * usual.outer.heat_factor
 
 
+@pytest.mark.slow
 def test_an_eyring_stress_thins_the_film_a_little_more():
     plain = prepare_bearing(case(ROLLERS), 1).conditions.film_factor
     assert prepare_bearing(case(ROLLERS, lubricant__eyring_stress="1 MPa"), 1).conditions.film_factor < plain
@@ -146,6 +149,7 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
         prepare_bearing(case(ROLLERS, bearing__inner_speed="777 rpm"), 1)
 
 
+@pytest.mark.slow
 def test_an_isothermal_film_that_did_not_converge_gives_no_factor():
     """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
     with pytest.raises(ConvergenceError, match=r" N: .*solver\.max_iterations"):

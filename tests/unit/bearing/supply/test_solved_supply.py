@@ -57,6 +57,7 @@ def flooded():
     return solve_bearing(case())
 
 
+@pytest.mark.slow
 def test_a_ratio_of_one_is_the_flooded_film(contacts):
     assert contacts[1.0] == contacts["flooded"]
     hot, grid = _last_hot()
@@ -77,6 +78,7 @@ def _last_hot():
     return hot, film_factor._solved(hot).grid
 
 
+@pytest.mark.slow
 def test_less_oil_leaves_less_film_and_less_resistance(contacts):
     """The factor of the heat stays that of the flooded film, and the film is the ratio of the flooded one."""
     flooded = contacts["flooded"][1]
@@ -97,6 +99,7 @@ def test_less_oil_leaves_less_film_and_less_resistance(contacts):
     assert parts[2] < 0.1 * 0.1
 
 
+@pytest.mark.slow
 def test_resistance_is_that_of_the_starved_film(contacts):
     """By an own integral of h/2 dp/dx over the film with heat and supply."""
     hot, grid = _last_hot()
@@ -110,6 +113,7 @@ def test_resistance_is_that_of_the_starved_film(contacts):
     )
 
 
+@pytest.mark.slow
 def test_heat_and_supply_together_are_thinner_than_either(starved, flooded):
     both = starved.solution
     alone = (flooded.solution, solve_bearing(case(supply=0.5, bearing__film_factor="none")).solution)
@@ -121,6 +125,7 @@ def test_heat_and_supply_together_are_thinner_than_either(starved, flooded):
     assert own.film_factor == own.heat_factor * 0.5 == pytest.approx(0.974 * least, abs=0.01)
 
 
+@pytest.mark.slow
 def test_power_of_a_starved_bearing(starved, flooded, contacts):
     """All its contacts have the part of the most loaded one."""
     part = contacts[0.5][1].rolling_coefficient / contacts["flooded"][1].rolling_coefficient
@@ -145,6 +150,7 @@ def test_a_rule_is_a_factor_on_film_and_resistance(flooded):
     assert "by SKF's factor of the supply" in rows["bearing.rolling_power_loss"]
 
 
+@pytest.mark.slow
 def test_share_of_time_is_that_of_the_solved_film(starved):
     """Clarke's 1 - erf(lambda) of the most loaded contact, with the film that was solved for it."""
     found, friction = starved.summary()["bearing"], starved.solution.conditions.inner.friction
@@ -165,6 +171,7 @@ def test_films_without_solved_heat_are_not_scaled():
     assert solved_scales(solution) == (1.0, 1.0)
 
 
+@pytest.mark.slow
 def test_speed_of_the_capacitive_regime_follows_the_solved_film():
     """At this speed the share of time is 1 %, or surfaces part: of the same scaled films."""
     rough = solve_bearing(case(supply=0.5, bearing__composite_rq="0.06 um", bearing__summit_height=0.0))
@@ -176,6 +183,7 @@ def test_speed_of_the_capacitive_regime_follows_the_solved_film():
     assert (duty.contact_time_share < plain.contact_time_share) == (min(scales) > 1.0)
 
 
+@pytest.mark.slow
 def test_an_unconverged_starved_film_has_no_friction(monkeypatch, tmp_path):
     """Films have both factors all the same; a note says what is missing, also of a stored result."""
     monkeypatch.setattr(film_factor, "_starved", lambda *_: None)

@@ -61,6 +61,7 @@ def test_traction_has_the_sign_of_the_sliding(hot, sheared):
     assert hot.film.heated.traction_coefficient < -sheared.film.heated.traction_coefficient
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("warmer", "drags"), [(0.0, False), (20.0, True)])
 def test_equal_bodies_that_roll_have_no_traction(warmer, drags):
     """Between bodies at different temperatures the oil on both sides is not equally thick."""
@@ -99,6 +100,7 @@ def test_temperatures_of_the_film(hot):
         assert inlet < surface < heated.mid_temperature[centre]
 
 
+@pytest.mark.slow
 def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
     for result in (hot, sheared):
         folder = tmp_path / result.film.heated.rheology / str(result.film.heated.thermal)
@@ -109,6 +111,7 @@ def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
             assert np.array_equal(getattr(loaded.film.heated, name), value), name
 
 
+@pytest.mark.slow
 def test_an_isothermal_film_that_did_not_converge_is_not_told(tmp_path):
     """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
     result = solve(Case.from_dict(HOT_LINE | {"solver": {"max_iterations": 3}}))
@@ -246,6 +249,7 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
         solve(case, solvers=PAPER)
 
 
+@pytest.mark.slow
 def test_a_sheared_film_whose_surfaces_touch_is_solved():
     """The boundary film of 1 nm carries what the oil does not: together they carry the load."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4}
@@ -271,6 +275,7 @@ def test_a_rough_film_that_does_not_touch_has_its_change_by_shear():
     assert rows["film.isothermal.minimum_thickness"].endswith("% by shear")
 
 
+@pytest.mark.slow
 def test_the_heat_of_sliding_spots_needs_their_friction():
     """Without the coefficient a warning says what is missing; with it the film is hotter."""
     rises = []
@@ -285,6 +290,7 @@ def test_the_heat_of_sliding_spots_needs_their_friction():
     assert rises[1] > rises[0]
 
 
+@pytest.mark.slow
 def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
     """Neither in Python, summary.json and the table of command and report, nor in the app and in figures."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}

@@ -52,6 +52,7 @@ def read(results):
     return reading
 
 
+@pytest.mark.slow
 @KINDS
 def test_parts_add_up(read, results, kind):
     reading = read(kind, fill=0.3, parallel_capacitance="2 pF")
@@ -71,6 +72,7 @@ def test_parts_add_up(read, results, kind):
     )
 
 
+@pytest.mark.slow
 @KINDS
 def test_oil_up_to_a_radius_is_between_air_and_oil(read, kind):
     dry, some, wet = (read(kind, oil_radius=radius) for radius in ("1 nm", "2 mm", "1 m"))
@@ -136,6 +138,7 @@ def test_thin_coating_changes_nothing_and_a_thick_one_takes_the_voltage(read, ki
         assert reading.film_voltage_share == pytest.approx(1.0 - reading.coating_voltage_share)
 
 
+@pytest.mark.slow
 def test_breakdown_of_film_and_coating(read, results):
     result, reading = results["point"], read("point", fill="oil", coating=COATING)
     film = result.film.minimum_thickness
@@ -156,6 +159,7 @@ def test_breakdown_of_film_and_coating(read, results):
     assert unknown.film_breakdown_voltage == reading.film_breakdown_voltage
 
 
+@pytest.mark.slow
 @KINDS
 def test_roughness_factor_is_that_of_the_films(read, results, kind):
     film = results[kind].film
@@ -183,6 +187,7 @@ def test_warnings(results):
     assert found == [["roughness-factor-rough"], ["coating-in-series"], []]
 
 
+@pytest.mark.slow
 @KINDS
 def test_profile_ends_at_the_reading(results, kind):
     result = results[kind]
@@ -195,6 +200,7 @@ def test_profile_ends_at_the_reading(results, kind):
     assert within == pytest.approx(result.meter.capacitance_hertz, rel=0.05)
 
 
+@pytest.mark.slow
 @KINDS
 def test_file_figure_and_table(results, kind, tmp_path):
     result = results[kind]

@@ -20,6 +20,9 @@ from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import LINE, POINT, solved
 
+# The contacts of this file take seconds to solve.
+pytestmark = pytest.mark.slow
+
 BOTH = pytest.mark.parametrize("geometry", ["line", "point"])
 
 
@@ -44,7 +47,6 @@ def test_at_creeping_speed_smooth_surfaces_touch_in_the_whole_hertz_zone():
     assert again.electrical.behaviour == "resistive"
 
 
-@pytest.mark.slow
 @BOTH
 def test_oil_and_asperities_carry_the_load(geometry):
     result = solved(geometry)
@@ -61,7 +63,6 @@ def test_oil_and_asperities_carry_the_load(geometry):
     assert film.thickness[film.contact] == pytest.approx(1e-9, rel=1e-3)
 
 
-@pytest.mark.slow
 @BOTH
 def test_film_around_the_spots(geometry):
     result = solved(geometry)
@@ -129,7 +130,6 @@ def test_what_is_told(geometry):
     assert "where surfaces touch" in rows["film.discretisation_error"].text
 
 
-@pytest.mark.slow
 def test_a_share_that_depends_on_the_grid_is_told():
     result = solved()
     share = result.asperities.touching.load_share
@@ -158,7 +158,6 @@ def test_digits_of_a_share(share, coarser, text):
     assert share_text(share, coarser) == text
 
 
-@pytest.mark.slow
 def test_tiny_shares_are_told_as_bounds():
     result = solved()
     coarser = Coarser(1e-6, 0.1)
@@ -189,7 +188,6 @@ def test_titles_name_the_field_of_the_boundary_film(geometry):
         assert "Maximum" not in title
 
 
-@pytest.mark.slow
 def test_verdict_speaks_of_the_spots():
     result = solve(POINT.replace(discharge={"dielectric_strength": "15 V/um"}), beside_smooth=False)
     verdict, found = result.verdict, result.asperities

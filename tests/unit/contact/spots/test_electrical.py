@@ -21,6 +21,9 @@ from ehlectric.contact.touching import (
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import POINT, solved
 
+# The contacts of this file take seconds to solve.
+pytestmark = pytest.mark.slow
+
 RHO = 2.2e-7
 
 

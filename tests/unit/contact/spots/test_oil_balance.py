@@ -11,6 +11,9 @@ from tests.helpers.each import each
 from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
 from tests.unit.contact.spots.cases import LINE, solved
 
+# The contacts of this file take seconds to solve.
+pytestmark = pytest.mark.slow
+
 ROUGH = rough_line(gaussian(0.2e-6, 20e-6, seed=3), nodes=801, speed=0.005)
 
 
@@ -52,7 +55,6 @@ def gained(result):
     return (flux_behind(result, behind) - flux_behind(result, before)) / flow
 
 
-@pytest.mark.slow
 def test_what_enters_leaves():
     """Surfaces apart: 35 % of the flow would appear if cavitated gaps counted as full."""
     case = rough_line(gaussian(0.2e-6, 30e-6, seed=3), nodes=801, speed=0.02)
@@ -62,7 +64,6 @@ def test_what_enters_leaves():
     assert oil_balance(case, result.conditions, result.film).mass_error < 1e-6
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("counted_full")
 @pytest.mark.parametrize("case", [LINE, ROUGH], ids=["sinusoid", "gaussian"])
 def test_what_leaves_the_zone_in_excess_is_the_error(case):
@@ -81,7 +82,6 @@ def test_what_leaves_the_zone_in_excess_is_the_error(case):
     assert excess / flow == pytest.approx(found.oil_made - found.oil_lost, rel=1e-3)
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("counted_full")
 @pytest.mark.parametrize(
     "case",

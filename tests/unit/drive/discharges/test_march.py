@@ -66,6 +66,7 @@ def test_a_linear_ramp_breaks_down_at_its_time():
     assert record.events[0, VOLTAGE] == pytest.approx(5.0, rel=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(
     threshold=st.floats(1.0, 9.0),
@@ -127,6 +128,7 @@ def test_voltages_are_measured_while_an_arc_burns(threshold, extinction, resista
     assert record.above[0, 0] == pytest.approx(tau * math.log(start / level), rel=1e-3, abs=1e-3 * tau)
 
 
+@pytest.mark.slow
 def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp
@@ -270,6 +272,7 @@ def test_charge_stays_when_elements_move():
     assert seen == pytest.approx(sorted([first, second]), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_touching_films_conduct_for_their_share_of_time():
     circuit = motor()
     bearings = [element(touching=0.3, touch_resistance=1.0, transit=1e-5), element()]

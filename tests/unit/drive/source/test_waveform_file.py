@@ -213,6 +213,7 @@ def test_what_is_no_text_file_is_refused(tmp_path):
     assert "directory" in refused(tmp_path).replace(str(tmp_path), "")
 
 
+@pytest.mark.slow
 @each(
     "content",
     [
@@ -421,6 +422,7 @@ def test_a_clipped_waveform_is_told(tmp_path):
     assert "0.8 V" in warnings[0].text
 
 
+@pytest.mark.slow
 def test_lines_of_several_blocks_are_counted(tmp_path):
     """A file of some ten megabytes: the error of a line far behind the first block."""
     good = "".join(f"{k},{k % 7}.{'1' * 24}\n" for k in range(300_000))

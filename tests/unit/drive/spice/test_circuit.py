@@ -151,6 +151,7 @@ def test_a_coating_keeps_its_share_at_the_breakdown(coated, tmp_path):
     assert 1.2 * shaft * times[top] / 1e-6 == pytest.approx(shaft, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_table_has_its_nodes(over_speed, tmp_path):
     include = written(over_speed, tmp_path, **ARC)
     assert capacitance_of(tmp_path, include) == pytest.approx(over_speed[0].capacitance(), rel=1e-6)
@@ -176,6 +177,7 @@ def test_between_its_nodes_the_table_is_near_the_bearing(over_speed, tmp_path):
 MOTOR = {"motor__switching_frequency": "10 kHz", "motor__rise_time": "0.2 us"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

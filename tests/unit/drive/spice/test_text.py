@@ -33,6 +33,7 @@ def test_every_line_of_a_comment_is_one(text):
         assert len(line) <= 102
 
 
+@pytest.mark.slow
 @given(st.text())
 def test_names_are_words_of_a_netlist(text):
     assert re.fullmatch(r"[a-z0-9_]*", name_of(text))

@@ -21,6 +21,7 @@ def result(tmp_path_factory):
     return solve_bearing(BearingCase.from_dict({**BALLS, "contacts": "formula", "duty": {"file": str(file)}}))
 
 
+@pytest.mark.slow
 def test_panels(result):
     speed, ratio, margin = duty_panels(result.duty)
     assert [panel.title for panel in (speed, ratio, margin)] == ["speed", "lambda ratio", "margin"]
@@ -29,12 +30,14 @@ def test_panels(result):
     assert time_axis(result.duty.rows).window == (0.0, 40.0)
 
 
+@pytest.mark.slow
 def test_bands_end_halfway_between_rows(result):
     speed, *_ = duty_panels(result.duty)
     ends = {area.name: area.x[area.within][[0, -1]].tolist() for area in speed.areas}
     assert ends == {"standstill": [0.0, 15.0], "touching, λ < 1": [15.0, 25.0]}
 
 
+@pytest.mark.slow
 def test_title_is_the_finding(result):
     found = result.duty.summary()
     first, second, *_ = title_of(figure(result, "bearing_duty"))

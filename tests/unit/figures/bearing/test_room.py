@@ -1,5 +1,6 @@
 """Polar panels of a bearing have room for long titles and legends."""
 
+import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from ehlectric.bearing.result import solve_bearing
@@ -8,6 +9,7 @@ from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 
 
+@pytest.mark.slow
 @each("speed, higher", [("3000 rpm", False), ("60 rpm", True)])
 def test_titles_and_legends_stay_in_the_figure(speed, higher):
     """At 60 rpm the surfaces touch: the title has a line more, and the legend of the films a row more."""

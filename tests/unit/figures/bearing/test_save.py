@@ -177,6 +177,7 @@ def line(ax, start):
     return found
 
 
+@pytest.mark.slow
 @each("draw", OF_BEARING)
 def test_panels_say_their_unit_and_take_the_axes_given(result, draw):
     polar = draw in OF_BEARING[:2]
@@ -287,6 +288,7 @@ def test_a_pitch_ends_as_it_begins(result):
         assert found.get_label().endswith(f"mean {1e12 * result.capacitance(fill):.4g} pF")
 
 
+@pytest.mark.slow
 def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
     """At one position nothing varies, and there is no figure; at 2 % there is."""
     bearing = by_hand(positions=2)
@@ -307,6 +309,7 @@ def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
     assert PITCH not in bearing_figures_of(by_hand(positions=1))
 
 
+@pytest.mark.slow
 @each(
     "changes, figures, panels",
     [
@@ -325,6 +328,7 @@ def test_what_has_no_meaning_is_not_drawn(changes, figures, panels):
     assert tuple(len(draws) for draws in found.values()) == panels
 
 
+@pytest.mark.slow
 def test_the_margin_over_the_speed_has_its_band_and_the_bearing_itself():
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "atlas"})
     result = solve_bearing(case, workers=1)
@@ -396,6 +400,7 @@ def test_titles_say_what_the_film_is_worth(changes, text):
     assert bounds == ([CIRCUIT] if "upper bounds" in text else [])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("title", "line"),
     [
@@ -468,6 +473,7 @@ def test_a_bearings_capacitance_over_its_contacts_is_that_of_the_position_shown(
     )
 
 
+@pytest.mark.slow
 def test_a_bearing_that_did_not_converge_says_so(result):
     curve = result.solution.inner_curve
     failed = ContactCurve.of((replace(curve.solutions[0], converged=False), *curve.solutions[1:]))
@@ -478,6 +484,7 @@ def test_a_bearing_that_did_not_converge_says_so(result):
         assert drawn._suptitle.get_color() == RED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("draw", OVER_SPEED)
 def test_speeds_are_in_rpm_and_in_order(points, draw):
     ax = draw(points)
@@ -558,6 +565,7 @@ def test_the_critical_speed_of_table_title_and_picture_is_one():
     assert first[0][at] == pytest.approx(critical * RPM, rel=0.03)
 
 
+@pytest.mark.slow
 def test_a_doubtful_margin_is_no_promise(result, monkeypatch):
     text = "Breakdown possible: shaft voltage 10 V, first breakdown at 14 V."
     for level, lead in (("yellow", "Breakdown possible: margin"), ("grey", "Margin")):
@@ -603,6 +611,7 @@ def test_title_and_verdict_name_one_range_of_speeds():
     assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
 
 
+@pytest.mark.slow
 @each(
     "voltages, text",
     [
@@ -674,6 +683,7 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
     assert RPM * critical_speed_of(curves) == pytest.approx(3000.0, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", [4.05, 4.3, 5.0, 8.0, 3.9, 2.0])
 def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""

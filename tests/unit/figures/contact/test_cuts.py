@@ -6,9 +6,7 @@ import pytest
 from ehlectric.figures.contact_profiles import Cut
 from ehlectric.figures.point_figures import cuts, field_sections, film_cut
 from tests.helpers.each import each
-from tests.helpers.point_pages import KINDS, drawn, result_of
-
-EVERY_KIND = pytest.mark.parametrize("kind", KINDS)
+from tests.helpers.point_pages import EVERY_KIND, drawn, result_of
 
 
 @pytest.mark.slow
@@ -49,6 +47,7 @@ def test_cuts_are_of_the_result(kind, along):
     assert area == pytest.approx(0.5e-9 * np.pi * half * result.conditions.max_pressure, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_smooth_films_are_dotted_beside_rough_ones():
     result = result_of("gaussian")
     dotted = [line for line in film_cut(result).lines if line.get_linestyle() == ":"]
@@ -81,7 +80,7 @@ def test_cuts_pass_at_the_nearest_node():
 
 
 @each("along", ["x", "y"])
-@each("kind", KINDS)
+@EVERY_KIND
 def test_sections_are_as_high_as_the_film(kind, along):
     """And smooth walls lie alike above and below, however far the film of unequal bodies is bent."""
     result = result_of(kind)
@@ -98,6 +97,7 @@ def test_sections_are_as_high_as_the_film(kind, along):
         np.testing.assert_allclose(upper.get_ydata(), -lower.get_ydata(), rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_sections_keep_the_roughness_on_its_surface():
     """Equal bodies of which only surface 1 is rough: the middle of the film is half its height up."""
     result = result_of("gaussian")

@@ -118,6 +118,7 @@ def test_what_breaks_down_is_shaded(name, request):
     assert mark.get_xydata()[0] == pytest.approx([position, result.discharge.breakdown_voltage])
 
 
+@pytest.mark.slow
 def test_breakdown_of_a_point_contact_is_on_both_lines_through_the_weakest_place():
     result = solved(discharge=STRENGTH)
     panels = [ax for ax in figure(result, "breakdown.png").axes if ax.get_lines()]
@@ -213,6 +214,7 @@ def test_the_change_by_roughness_has_its_own_panel(rough):
     np.testing.assert_allclose(change.get_ydata(), 1e9 * (rough.film.thickness - rough.smooth.thickness))
 
 
+@pytest.mark.slow
 def test_the_field_map_marks_its_maximum_and_is_grey_below_its_colours(below):
     ax = field_strength(below)
     (mark,) = (line for line in ax.lines if line.get_marker() == "o")
@@ -298,6 +300,7 @@ def test_cut_off_heights_are_explained(rough):
     assert sorted(ends) == pytest.approx([-30.0, 30.0])
 
 
+@pytest.mark.slow
 def test_sections_have_one_scale_and_state_their_enlargement():
     result = result_of("across")
     along, across = (ax for ax in field_sections(result).figure.axes if ax.get_ylabel().startswith("height"))
@@ -312,6 +315,7 @@ def test_sections_have_one_scale_and_state_their_enlargement():
         assert numbers(text.get_text())[0] == pytest.approx(metres_right / metres_up, rel=0.06)
 
 
+@pytest.mark.slow
 def test_the_spike_of_the_pressure_is_told_from_the_hertz_pressure():
     circle, across = result_of("circle"), result_of("across")
     assert has_spike(circle)
@@ -323,6 +327,7 @@ def test_the_spike_of_the_pressure_is_told_from_the_hertz_pressure():
         assert hertz == pytest.approx(1e-9 * result.conditions.max_pressure, rel=6e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["circle", "across", "gaussian"])
 def test_every_figure_of_a_point_contact_has_a_finding(kind):
     result = result_of(kind)

@@ -7,6 +7,7 @@ from ehlectric.figures import line_figures as plot
 from tests.helpers.each import each
 
 
+@pytest.mark.slow
 @each("name", plot.FIGURES)
 def test_figures_have_labels_with_units(paper_result, name):
     ax = plot.FIGURES[name](paper_result)

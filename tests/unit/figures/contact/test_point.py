@@ -27,7 +27,7 @@ from ehlectric.figures.point_figures import (
 )
 from ehlectric.quantities.palette import OUT_OF_RANGE
 from tests.helpers.each import each
-from tests.helpers.point_pages import KINDS, PIT, drawn, on_page, pages, result_of, solved
+from tests.helpers.point_pages import EVERY_KIND, KINDS, PIT, drawn, on_page, pages, result_of, solved
 from tests.helpers.titles import title_of
 
 NUMBER = re.compile(r"([\d.]+) (nm|GPa|V/µm|GV/m)")
@@ -35,13 +35,11 @@ UNITS = {"[nm]": 1e9, "[GPa]": 1e-9, "[V/µm]": 1e-6, "[GV/m]": 1e-9}
 MAPS = [film_map, pressure_map, field_map]
 
 
-EVERY_KIND = each("kind", KINDS)
-
-
 def bars(ax):
     return [other.get_xlabel() or other.get_ylabel() for other in ax.figure.axes if other is not ax]
 
 
+@pytest.mark.slow
 def test_the_kinds_are_what_they_are_called():
     solved_ones = [result_of(kind) for kind in KINDS]
     assert [result.converged for result in solved_ones] == [kind != "unsolved" for kind in KINDS]
@@ -240,6 +238,7 @@ def test_the_edge_of_the_cavitated_film_has_no_steps():
     assert np.percentile(inner, 99.0) < 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["circle", "gaussian"])
 def test_zone_of_high_field_is_that_of_the_summary(kind):
     """The area within the lines, by the shoelace formula, is the summary's."""
@@ -283,6 +282,7 @@ def test_deviations_are_those_of_all_three_sections(kind):
         assert min(mesh.to_rgba(0.0)[:3]) > 0.95
 
 
+@pytest.mark.slow
 def test_roughness_and_what_it_changes():
     result, first = result_of("gaussian"), drawn("gaussian", roughness)
     heights, change, bar = first.figure.axes
@@ -317,6 +317,7 @@ def test_figures_draw_on_given_axes(draw):
     assert ax.has_data()
 
 
+@pytest.mark.slow
 def test_panels_draw_on_given_axes():
     for draw, number in ((cuts, 6), (field_deviation, 3), (field_sections, 2), (roughness, 2)):
         axes = Figure().subplots(1, number)

@@ -44,6 +44,7 @@ def markers(ax, label):
     return [line for line in ax.get_lines() if line.get_label() == label]
 
 
+@pytest.mark.slow
 def test_names_are_those_of_the_files(drive, grounded):
     assert figure_names(drive) == [VOLTAGES, HISTOGRAM, SPECTRUM, DISCHARGES, REMEDIES]
     assert figure_names(grounded) == [VOLTAGES, HISTOGRAM, SPECTRUM]
@@ -52,6 +53,7 @@ def test_names_are_those_of_the_files(drive, grounded):
     assert title_of(drive.plot()) == title_of(figure(drive, VOLTAGES))
 
 
+@pytest.mark.slow
 def test_the_spectrum_is_drawn_with_its_largest_lines(drive):
     """Every line where they are far apart, and the largest of its neighbours elsewhere."""
     table = drive.spectrum()
@@ -77,10 +79,12 @@ def test_a_file_of_each_format_is_written(drive, tmp_path):
     assert all(file.is_file() for file in files)
 
 
+@pytest.mark.slow
 def test_a_figure_of_a_journal_has_the_width_of_its_column(drive):
     assert figure(drive, VOLTAGES, style="journal").get_figwidth() == pytest.approx(84.0 / 25.4)
 
 
+@pytest.mark.slow
 def test_discharges_are_marked_where_they_happen(drive):
     source, *panels = figure(drive, VOLTAGES).axes
     trace = drive.solution.record.trace
@@ -105,6 +109,7 @@ def test_discharges_are_marked_where_they_happen(drive):
     assert "3000 rpm" in title
 
 
+@pytest.mark.slow
 def test_no_discharge_is_said(grounded):
     drawn = figure(grounded, VOLTAGES)
     assert not any(markers(ax, "discharge") for ax in drawn.axes)
@@ -113,6 +118,7 @@ def test_no_discharge_is_said(grounded):
     assert title_of(figure(grounded, HISTOGRAM))[0].startswith("Low bearing voltage: at most 9")
 
 
+@pytest.mark.slow
 def test_shares_of_time_are_those_of_the_summary(drive):
     upper, lower = figure(drive, HISTOGRAM).axes
     assert (upper.get_yscale(), lower.get_yscale()) == ("log", "log")
@@ -131,6 +137,7 @@ def test_shares_of_time_are_those_of_the_summary(drive):
                 assert shares[b, k] - 1e-9 <= share <= shares[b, k - 1] + 1e-9
 
 
+@pytest.mark.slow
 def test_distributions_hold_every_discharge(drive):
     drawn = figure(drive, DISCHARGES)
     assert [ax.get_xlabel().partition(" [")[0] for ax in drawn.axes] == [
@@ -147,6 +154,7 @@ def test_distributions_hold_every_discharge(drive):
     assert float(np.sum(0.01 * energies.values * middles)) == pytest.approx(mean, abs=width)
 
 
+@pytest.mark.slow
 def test_a_bearing_without_discharges_is_left_out(drive):
     drawn = figure(one_sided(drive), DISCHARGES)
     (entry,) = drawn.axes[0].get_legend().get_texts()
@@ -154,6 +162,7 @@ def test_a_bearing_without_discharges_is_left_out(drive):
     assert "none (drive end)" in title_of(drawn)[0]
 
 
+@pytest.mark.slow
 def test_many_discharges_are_drawn(drive):
     record = drive.solution.record
     events = np.tile(record.events, (100_000 // len(record.events) + 1, 1))
@@ -164,6 +173,7 @@ def test_many_discharges_are_drawn(drive):
         assert sum(len(ax.patches) for ax in drawn.axes) < 20
 
 
+@pytest.mark.slow
 def test_remedies_are_beside_the_drive_as_it_is(drive):
     rates, energies = figure(drive, REMEDIES).axes
     assert [label.get_text() for label in rates.get_yticklabels()] == ["as it is", "Grounding ring"]
@@ -181,6 +191,7 @@ def test_remedies_are_beside_the_drive_as_it_is(drive):
     assert title_of(figure(drive, REMEDIES))[0].startswith("No discharge with Grounding ring; ")
 
 
+@pytest.mark.slow
 def test_a_drive_that_is_not_converged_says_so(drive):
     result = replace(drive, solution=replace(drive.solution, converged=False))
     assert title_of(figure(result, HISTOGRAM))[0] == "NOT CONVERGED"

@@ -145,6 +145,7 @@ def test_speeds_are_said(run, ball):
     assert speed_text(ball) == "pure rolling at 4 m/s, surface 1 rough"
 
 
+@pytest.mark.slow
 def test_steps_and_instants_without_a_time_are_left_out():
     dataset = by_hand(complete=0)
     dataset["time"][150:], dataset["frame_time"][30:] = np.nan, np.nan
@@ -209,6 +210,7 @@ def test_places_are_in_half_widths(run, ball):
     np.testing.assert_allclose(line(ax, "maximum field, $|y|/b$").get_ydata(), 0.75)
 
 
+@pytest.mark.slow
 def test_maps_have_time_upwards_and_the_film_of_the_contact_in_colours(run):
     ax = motion_maps.film_map(run)
     mesh = mesh_of(ax)
@@ -229,6 +231,7 @@ def test_field_map_reaches_to_the_largest_field_and_shows_where_there_is_none(ru
     assert "field not solved" in [t.get_text() for t in maps(run).get_figure().legends[0].get_texts()]
 
 
+@pytest.mark.slow
 def test_lines_of_speeds_have_their_slopes():
     run = MotionRun.of(by_hand(surfaces=(1, 2)))
     ax = motion_maps.pressure_map(run)
@@ -294,6 +297,7 @@ def test_roughness_below_is_that_of_the_instant_and_of_stationary_surfaces():
         assert np.ptp(found.get_ydata()) == pytest.approx(100.0, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("still", "text"), [(0.4, "as thick as with"), (0.3, "33 % thicker than with")])
 def test_history_titles_the_film_beside_stationary_roughness(still, text):
     dataset = by_hand()
@@ -315,6 +319,7 @@ def test_history_leaves_out_the_time_in_which_nothing_happens(run):
     assert motion_history.least_film(MotionRun.of(dataset)).get_xlim()[0] == 0.0
 
 
+@pytest.mark.slow
 def test_what_is_one_number_is_no_panel_but_said(run):
     """The places of this run do not change; a field that stays near its maximum is not shaded."""
     assert not motion_history.places_vary(run)
@@ -338,6 +343,7 @@ def test_what_is_one_number_is_no_panel_but_said(run):
     )
 
 
+@pytest.mark.slow
 def test_maps_say_the_extremes_and_are_grey_beyond_their_colours(run):
     title = " ".join(title_of(maps(run).get_figure()))
     at = 1e3 * run.values("time")[np.argmin(run.values("minimum_thickness"))]
@@ -418,6 +424,7 @@ def test_animation_has_every_instant(contact, tmp_path):
     assert done == [(k, 5, "drawing") for k in range(1, 6)]
 
 
+@pytest.mark.slow
 def test_colours_of_a_point_contact_are_those_of_its_maps(tmp_path):
     path = tmp_path / "run.gif"
     save_animation(by_hand(contact=BALL, frames=2), path)
@@ -427,6 +434,7 @@ def test_colours_of_a_point_contact_are_those_of_its_maps(tmp_path):
     assert np.mean(np.all(np.abs(pixels - [253, 231, 37]) <= 3, axis=1)) > 0.05
 
 
+@pytest.mark.slow
 def test_an_animation_stopped_on_its_way_leaves_what_was_there(tmp_path):
     path = tmp_path / "run.gif"
     path.write_text("the last one")
@@ -477,6 +485,7 @@ def test_ffmpeg_is_given_every_pixel_of_every_instant(tmp_path, monkeypatch):
     assert path.stat().st_size == 3 * 260 * 330 * 4
 
 
+@pytest.mark.slow
 def test_ffmpeg_that_fails_is_said_in_one_line(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", program(tmp_path / "bin", "sys.exit(1 if len(sys.argv) > 2 else 0)"))
     path = tmp_path / "run.mp4"

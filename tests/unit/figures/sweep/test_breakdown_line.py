@@ -10,6 +10,7 @@ from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, grid
 from tests.unit.figures.sweep.test_save import VALUE, curves, line_of_breakdown
 
 
+@pytest.mark.slow
 def test_line_is_exact_over_the_voltage_itself():
     """10 V at any voltage V = V_2 + 1 V, so that the line lies at V_2 = 9 V between any two voltages."""
     for speeds, volts in (((4.0, 8.0), (3.0, 19.0)), ((4.0, 8.0, 16.0), (1.0, 3.0, 29.0))):

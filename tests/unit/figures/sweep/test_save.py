@@ -87,6 +87,7 @@ def test_map_has_a_hole_around_what_is_not_solved():
         assert filled(ax, x, y)
 
 
+@pytest.mark.slow
 def test_a_film_that_is_not_to_be_used_is_a_hole_with_its_mark():
     """As one that failed, but for its mark: no number of it is in the colours, the line or the curves."""
 
@@ -310,6 +311,7 @@ def test_levels_hold_all_values(values):
         assert levels[-2] < values[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("y", "names"),
     [
@@ -394,11 +396,13 @@ def test_bars_are_the_indices_with_their_intervals(uncertain):
     np.testing.assert_allclose(sorted(map(tuple, ends)), sorted(wanted), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_sensitivity_is_saved(tmp_path, uncertain):
     save_sensitivity(*uncertain, tmp_path / "sensitivity.png")
     assert (tmp_path / "sensitivity.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_line_of_breakdown_is_a_level_of_the_colours():
     """At one applied voltage: 6 V is a level here, and its line is where the margin is 1."""
     ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: (5.0,)}), SPEED, LOAD, VALUE)
@@ -480,6 +484,7 @@ def test_the_colour_bar_of_a_journal_is_beside_its_map():
         assert isinstance(handle, Patch) or handle.get_marker() != "None" or handle.get_linestyle() != "None"
 
 
+@pytest.mark.slow
 def test_titles_say_where_breakdown_is_expected():
     """The margin is 1 at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s."""
     results = grid({SPEED: SPEEDS, LOAD: LOADS})
@@ -506,6 +511,7 @@ def test_titles_say_where_breakdown_is_expected():
     assert title_of(film)[0] == f"Minimum film thickness: {10 / 15:.3g} to {thick:.3g} µm"
 
 
+@pytest.mark.slow
 def test_lines_of_few_points_are_thin_and_their_points_stand_out():
     for speeds, few in ((SPEEDS, True), (tuple(np.geomspace(0.5, 8.0, 12)), False)):
         ax = value_lines(grid({SPEED: speeds}), SPEED, None, VALUE)

@@ -85,6 +85,7 @@ def test_coefficient_of_an_incompressible_barus_oil_is_its_alpha():
     assert (oil.shape, oil.compressibility) == (pytest.approx(0.0, abs=1e-9), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "temperature", "load", "speed"),
     [("fva-3", 343.15, 1e5, 4.0), ("iso-vg-32", 313.15, 3e5, 1.0), ("e-axle-fluid", 353.15, 5e4, 10.0)],
@@ -109,6 +110,7 @@ STIFF = [
 ]
 
 
+@pytest.mark.slow
 @each("numbers", [(10.0, 10.0), (50.0, 8.0), (200.0, 12.0), (100.0, 5.0), (200.0, 0.7), (100.0, 0.8)])
 def test_lines_with_incompressible_oils(numbers):
     """Beside films solved here, also of nearly constant viscosity, with no room for another error."""

@@ -137,6 +137,7 @@ def test_generalised_reynolds_equation(rheology, gradient, slip):
         assert middle_stress(rheology, columns[0], *arguments, POINTS)[0] == pytest.approx(middle, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(
     law=st.sampled_from(LAWS),
     log_gradient=st.floats(-3.0, 0.5),
@@ -198,6 +199,7 @@ def test_stresses_of_a_plane_give_the_slip(seed, law):
     assert np.all(np.abs(found - slip) <= np.abs(moved - found) + 1e-11 * size + 1e-12 * np.abs(slip))
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), law=st.sampled_from([EYRING, CARREAU]))
 def test_stresses_along_one_axis_are_those_of_a_line(seed, law):
     """Without slip and gradient along y the plane has the flux of a line contact, and its derivatives."""
@@ -213,6 +215,7 @@ def test_stresses_along_one_axis_are_those_of_a_line(seed, law):
     np.testing.assert_allclose(plane.by_viscosity, line.by_viscosity, rtol=1e-8, atol=1e-11)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10_000), law=st.sampled_from([EYRING, CARREAU]))
 def test_derivatives_of_a_plane(seed, law):

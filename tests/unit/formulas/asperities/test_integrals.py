@@ -92,6 +92,7 @@ def quantiles():
     return special.ndtri((np.arange(2_000_000) + 0.5) / 2_000_000)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("highest", [-1.0, 0.5, 3.0])
 @each("order", [0.0, 0.5, 1.0, 2.5])
 @each("below", [0.01, 1.0, 5.0])

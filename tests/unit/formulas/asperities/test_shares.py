@@ -31,6 +31,7 @@ def test_printed_table(law):
         assert value == pytest.approx(printed, abs=0.0006 if printed > 0.004 else 0.00006)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LOAD_SHARE)
 @given(films=st.lists(st.floats(0.0, 50.0), min_size=2, max_size=8))
 def test_share_falls_from_one(law, films):

@@ -42,6 +42,7 @@ def test_rough_against_flat_is_a_sum_of_hertz_contacts(level):
     assert found == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [0.0, 1.0, 2.5])
 def test_two_rough_surfaces_are_an_integral_over_the_offset(level):
     """Caps at the offset r overlap less by r^2/(4 beta) and have the reduced radius beta/2."""

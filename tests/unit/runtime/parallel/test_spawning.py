@@ -9,6 +9,7 @@ from ehlectric.runtime import spawning
 from ehlectric.runtime.spawning import Context
 
 
+@pytest.mark.slow
 def test_threads_that_start_processes_at_once_leave_the_script_in_its_place():
     script = sys.modules["__main__"]
 

@@ -83,6 +83,7 @@ def test_a_task_that_fails_once_is_run_again(tmp_path, act):
     assert len(runs) == 2
 
 
+@pytest.mark.slow
 def test_further_kills_cost_no_result(tmp_path):
     found = {}
     tasks = [partial(divmod, 9, 2), partial(marked, tmp_path, "a", die, times=3), partial(divmod, 7, 2)]
@@ -91,12 +92,14 @@ def test_further_kills_cost_no_result(tmp_path):
     assert len(list(tmp_path.glob("a-*"))) == 4
 
 
+@pytest.mark.slow
 def test_a_task_that_kills_every_process_is_lost():
     with pytest.raises(LostError, match=r"killed 4 times") as error:
         run_all([die], lambda _number, _result: None, limit=1, what="contact")
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.slow
 def test_errors_of_tasks_are_raised_here():
     with pytest.raises(MemoryError, match="5 GiB"):
         run_all([starve_always], lambda _number, _result: None, limit=1)
@@ -112,6 +115,7 @@ def refuse(width):
     raise InputError("width", got=width, takes="2")
 
 
+@pytest.mark.slow
 def test_the_processes_end_with_an_error(tmp_path):
     """The other tasks are not waited for."""
     found = {}
