@@ -608,10 +608,10 @@ def asperities(
     Examples
     --------
     >>> from ehlectric import solve
-    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 0.001}
-    >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.3 um", "wavelength": "40 um"}
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 1e-4}
+    >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.5 um", "wavelength": "60 um"}
     >>> table = {"contact": contact | {"max_hertz_pressure": "0.5 GPa"}, "lubricant": {"base": "paper"}}
-    >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 201}, "roughness": [wave]}))
+    >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 129}, "roughness": [wave]}))
     >>> result.asperities.touching.spots > 0, result.asperities.electrical.behaviour
     (True, 'resistive')
     """
