@@ -10,6 +10,7 @@ import argparse
 import gzip
 import json
 import math
+from collections.abc import Callable
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -19,7 +20,7 @@ import numpy as np
 from benchmarks.atlas_nodes import groups_of, record
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film
+from ehlectric.film.atlas.atlas_films import MOST_HERTZ, OilGroups, atlas_film
 from ehlectric.film.atlas.atlas_groups import Groups, lubricant_coordinate
 from ehlectric.film.atlas.atlas_table import NAMES
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, incompressible
@@ -81,39 +82,57 @@ RANGES = {
 LINES = ((0.3, 500.0), (0.5, 45.0))
 
 
-def drawn(rng, kind):
-    """Random groups of a line or of a point contact."""
+def _between(rng, least, most):
+    """Random number, uniform in its logarithm."""
+    return math.exp(rng.uniform(math.log(least), math.log(most)))
 
-    def between(least, most):
-        return math.exp(rng.uniform(math.log(least), math.log(most)))
 
-    if kind == "lines":
-        return Groups(between(*LINES[0]), between(*LINES[1]))
-    loads, lubricants, ratios = RANGES[kind]
-    load = between(*loads)
-    return groups_of(load, between(*lubricants) / load ** (1.0 / 6.0), between(*ratios))
+def drawn_point(rng, loads, lubricants, ratios):
+    """Random groups of a point contact, between limits of load group, lubricant coordinate and ratio."""
+    load = _between(rng, *loads)
+    return groups_of(load, _between(rng, *lubricants) / load ** (1.0 / 6.0), _between(rng, *ratios))
+
+
+def is_solvable(groups, alpha, least):
+    """Whether Hertz pressures are those of bearings, from ``least`` [Pa], and in the range of the atlas."""
+    return least < groups.hertz_number / alpha < 4e9 and groups.hertz_number < MOST_HERTZ
 
 
 def contact(number, kind, laws):
     """Groups and number of the oil of a random contact; None where its Hertz pressure is no bearing's."""
     rng = np.random.default_rng([15, number])
-    groups, oil = drawn(rng, kind), int(rng.integers(len(laws)))
-    pressure = groups.hertz_number / OilGroups.of(*laws[oil]).alpha
+    if kind == "lines":
+        groups = Groups(_between(rng, *LINES[0]), _between(rng, *LINES[1]))
+    else:
+        groups = drawn_point(rng, *RANGES[kind])
+    oil = int(rng.integers(len(laws)))
     least = 0.01e9 if kind in ("thin", "lines") else 0.1e9
-    return (groups, oil) if least < pressure < 4e9 and groups.hertz_number < 100.0 else None
+    return (groups, oil) if is_solvable(groups, OilGroups.of(*laws[oil]).alpha, least) else None
 
 
-def solve(kind, count, laws, chosen):
-    """Solve the first ``count`` random contacts that are not solved yet, and append them to the file."""
+def add_arguments(parser):
+    """Options of what to solve: how many contacts, and the part of them that a process takes."""
+    parser.add_argument("number", type=int, help="contacts to solve; 0 compares those that are solved")
+    parser.add_argument("--part", type=int, default=0)
+    parser.add_argument("--parts", type=int, default=1)
+    parser.add_argument("--until", help="time of the day, UTC, at which to stop solving, such as 18:05")
+
+
+def solve(kind, drawing_of: Callable, row_of: Callable, chosen):
+    """Solve random contacts that are not solved yet, and append them to the file of their kind.
+
+    ``drawing_of``, groups and oil of a contact by its number, or None; ``row_of``, what is stored of a
+    contact with these groups and this oil; ``chosen``, options of ``add_arguments``.
+    """
     done, found, number = {row["number"] for row in solved(kind)}, 0, -1
     name = (
         f"{kind}-random.jsonl.gz"
         if chosen.parts == 1
         else f"{kind}-random-{chosen.part}of{chosen.parts}.jsonl.gz"
     )
-    while found < count:
+    while found < chosen.number:
         number += 1
-        drawing = contact(number, kind, laws)
+        drawing = drawing_of(number)
         if drawing is None:
             continue
         found += 1
@@ -122,7 +141,7 @@ def solve(kind, count, laws, chosen):
         if chosen.until and f"{datetime.now(UTC):%H:%M}" >= chosen.until:
             return
         groups, oil = drawing
-        row = {"number": number, "oil": oil} | record(groups, laws[oil], OilGroups.of(*laws[oil]).alpha)
+        row = {"number": number, "oil": oil} | row_of(groups, oil)
         with gzip.open(DATA / name, "at") as file:
             file.write(json.dumps(row) + "\n")
 
@@ -136,19 +155,26 @@ def solved(kind):
     return rows
 
 
+def extrapolated(row):
+    """Numbers of a solved film by their names, extrapolated over its two grids; None where it has no film."""
+    if row["status"] != "converged" or row["coarse"] is None:
+        return None
+    fine, coarse = np.array(row["fine"]), np.array(row["coarse"])
+    step = np.where(np.abs(fine - coarse) < 0.2 * np.abs(fine), (fine - coarse) / 3.0, 0.0)
+    return dict(zip(NAMES, fine + step, strict=True))
+
+
 def compared(row, laws):
     """Differences of the atlas from a solved film and its stated errors; None where either has no film."""
     groups = Groups(row["m"], row["l"], row["k"])
     oil = OilGroups.of(*laws)
-    if row["status"] != "converged" or row["coarse"] is None:
+    films = extrapolated(row)
+    if films is None:
         return None
     try:
         found = atlas_film(groups, laws, oil)
     except InputError:
         return None
-    fine, coarse = np.array(row["fine"]), np.array(row["coarse"])
-    step = np.where(np.abs(fine - coarse) < 0.2 * np.abs(fine), (fine - coarse) / 3.0, 0.0)
-    films = dict(zip(NAMES, fine + step, strict=True))
     density = laws[1](np.array([films["pressure"] * groups.hertz_number / oil.alpha]))[0]
     films["central"] /= float(np.ravel(density)[0])
     return [(getattr(found, name) / films[name] - 1.0, found.errors[name]) for name in SHOWN]
@@ -168,18 +194,20 @@ def report(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("kind", choices=("lines", *RANGES))
-    parser.add_argument("number", type=int, help="contacts to solve; 0 compares those that are solved")
-    parser.add_argument("--part", type=int, default=0)
-    parser.add_argument("--parts", type=int, default=1)
-    parser.add_argument("--until", help="time of the day, UTC, at which to stop solving, such as 18:05")
+    add_arguments(parser)
     parser.add_argument("--each", action="store_true", help="print the contacts that are off most")
     chosen = parser.parse_args()
     laws = laws_of(chosen.kind)
-    solve(chosen.kind, chosen.number, laws, chosen)
+    solve(
+        chosen.kind,
+        lambda number: contact(number, chosen.kind, laws),
+        lambda groups, oil: record(groups, laws[oil], OilGroups.of(*laws[oil]).alpha),
+        chosen,
+    )
     rows = solved(chosen.kind)
     pairs = [(row, compared(row, laws[row["oil"]])) for row in rows]
     kept = [(row, pair) for row, pair in pairs if pair is not None]
-    failed = sum(row["status"] != "converged" or row["coarse"] is None for row in rows)
+    failed = sum(extrapolated(row) is None for row in rows)
     print(f"{len(rows)} contacts: {failed} not solved, {len(rows) - failed - len(kept)} not in the atlas")
     report([pair for _, pair in kept])
     if chosen.each:

@@ -9,21 +9,17 @@ others than those with which the atlas is compared. Solved pairs are appended to
 """
 
 import argparse
-import gzip
-import json
-import math
 
 import numpy as np
 
-from benchmarks.atlas import DATA, oils
-from benchmarks.atlas_nodes import groups_of, record
+from benchmarks.atlas import add_arguments, drawn_point, extrapolated, is_solvable, oils, solve, solved
+from benchmarks.atlas_nodes import record
 from ehlectric.film.atlas.atlas_films import OilChange, OilGroups, reference_groups, reference_laws
 from ehlectric.film.atlas.atlas_groups import Groups
-from ehlectric.film.atlas.atlas_table import NAMES
 
 FITTED = ("central", "minimum")
 
-SEED, FILE = 16, DATA / "oils-random.jsonl.gz"
+SEED = 16
 
 # Load groups, lubricant coordinates and ratios of the semi-axes that are drawn; wide contacts as far as the
 # atlas has solved nodes.
@@ -41,76 +37,47 @@ def chosen_oils():
 
 
 def contact(number, found):
-    """Groups and number of the oil of a random contact; None where its pressure is no bearing's."""
+    """Groups and number of the oil of a random contact; None where it is not solved."""
     rng = np.random.default_rng([SEED, number])
-    load, lubricant, ratio = (
-        math.exp(rng.uniform(*np.log(limits))) for limits in (LOADS, LUBRICANTS, RATIOS)
-    )
-    oil = int(rng.integers(len(found)))
-    groups = groups_of(load, lubricant / load ** (1.0 / 6.0), ratio)
-    pressure = groups.hertz_number / found[oil][1].alpha
-    solvable = 0.1e9 < pressure < 4e9 and groups.hertz_number < 100.0 and (ratio > 1.0 or load < MOST_WIDE)
-    return (groups, oil) if solvable else None
+    groups, oil = drawn_point(rng, LOADS, LUBRICANTS, RATIOS), int(rng.integers(len(found)))
+    wide = groups.ratio < 1.0 and groups.load_group >= MOST_WIDE
+    return (groups, oil) if not wide and is_solvable(groups, found[oil][1].alpha, 0.1e9) else None
 
 
-def solved():
-    """Pairs that are solved."""
-    if not FILE.exists():
-        return []
-    with gzip.open(FILE, "rt") as file:
-        return [json.loads(line) for line in file]
-
-
-def solve(count, found, part, parts):
-    """Solve a part of the first ``count`` pairs, as far as they are not, and append them to the file."""
-    done, number, kept = {row["number"] for row in solved()}, -1, 0
-    while kept < count:
-        number += 1
-        drawing = contact(number, found)
-        if drawing is None:
-            continue
-        kept += 1
-        if number in done or kept % parts != part:
-            continue
-        groups, oil = drawing
-        own = record(groups, found[oil][0], found[oil][1].alpha)
-        reference = record(groups, reference_laws(), reference_groups().alpha)
-        row = {"number": number, "oil": oil, "own": own, "reference": reference}
-        with gzip.open(FILE, "at") as file:
-            file.write(json.dumps(row) + "\n")
-
-
-def logarithms(row):
-    """Logarithms of the numbers of a film, extrapolated over its two grids; None where it is not solved."""
-    if row["status"] != "converged" or row["coarse"] is None:
-        return None
-    fine, coarse = np.array(row["fine"]), np.array(row["coarse"])
-    step = np.where(np.abs(fine - coarse) < 0.2 * np.abs(fine), (fine - coarse) / 3.0, 0.0)
-    return dict(zip(NAMES, np.log(np.maximum(fine + step, 1e-12)), strict=True))
+def pair(groups, laws, oil):
+    """What is stored of a contact with an oil and with the reference oil."""
+    return {
+        "own": record(groups, laws, oil.alpha),
+        "reference": record(groups, reference_laws(), reference_groups().alpha),
+    }
 
 
 def remainders(row, oil):
     """Terms of the fit, and what the correction leaves of each number; None where a film is not solved."""
-    own, reference = logarithms(row["own"]), logarithms(row["reference"])
+    own, reference = extrapolated(row["own"]), extrapolated(row["reference"])
     if own is None or reference is None:
         return None
     groups = Groups(row["own"]["m"], row["own"]["l"], row["own"]["k"])
     change = OilChange(groups, oil)
     left = {
-        name: own[name] - reference[name] - np.log(change.of_lines(name)) for name in ("central", "minimum")
+        name: np.log(own[name] / reference[name] / (change.of_lines(name) * change.of_stiff(name)))
+        for name in FITTED
     }
-    return change.point_terms, left
+    return change.point_terms(groups.ratio), left
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("number", type=int, help="pairs to solve; 0 fits those that are solved")
-    parser.add_argument("--part", type=int, default=0)
-    parser.add_argument("--parts", type=int, default=1)
-    chosen, found = parser.parse_args(), chosen_oils()
-    solve(chosen.number, found, chosen.part, chosen.parts)
-    rows = [(row["oil"], remainders(row, found[row["oil"]][1])) for row in solved()]
-    kept = [(oil, *pair) for oil, pair in rows if pair is not None]
+    add_arguments(parser)
+    found = chosen_oils()
+    solve(
+        "oils",
+        lambda number: contact(number, found),
+        lambda groups, oil: pair(groups, *found[oil]),
+        parser.parse_args(),
+    )
+    rows = [(row["oil"], remainders(row, found[row["oil"]][1])) for row in solved("oils")]
+    kept = [(oil, *left) for oil, left in rows if left is not None]
     print(f"{len(rows)} pairs, {len(rows) - len(kept)} not solved")
     numbers, terms = np.array([oil for oil, _, _ in kept]), np.array([terms for _, terms, _ in kept])
     for name in FITTED:

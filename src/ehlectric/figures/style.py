@@ -301,7 +301,10 @@ def _width(text: str, size: float, *, math: bool = False) -> float:
 
 @lru_cache(maxsize=4096)
 def _width_in(_fonts: tuple[str, ...], text: str, size: float, *, math: bool) -> float:
-    """The same, kept for the fonts of a style, because each line is broken at many widths."""
+    """Width of a line of text of a size [pt]; kept, because a title is broken at many widths.
+
+    The fonts are those of Matplotlib's settings: their change makes a new measurement.
+    """
     letters = FontProperties(size=size)
     return float(text_to_path.get_text_width_height_descent(text, letters, ismath=math)[0])
 

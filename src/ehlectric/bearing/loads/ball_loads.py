@@ -148,7 +148,10 @@ class BallEquilibrium(BearingEquilibrium):
 
 @dataclass(frozen=True)
 class BallPoints:
-    """Ball bearings and operation at n points; the last dimension of arrays is n, or 1 if all are equal."""
+    """Numbers that every ball bearing and its operation have, at n points.
+
+    The last dimension of arrays is n, or 1 where all points have the same number.
+    """
 
     # Cosine and sine of the position of each ball, shape (elements, n).
     cosine: Array
@@ -210,7 +213,7 @@ def laws_of(batch: Batch[B]) -> Array:
 
 @dataclass(frozen=True)
 class _Points(BallPoints):
-    """The same with all rows of a bearing."""
+    """Bearings with one or two rows of balls and their operation at n points."""
 
     # 1, or -1 of balls in a second row, whose axial components point the other way, shape (elements, 1).
     sign: Array

@@ -261,7 +261,7 @@ def _seated(balls: _Balls, guess: Array, depth: Array) -> Array:
 
 @dataclass(frozen=True)
 class _Points(BallPoints):
-    """The same with the arches of a four-point contact bearing."""
+    """Four-point contact bearings and their operation at n points, with the arches of their grooves."""
 
     endplay: Array  # axial internal clearance [m]
     apart: Array  # S_i and S_o [m], shape (2, 1, n)
@@ -521,7 +521,7 @@ def four_point_equilibrium(
     number = points.shape[1]
     parts = [slice(first, first + _BLOCK) for first in range(0, max(1, number), _BLOCK)]
     states, numbers = zip(*(_solved(chosen(points, part)) for part in parts), strict=True)
-    state = joined(list(states))
+    state = joined(states)
     contacts = state.contacts(points)
     residual = _residual(points, state, contacts)
     refuse_unbalanced(batch.spread(residual), "balls")

@@ -139,7 +139,7 @@ ONE_ROW = Rows()
 
 
 class _Bearing:
-    """What bearings with balls and with rollers have in common."""
+    """Properties that are computed in the same way for bearings with balls and with rollers."""
 
     rows: Rows
     clearance: Numbers

@@ -158,9 +158,8 @@ _STIFF_ERROR = {"central": 0.004, "minimum": 0.016, "mean": 0.02, "zone": 0.005}
 _STIFF_LIGHT = {"central": 0.2, "mean": 0.1, "zone": 0.15}
 _LIGHTEST, _ISOVISCOUS, _WIDE = 2.5, 0.008, 0.01
 
-# Load group N of points above which oils differ more, and by how much: of 87 heavy contacts, 82 kept the
-# errors without it.
-_HEAVY, _HEAVY_ERROR = 1000.0, {"mean": 0.006}
+# Load group N of points above which the mean films of oils differ more, and by how much.
+_HEAVY, _HEAVY_ERROR = 1000.0, 0.006
 
 # Number of nodes of a problem of which only the domain counts.
 _ANY = 65
@@ -306,8 +305,7 @@ def _errors(
     total["central"] = total["central"] + np.where(groups.moes_l < 1.0, _ISOVISCOUS, 0.0)
     if groups.ratio is not None:
         total["central"] = total["central"] + np.where(groups.ratio < 1.0, _WIDE, 0.0)
-        for name, error in _HEAVY_ERROR.items():
-            total[name] = total[name] + np.where(groups.load_group > _HEAVY, error, 0.0)
+        total["mean"] = total["mean"] + np.where(groups.load_group > _HEAVY, _HEAVY_ERROR, 0.0)
         lost = _domain_error(groups, light & known)
         for name in ("central", "minimum", "mean"):
             total[name] = total[name] + lost
@@ -352,27 +350,29 @@ class OilChange:
 
     def factor(self, name: str) -> Numbers:
         """Factor of a number for the oil over that for the reference oil."""
-        if self._ratio is None or name not in _POINTS:
-            return self.of_lines(name)
-        further = sum(term * number for term, number in zip(self.point_terms, _POINTS[name], strict=True))
-        return self.of_lines(name) * np.exp(further)
+        return self.of_lines(name) * self.of_stiff(name) * self.of_points(name)
 
     def of_lines(self, name: str) -> Numbers:
-        """The same as fitted to line contacts, and to point contacts with oils that are not compressed."""
+        """Part of the factor that is fitted to line contacts; points have it, too."""
         one, lubricant, load, square, both = (
             shape * self._shape + compressibility * self._compressibility
             for shape, compressibility in zip(*_OIL[name], strict=True)
         )
         constant, slope = one + lubricant * self._lubricant, load + both * self._lubricant
         change = self._part * (constant + self._load * (slope + square * self._load))
-        return np.exp(change) * self.of_stiff(name)
+        return np.exp(change)
 
-    @property
-    def point_terms(self) -> tuple[Numbers, ...]:
-        """Terms of the change of point contacts by the shape: shape times (1, l, m, ln k)."""
-        assert self._ratio is not None
+    def of_points(self, name: str) -> Numbers:
+        """Part of the factor of point contacts alone; 1 for numbers that change as those of lines do."""
+        if self._ratio is None or name not in _POINTS:
+            return 1.0
+        terms = self.point_terms(self._ratio)
+        return np.exp(sum(term * number for term, number in zip(terms, _POINTS[name], strict=True)))
+
+    def point_terms(self, ratio: Numbers) -> tuple[Numbers, ...]:
+        """Shape of the oil's law times (1, l, m, ln k), with the ratio k of the semi-axes."""
         shape = self._part * self._shape
-        return shape, shape * self._lubricant, shape * self._load, shape * np.log(self._ratio)
+        return shape, shape * self._lubricant, shape * self._load, shape * np.log(ratio)
 
     def of_stiff(self, name: str) -> Numbers:
         """Part of the factor for an oil that is compressed little, in a point contact."""
