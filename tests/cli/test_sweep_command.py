@@ -187,7 +187,7 @@ def wait_for_points(folder, points, process):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     swept(LONG)
     process = begun(tmp_path, "--workers", "1", group=True)

@@ -11,9 +11,6 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, drive_with
 from tests.helpers.each import each
 
-# The drives of this file take seconds to solve.
-pytestmark = pytest.mark.slow
-
 
 def remedied(name, inputs=BEARING):
     """Drive of a bearing with the remedy of a button, as the page asks for it."""
@@ -37,6 +34,7 @@ def now():
     return whole_quick_answer(BEARING.table)
 
 
+@pytest.mark.slow
 @each("name", BEARING_REMEDIES)
 def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
     found = whole(name)
@@ -47,6 +45,7 @@ def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
         assert found["Margin in 90 of 100 cases"][0] == facts["margin in 90 of 100 cases"]
 
 
+@pytest.mark.slow
 @each("name, changes", [
     ("Hybrid", {"bearing.element_material": "silicon-nitride", "bearing.element_capacitance": "5 pF"}),
     ("Insulated", {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}}),
@@ -63,6 +62,7 @@ def test_the_other_column_is_the_answer_about_the_changed_bearing(name, changes)
             assert found[label][1] == number.with_unit
 
 
+@pytest.mark.slow
 def test_a_ring_takes_nearly_all_of_the_voltage():
     """40 mA, 20 pF times 200 V in 100 ns, on 1 ohm."""
     found = whole("Grounding ring")
@@ -70,6 +70,7 @@ def test_a_ring_takes_nearly_all_of_the_voltage():
     assert found["Verdict"][1] == "No breakdown expected"
 
 
+@pytest.mark.slow
 def test_a_ring_with_a_table_has_the_resistance_at_the_speed_of_the_bearing():
     """1 ohm at 3000 rpm, half of the logarithm between 0.1 and 10 ohm."""
     table = {"speed": ["0 rpm", "6000 rpm"], "resistance": ["0.1 ohm", "10 ohm"]}

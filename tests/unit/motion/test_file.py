@@ -462,7 +462,7 @@ PITS = [{"surface": 1, "generator": "pit", "depth": "100 nm", "width": "90 um"}]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("beside", [0.0, pytest.param(3e-5, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("beside", [0.0, 3e-5])
 def test_a_point_contact(tmp_path, beside):
     """65 x 65 nodes, a pit in the middle or beside it; what is solved in one half is there in both."""
     rough = [PITS[0] | {"position_y": beside}]

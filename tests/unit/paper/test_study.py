@@ -20,9 +20,6 @@ from ehlectric.runtime.worker_processes import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 
-# The contacts of this file take seconds to solve.
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture(scope="module")
 def study():
@@ -52,6 +49,7 @@ def verdicts(study):
     return paper_report.verdicts(tables_of(study))
 
 
+@pytest.mark.slow
 def test_names_are_the_printed_ones_but_one(smooth):
     odd = []
     for contact, result in smooth.items():
@@ -63,12 +61,14 @@ def test_names_are_the_printed_ones_but_one(smooth):
     assert odd == ["M68L13"]
 
 
+@pytest.mark.slow
 def test_load_of_1_gpa_is_a_quarter(smooth):
     assert LOADS[2] == 4.0 * LOADS[1]
     for contact, result in smooth.items():
         assert result.conditions.max_pressure == pytest.approx(contact.gigapascal * 1e9, rel=2e-3, abs=0.0)
 
 
+@pytest.mark.slow
 def test_a_film_that_does_not_agree_is_said(smooth):
     """A film of half the speed in a row is not that of the table; 4 % and half of the last digit are."""
     table = printed_table(Study(smooth=smooth, first_order=smooth))
@@ -80,6 +80,7 @@ def test_a_film_that_does_not_agree_is_said(smooth):
     assert not agrees(0.104e-6 + 0.0051e-6, 0.1e-6)
 
 
+@pytest.mark.slow
 def test_conclusions_hold_and_would_not_hold(study):
     said = verdicts(study)
     assert [said[f"conclusion_{k}"] for k in (1, 2, 3)] == ["holds"] * 3
@@ -106,17 +107,20 @@ def test_conclusions_hold_and_would_not_hold(study):
     assert bad_rows == good_rows - 1
 
 
+@pytest.mark.slow
 def test_a_film_that_was_not_found_is_said(study):
     assert study.converged
     places = (Placed(2e-7, 1.0, converged=False),)
     assert not dataclasses.replace(study, placed={CONTACTS[0]: places}).converged
 
 
+@pytest.mark.slow
 def test_straight_line_between_smooth_equal_bodies_is_the_middle(smooth):
     for result in smooth.values():
         assert readings_differ_by(result) < 1e-9
 
 
+@pytest.mark.slow
 def test_strength_along_a_straight_line(study):
     """Against the exact field between a plane and a cylinder, and none beyond the walls."""
     radius, gap, height = 5e-3, 1e-6, 0.4e-6
@@ -136,6 +140,7 @@ def test_strength_along_a_straight_line(study):
     assert straight_line(rough).shape == rough.field.x.shape
 
 
+@pytest.mark.slow
 def test_heavier_contacts_flatten_their_roughness_more(study):
     """Amplitude reduction: less of it is left at the higher of two pressures, all else the same."""
     for light, heavy in zip(CONTACTS[:4], CONTACTS[4:], strict=True):
@@ -157,6 +162,7 @@ def test_every_figure_and_table_takes_parts_of_a_study():
         assert set(needed) <= parts
 
 
+@pytest.mark.slow
 def test_checks_of_the_slips(study):
     """Each number by hand, or by a bound that the slip would break."""
     said = {slip.printed.split(":")[0]: slip.check(study) for slip in errata.SLIPS}
@@ -177,6 +183,7 @@ def test_checks_of_the_slips(study):
     assert "8 µA and 0.8 A/mm^2 is 8 A" in said["Section 3.1"] or "10 mm^2" in said["Section 3.1"]
 
 
+@pytest.mark.slow
 def test_tension_solution_carries_the_load():
     _, equations, at = errata._solved(401)
     film = errata._unconstrained(equations, at)
@@ -196,6 +203,7 @@ def test_cores_without_affinity(monkeypatch):
     assert cores() >= 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [4, 5, 6, 9, 10])
 def test_sections_that_are_compared_share_their_heights_and_one_colour_bar(study, number):
     """Heights are in one unit, the thickest film fits, and every panel says its speed."""
@@ -212,6 +220,7 @@ def test_sections_that_are_compared_share_their_heights_and_one_colour_bar(study
     assert all("m/s" in ax.get_title(loc="left") for ax in panels)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "text"), [(7, "coincide"), (11, "differ by up to ")])
 def test_the_definitions_of_mid_film_are_one_line_where_they_coincide(study, number, text):
     """A dotted line over each curve, and in its inset, where they differ."""

@@ -20,12 +20,10 @@ from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import LINE, POINT, solved
 
-# The contacts of this file take seconds to solve.
-pytestmark = pytest.mark.slow
-
 BOTH = pytest.mark.parametrize("geometry", ["line", "point"])
 
 
+@pytest.mark.slow
 def test_at_creeping_speed_smooth_surfaces_touch_in_the_whole_hertz_zone():
     """The dry contact of Hertz: all of the load, and the width 2 b, within the error that the grid gives."""
     contact = LINE.to_dict()["contact"] | {"entrainment_speed": 1e-6}
@@ -47,6 +45,7 @@ def test_at_creeping_speed_smooth_surfaces_touch_in_the_whole_hertz_zone():
     assert again.electrical.behaviour == "resistive"
 
 
+@pytest.mark.slow
 @BOTH
 def test_oil_and_asperities_carry_the_load(geometry):
     result = solved(geometry)
@@ -63,6 +62,7 @@ def test_oil_and_asperities_carry_the_load(geometry):
     assert film.thickness[film.contact] == pytest.approx(1e-9, rel=1e-3)
 
 
+@pytest.mark.slow
 @BOTH
 def test_film_around_the_spots(geometry):
     result = solved(geometry)
@@ -80,6 +80,7 @@ def test_film_around_the_spots(geometry):
     assert found.lambda_deformed > found.lambda_undeformed > 0.0
 
 
+@pytest.mark.slow
 def test_friction_of_the_asperities():
     line, point = solved("line").asperities.touching, solved("point").asperities.touching
     assert line.boundary_friction == pytest.approx(0.12 * line.load_share)
@@ -87,6 +88,7 @@ def test_friction_of_the_asperities():
     assert not any("friction" in row.name for row in result_rows(solved("point")))
 
 
+@pytest.mark.slow
 def test_the_coarser_grid_is_that_of_half_the_nodes():
     alone = solve(LINE.replace(grid={"nodes": 201}), beside_smooth=False).asperities.touching
     coarser = solved("line").coarser
@@ -94,6 +96,7 @@ def test_the_coarser_grid_is_that_of_half_the_nodes():
     assert coarser.contact_area_share == pytest.approx(alone.contact_area_share)
 
 
+@pytest.mark.slow
 @BOTH
 def test_every_key_of_the_summary_is_described(geometry, tmp_path):
     result = solved(geometry)
@@ -110,6 +113,7 @@ def test_every_key_of_the_summary_is_described(geometry, tmp_path):
     assert again.summary()["asperities"] == table
 
 
+@pytest.mark.slow
 @BOTH
 def test_what_is_told(geometry):
     result = solved(geometry)
@@ -130,6 +134,7 @@ def test_what_is_told(geometry):
     assert "where surfaces touch" in rows["film.discretisation_error"].text
 
 
+@pytest.mark.slow
 def test_a_share_that_depends_on_the_grid_is_told():
     result = solved()
     share = result.asperities.touching.load_share
@@ -158,6 +163,7 @@ def test_digits_of_a_share(share, coarser, text):
     assert share_text(share, coarser) == text
 
 
+@pytest.mark.slow
 def test_tiny_shares_are_told_as_bounds():
     result = solved()
     coarser = Coarser(1e-6, 0.1)
@@ -178,6 +184,7 @@ def test_a_hardness_below_the_hertz_pressure_is_told_before_the_solution(case):
     assert "hardness-low" not in codes(7e9)
 
 
+@pytest.mark.slow
 @BOTH
 def test_titles_name_the_field_of_the_boundary_film(geometry):
     result = solved(geometry)
@@ -188,6 +195,7 @@ def test_titles_name_the_field_of_the_boundary_film(geometry):
         assert "Maximum" not in title
 
 
+@pytest.mark.slow
 def test_verdict_speaks_of_the_spots():
     result = solve(POINT.replace(discharge={"dielectric_strength": "15 V/um"}), beside_smooth=False)
     verdict, found = result.verdict, result.asperities
@@ -217,6 +225,7 @@ def test_surfaces_that_do_not_touch_have_no_spots():
     assert solve(Case.from_dict(table | {"roughness": []})).asperities is None
 
 
+@pytest.mark.slow
 @BOTH
 def test_figure_of_the_spots(geometry):
     result = solved(geometry)

@@ -21,9 +21,6 @@ from ehlectric.contact.touching import (
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import POINT, solved
 
-# The contacts of this file take seconds to solve.
-pytestmark = pytest.mark.slow
-
 RHO = 2.2e-7
 
 
@@ -97,6 +94,7 @@ def answer(case=POINT, **changes):
     return electrical(film, spots_of(film), case.oil, semi_axes=result.conditions.semi_axes, **tables)
 
 
+@pytest.mark.slow
 def test_impedances_of_spots_and_film():
     found = answer()
     assert found.resistance is not None
@@ -113,6 +111,7 @@ def test_impedances_of_spots_and_film():
     assert found.capacitance_outside == pytest.approx(cell * np.sum(plates[1:-1, 1:-1][inside]), rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_tribofilm_that_insulates_makes_the_contact_capacitive():
     bare = answer()
     covered = answer(electric=Electric(resistivity=RHO, tribofilm_resistance=1e-1))
@@ -123,6 +122,7 @@ def test_a_tribofilm_that_insulates_makes_the_contact_capacitive():
     assert covered.behaviour == "capacitive"
 
 
+@pytest.mark.slow
 def test_breakdown_around_the_spots():
     found = answer(discharge=Discharge(dielectric_strength=15e6))
     touching = solved().asperities.touching
@@ -132,6 +132,7 @@ def test_breakdown_around_the_spots():
     assert (found.breakdown_voltage, found.breakdown_probability) == (None, None)
 
 
+@pytest.mark.slow
 def test_probability_of_breakdown_is_that_of_the_area_around_the_spots():
     law = {"scale": 3e7, "shape": 2.0, "reference_area": 1e-9}
     found = answer(discharge=Discharge.from_dict({"weibull": law}))
@@ -144,6 +145,7 @@ def test_probability_of_breakdown_is_that_of_the_area_around_the_spots():
     assert found.breakdown_voltage == pytest.approx(2.0 / np.sqrt(exponent))
 
 
+@pytest.mark.slow
 def test_a_film_without_spots_has_no_resistance():
     result = solved()
     film = dataclasses.replace(result.film, contact_pressure=None)

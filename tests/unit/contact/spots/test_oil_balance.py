@@ -11,9 +11,6 @@ from tests.helpers.each import each
 from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
 from tests.unit.contact.spots.cases import LINE, solved
 
-# The contacts of this file take seconds to solve.
-pytestmark = pytest.mark.slow
-
 ROUGH = rough_line(gaussian(0.2e-6, 20e-6, seed=3), nodes=801, speed=0.005)
 
 
@@ -55,6 +52,7 @@ def gained(result):
     return (flux_behind(result, behind) - flux_behind(result, before)) / flow
 
 
+@pytest.mark.slow
 def test_what_enters_leaves():
     """Surfaces apart: 35 % of the flow would appear if cavitated gaps counted as full."""
     case = rough_line(gaussian(0.2e-6, 30e-6, seed=3), nodes=801, speed=0.02)
@@ -64,6 +62,7 @@ def test_what_enters_leaves():
     assert oil_balance(case, result.conditions, result.film).mass_error < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("counted_full")
 @pytest.mark.parametrize("case", [LINE, ROUGH], ids=["sinusoid", "gaussian"])
 def test_what_leaves_the_zone_in_excess_is_the_error(case):
@@ -82,6 +81,7 @@ def test_what_leaves_the_zone_in_excess_is_the_error(case):
     assert excess / flow == pytest.approx(found.oil_made - found.oil_lost, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("counted_full")
 @pytest.mark.parametrize(
     "case",
@@ -118,6 +118,7 @@ def test_a_full_film_keeps_its_oil():
     assert oil_balance(case, result.conditions, result.film).mass_error < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("counted_full")
 def test_a_film_that_makes_oil_is_told():
     result = solve(LINE, beside_smooth=False)
@@ -130,6 +131,7 @@ def test_a_film_that_makes_oil_is_told():
     assert row.value == balance.mass_error
 
 
+@pytest.mark.slow
 @each("geometry", ["line", "point"])
 def test_of_a_film_that_keeps_its_oil_nothing_is_told(geometry):
     kept = solved(geometry)
@@ -137,6 +139,7 @@ def test_of_a_film_that_keeps_its_oil_nothing_is_told(geometry):
     assert "oil-not-conserved" not in [warning.code for warning in kept.warnings]
 
 
+@pytest.mark.slow
 def test_unequal_spacings_have_no_balance():
     result = solved("line")
     film = result.film
