@@ -21,7 +21,7 @@ from ehlectric.sweep.points import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.drives import small_drive
 from tests.helpers.each import each
-from tests.helpers.hot_cases import HOT_LINE
+from tests.helpers.hot_cases import HOT_LINE, HOT_POINT
 from tests.helpers.moving_cases import TABLES, moving
 
 ROUGH = {"surface": 1, "generator": "gaussian", "rq": "5 nm", "correlation_length": "40 um", "seed": 1}
@@ -49,6 +49,13 @@ def starved(kind):
     """A small smooth contact with a layer of oil, which takes no meter."""
     tables = {name: table for name, table in TABLES[kind].items() if name not in ("motion", "roughness")}
     return Case.from_dict(tables | {"inlet": {"oil_layer": "50 nm"}})
+
+
+def hot(kind):
+    """A small moving contact with heat."""
+    table = HOT_LINE if kind == "moving line" else HOT_POINT
+    own = {name: table[name] for name in ("contact", "lubricant")} | {"film": {"thermal": True}}
+    return moving(TABLES[kind.removeprefix("moving ")], {"motion.steps": 8}, **own)
 
 
 def case_of(kind):
@@ -86,6 +93,12 @@ def test_every_key_of_a_summary_has_an_entry_and_every_entry_is_a_key(tmp_path, 
     keys, found = result_keys(case_of(kind)), flat(summary(kind, tmp_path))
     if kind in TABLES:
         found |= flat(solve(starved(kind)).summary())
+    elif kind == "drive":
+        with_ring = small_drive(**{"circuit.grounding_ring_resistance": "1 ohm"})
+        found |= flat(solve_point(with_ring.to_dict()).summary)
+    elif kind.startswith("moving"):
+        run_motion(hot(kind), tmp_path / "hot")
+        found |= flat(summary_of(read_motion(tmp_path / "hot")))
     summarised = [key for key in found if key[:7] != "inputs."]
     assert [key for key in summarised if key_of(keys, key) is None] == []
     parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summarised}

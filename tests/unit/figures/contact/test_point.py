@@ -25,7 +25,7 @@ from ehlectric.figures.point_figures import (
     pressure_map,
     roughness,
 )
-from ehlectric.quantities.palette import OUT_OF_RANGE
+from ehlectric.quantities.palette import OUT_OF_RANGE, RED
 from tests.helpers.each import each
 from tests.helpers.point_pages import EVERY_KIND, KINDS, PIT, drawn, on_page, pages, result_of, solved
 from tests.helpers.titles import title_of
@@ -350,7 +350,7 @@ def test_nothing_is_cut_or_written_over(kind):
 def test_unsolved_figures_say_so(tmp_path):
     for figure in pages("unsolved").values():
         assert title_of(figure)[0] == "NOT CONVERGED"
-        assert figure._suptitle.get_color() == "red"
+        assert figure._suptitle.get_color() == RED
     pages("unsolved")["pressure_map.png"].savefig(tmp_path / "map.png", dpi=30)
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
 
