@@ -229,6 +229,8 @@ class WriteError(InputError):
 class DamagedError(InputError):
     """Error of a stored file that is not as it was written, or does not hold what it must."""
 
+    what = ""  # what is wrong in the file
+
     @classmethod
     def of(cls, path: object, what: str) -> Self:
         """Error of a file, with what is wrong in it.
@@ -238,7 +240,28 @@ class DamagedError(InputError):
         >>> str(DamagedError.of("result.nc", "pressure is missing"))
         'result.nc: is damaged: pressure is missing; compute it again'
         """
-        return cls(path, f"is damaged: {what}; compute it again")
+        error = cls(path, f"is damaged: {what}; compute it again")
+        error.what = what
+        return error
+
+
+class UnreadableError(WriteError):
+    """Error of a result that was written, and that ``load`` would refuse: a fault of this program."""
+
+    @classmethod
+    def of(cls, path: object, what: str) -> Self:
+        """Error of a file, with what is wrong in it.
+
+        Examples
+        --------
+        >>> str(UnreadableError.of("result.nc", "film_fraction is negative, -4e-16"))[:70]
+        'result.nc: is written, but load refuses it: film_fraction is negative,'
+        """
+        return cls(
+            path,
+            f"is written, but load refuses it: {what}; no number is lost: summary.json is complete, and "
+            "xarray.open_dataset reads the file; please report this fault of ehlectric",
+        )
 
 
 class LostError(RuntimeError):

@@ -13,7 +13,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, load_library
+from ehlectric.runtime.netcdf import check_readable, content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
 from ehlectric.runtime.result_names import BEARING_NETCDF as NETCDF
 from ehlectric.runtime.result_names import CONTACTS, IMPEDANCE, SUMMARY
@@ -75,7 +75,7 @@ def save(
     The file impedance.csv is written only if the bearing has an impedance, and duty.csv only if it has a duty
     cycle. Further files are written together
     with these, and those of the names ``replaced`` are removed. Raises an InputError where the folder cannot
-    be used.
+    be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse bearing.nc.
     """
     summary, impedance = result.summary(), impedance_of(result.solution)
     rows = summary["contacts"]
@@ -95,10 +95,13 @@ def save(
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
     if result.duty is not None:
         contents |= result.duty.contents()
-    contents[NETCDF] = content_of(layout_of(result.solution, result.duty))
+    layout = layout_of(result.solution, result.duty)
+    contents[NETCDF] = content_of(layout)
     contents |= further or {}
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
-        return write_together(folder, contents, (*FILES, *replaced))
+        files = write_together(folder, contents, (*FILES, *replaced))
+    check_readable(layout, folder / NETCDF, result_of)
+    return files
 
 
 def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:

@@ -22,7 +22,15 @@ from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, Conta
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning, texts_and_codes
-from ehlectric.runtime.file_rules import VALUES, Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.file_rules import (
+    VALUES,
+    Rule,
+    UnfitError,
+    case_of,
+    number_of,
+    text_of,
+    unfit_error,
+)
 from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.stored import (
     Part,
@@ -254,7 +262,7 @@ def _pair(attributes: Mapping[Any, Any], name: str, rule: str = "finite") -> tup
     if values.dtype.kind not in "fiu" or values.shape != (len(RINGS),):
         raise UnfitError(f"{name} is not a number for each ring")
     if not VALUES[rule](values):
-        raise UnfitError(f"{name} is not {rule}")
+        raise unfit_error(name, values, rule)
     return float(values[0]), float(values[1])
 
 

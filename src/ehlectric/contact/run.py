@@ -22,7 +22,7 @@ from ehlectric.errors import InputError
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, load_library
+from ehlectric.runtime.netcdf import check_readable, content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
 from ehlectric.runtime.result_names import CONTACT_NETCDF as NETCDF
 from ehlectric.runtime.result_names import FILM, SUMMARY
@@ -46,19 +46,23 @@ def save(
     """Write summary.json, result.nc and film.csv, all of them or none, with the content of further files.
 
     Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
-    folder cannot be used, or the result has no case, which the files must hold.
+    folder cannot be used, or the result has no case, which the files must hold. The files are complete if an
+    UnreadableError is raised, as ``load`` would refuse result.nc.
     """
     if not isinstance(result.case, Case):
         raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
     summary = result.summary()
+    layout = layout_of(result, summary)
     contents: dict[str, Content] = {
         SUMMARY: json_of(summary),
-        NETCDF: content_of(layout_of(result, summary)),
+        NETCDF: content_of(layout),
         FILM: partial(_write_film, result),
         **(further or {}),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
-        return write_together(folder, contents, replaced)
+        files = write_together(folder, contents, replaced)
+    check_readable(layout, folder / NETCDF, result_of)
+    return files
 
 
 def _write_film(result: Result | PointResult, file: BinaryIO) -> None:

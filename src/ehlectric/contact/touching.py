@@ -229,8 +229,8 @@ def touched_share(film: Film | PointFilm, zone: Array) -> float:
 
 
 def load_share_of(conditions: Conditions | PointConditions, spots: Spots) -> float:
-    """Part of the load that the spots of a contact carry."""
-    return float(np.sum(spots.loads) / conditions.carried_load)
+    """Part of the load that the spots of a contact carry, at most 1."""
+    return min(1.0, float(np.sum(spots.loads) / conditions.carried_load))
 
 
 def touching(

@@ -12,7 +12,7 @@ from ehlectric.quantities.results import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, load_library
+from ehlectric.runtime.netcdf import check_readable, content_of, load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
 from ehlectric.runtime.result_names import DRIVE_NETCDF as NETCDF
 from ehlectric.runtime.result_names import EVENTS, SPECTRUM, SUMMARY
@@ -54,19 +54,23 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
     """Save the result of a drive: summary.json, drive.nc and its tables as CSV, all files or none.
 
     Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
-    folder cannot be used.
+    folder cannot be used. The files are complete if an UnreadableError is raised, as ``load`` would refuse
+    drive.nc.
     """
     heads = ["bearing", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
     lines = [column_head(name, unit) for name, unit in SPECTRUM_COLUMNS.items()]
+    dataset = result.to_xarray()
     contents: dict[str, Content] = {
         SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),
         SPECTRUM: csv_of(lines, result.spectrum().itertuples(index=False)),
         **({} if result.duty is None else result.duty.contents()),
-        NETCDF: content_of(result.to_xarray()),
+        NETCDF: content_of(dataset),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
-        return write_together(folder, contents, (*FILES, *replaced))
+        files = write_together(folder, contents, (*FILES, *replaced))
+    check_readable(dataset, folder / NETCDF, result_of)
+    return files
 
 
 def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:

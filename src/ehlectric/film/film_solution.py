@@ -83,7 +83,7 @@ class FilmSolution(Values):
     max_pressure_error: float | None = field(default=None, metadata=number())
     # Part of the gap that oil fills, 0 to 1. None of a flooded film that does not form again behind a cavity.
     film_fraction: Array | None = field(
-        default=None, metadata=stored("nodes", "1", "not negative", _FRACTION, needed=False)
+        default=None, metadata=stored("nodes", "1", "0 to 1", _FRACTION, needed=False)
     )
     # Largest amount of oil that appears or is lost up to any position along entrainment, over the mean flow
     # through the Hertz zone. None of a film that does not carry its oil through cavities.
@@ -201,11 +201,14 @@ def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any
     added = patch.problem.added_gap
     if added is None:
         return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}
+    least = min(float(np.min(values["thickness"])) for values in (coarse, fine))
     # The film without roughness is smooth enough to be interpolated between the coarse nodes.
     for values, on in ((coarse, patch.coarse.level.mesh), (fine, mesh)):
         values["thickness"] = values["thickness"] - scales.thickness * added(on.x, on.y)
     nodal = {name: joined(coarse[name], fine[name]) for name in fine}
     nodal["thickness"] += scales.thickness * added(joined.x, joined.y)
+    # Roughness between the coarse nodes makes no gap that neither grid has.
+    nodal["thickness"] = np.maximum(nodal["thickness"], least)
     return joined.x, nodal
 
 

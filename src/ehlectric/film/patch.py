@@ -164,6 +164,8 @@ class Joined:
         else:
             whole = PchipInterpolator(mesh.x, values, axis=0)(self.x)
             whole = PchipInterpolator(mesh.whole_y, whole, axis=1)(self.y)
+            # The interpolation is monotone: only its rounding leaves the range of the values.
+            whole = np.clip(whole, np.min(values), np.max(values))
         inside = self.fine.mirrored(fine)[1:-1, 1:-1]
         i, j = self.first
         whole[i : i + inside.shape[0], j : j + inside.shape[1]] = inside

@@ -23,13 +23,14 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import DamagedError, InputError
+from ehlectric.errors import DamagedError, InputError, UnreadableError
 from ehlectric.film.newton import State
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import Snapshot, TransientSolver
-from ehlectric.motion.stored import SPOTS, Frame, Maps, TimeStep, add_touches, lay_out, resized
+from ehlectric.motion.stored import SPOTS, Frame, Maps, Parts, TimeStep, add_touches, lay_out, resized
+from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.netcdf import changed, create, layout_in, opened, values_in
 from ehlectric.version import __version__
@@ -93,6 +94,7 @@ class MotionFile:
         These are None where the film of stationary roughness is not converged. Raises an InputError where the
         file cannot be written, as on a full disk.
         """
+        self._check(first)
         kind = self._contact.kind
         positions = dict(zip(kind.axes, first.snapshot.film.axes, strict=True))
 
@@ -108,8 +110,10 @@ class MotionFile:
     def append(self, record: Record) -> None:
         """Write a recorded instant and the time steps before it.
 
-        Raises an InputError where another run has written to the file, or the disk has not enough space.
+        Raises an InputError where another run has written to the file, the disk has not enough space, or
+        ``load`` would refuse the instant.
         """
+        self._check(record)
         with changed(self._path) as draft:
             with values_in(draft) as file:
                 if _state(file.attrs) != self._left:
@@ -122,6 +126,21 @@ class MotionFile:
                     _make_room(file, record)
             with values_in(draft) as file:
                 self._put(file, record)
+
+    def _check(self, record: Record) -> None:
+        """Check that ``load`` accepts an instant; an error names what it refuses."""
+        parts = Parts.of(self._contact.kind)
+        try:
+            for row in record.rows:
+                parts.steps.check(row)
+            parts.frames.check(self._frame(record))
+        except UnfitError as error:
+            kept = "the instants before it are complete" if record.step else "no instant is written"
+            raise UnreadableError(
+                self._path,
+                f"does not get the instant at step {record.step}, as load would refuse it: {error}; {kept}; "
+                "please report this fault of ehlectric",
+            ) from None
 
     def _put(self, file: Any, record: Record) -> None:
         """Write an instant into the file, open as ``h5py.File``, which has room for it."""

@@ -109,7 +109,7 @@ class Frame(Maps):
     roughness_1: Array = field(metadata=stored("nodes", "m", "finite", _HEIGHTS.format(1)))
     roughness_2: Array = field(metadata=stored("nodes", "m", "finite", _HEIGHTS.format(2)))
     cavitated: Mask = field(metadata=stored("nodes", "1", "0 or 1", "cavitated: pressure at ambient"))
-    film_fraction: Array | None = field(metadata=stored("nodes", "1", "not negative", _FILLED, needed=False))
+    film_fraction: Array | None = field(metadata=stored("nodes", "1", "0 to 1", _FILLED, needed=False))
     temperature: Array | None = field(
         metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
     )

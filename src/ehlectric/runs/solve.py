@@ -131,6 +131,8 @@ def save(result: Result | PointResult | BearingResult | DriveResult, folder: str
     InputError
         Where the folder cannot be written to, or the result has no case, which the files must hold. Also
         for a result of ``solve_motion``, which ``run_motion`` writes while it is solved.
+    UnreadableError
+        If ``load`` would refuse the file, for a reason in the message. All files are written.
     """
     if isinstance(result, BearingResult):
         return of_bearings.save(result, folder)

@@ -30,6 +30,9 @@ _DIGITS = 6
 # No quantity in SI units is larger, and no positive one smaller; squares of such numbers are finite.
 LARGEST, _SMALLEST = 1e30, 1e-60
 
+# Distance from a bound that is rounding, of shares in files of earlier versions.
+ROUNDING = 1e-9
+
 
 class UnfitError(ValueError):
     """Error of content that is not as its rules say; its text says what is wrong, without the file."""
@@ -54,9 +57,27 @@ VALUES: Mapping[str, Callable[[Array], bool]] = MappingProxyType(
         "not negative or NaN": lambda values: VALUES["not negative"](values[~np.isnan(values)]),
         "increasing": lambda values: _finite(values) and bool(np.all(np.diff(values) > 0)),
         "0 or 1": lambda values: bool(np.all((values == 0) | (values == 1))),
+        "0 to 1": lambda values: bool(np.all(np.abs(values - 0.5) <= 0.5 + ROUNDING)),
         "whole": _whole,
     }
 )
+
+
+def unfit_error(name: str, values: Array, rule: str) -> UnfitError:
+    """Error of values that break a rule, a key of ``VALUES``; it contains the value that is out of bounds.
+
+    >>> print(unfit_error("film_fraction", np.array([0.5, -4e-16]), "not negative"))
+    film_fraction is negative, -4e-16
+    """
+    known = np.ravel(values)[np.isfinite(np.ravel(values))]
+    if rule.startswith("not negative"):
+        least = float(np.min(known, initial=np.inf))
+        return UnfitError(f"{name} is negative, {least:.3g}" if least < 0.0 else f"{name} is not finite")
+    if rule == "0 to 1":
+        furthest = known[np.argsort(np.abs(known - 0.5))][-1:]
+        found = f", but {furthest[0]:.3g}" if known.size == np.size(values) else ""
+        return UnfitError(f"{name} is not from 0 to 1{found}")
+    return UnfitError(f"{name} is not {rule}")
 
 
 def format_of(schema: object) -> tuple[str, int]:
@@ -151,7 +172,7 @@ def _check_variable(name: str, variable: Any, rule: Rule, least: Mapping[str, in
     if rule.unit is not None and stated is not None and not (isinstance(stated, str) and stated == rule.unit):
         raise UnfitError(f"{name} is not in {rule.unit}")
     if not VALUES[rule.values](np.asarray(variable.values)):
-        raise UnfitError(f"{name} is not {rule.values}")
+        raise unfit_error(name, np.asarray(variable.values), rule.values)
 
 
 def text_of(attributes: Mapping[Any, Any], name: str) -> str:
@@ -171,7 +192,7 @@ def number_of(attributes: Mapping[Any, Any], name: str, values: str = "not negat
     if found.dtype.kind not in "fiub" or found.size != 1:
         raise UnfitError(f"{name} is not a number")
     if not VALUES[values](found):
-        raise UnfitError(f"{name} is not {values}")
+        raise unfit_error(name, found, values)
     return float(found.item())
 
 

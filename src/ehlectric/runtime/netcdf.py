@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
 
-from ehlectric.errors import DamagedError, InputError
+from ehlectric.errors import DamagedError, InputError, UnreadableError
 from ehlectric.runtime.drafts import Draft, finish, redo_file, write_down
 from ehlectric.runtime.files import write, writing
 from ehlectric.runtime.hdf5_soundness import (
@@ -90,6 +90,16 @@ class Layout:
         whole = xr.Dataset(dict(self.variables), attrs=dict(self.attributes))
         return whole.set_coords(self.coordinates).copy(deep=True)
 
+    def reread(self) -> Reread:
+        """Content as a reader of the file finds it, without xarray."""
+        return Reread(
+            {
+                name: RereadVariable(_names(one[0]), np.asarray(one[1]), dict(one[2]) if len(one) > 2 else {})
+                for name, one in self.variables.items()
+            },
+            dict(self.attributes),
+        )
+
     def write(self, file: Any) -> None:
         """Write to an ``h5netcdf.File`` what xarray writes of ``dataset``."""
         arrays = {name: (_names(one[0]), np.asarray(one[1])) for name, one in self.variables.items()}
@@ -121,6 +131,61 @@ class Layout:
             variable.attrs[key] = value
         if values.size:
             variable[...] = values
+
+
+@dataclass(frozen=True)
+class RereadVariable:
+    """Variable of a ``Reread``, with the names of xarray."""
+
+    dims: tuple[str, ...]
+    values: Any
+    attrs: Mapping[str, Any]
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Sizes by the names of the dimensions."""
+        return dict(zip(self.dims, self.values.shape, strict=True))
+
+    @property
+    def dtype(self) -> Any:
+        """Type of the values."""
+        return self.values.dtype
+
+    def get_axis_num(self, dim: str) -> int:
+        """Number of the axis of a dimension."""
+        return self.dims.index(dim)
+
+
+@dataclass(frozen=True)
+class Reread:
+    """Content of a file in memory. Its members have the names and values of an ``xarray.Dataset``, as far as
+    readers of results use them.
+    """
+
+    variables: Mapping[str, RereadVariable]
+    attrs: Mapping[str, Any]
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Sizes by the names of the dimensions."""
+        return {name: size for one in self.variables.values() for name, size in one.sizes.items()}
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.variables
+
+    def __getitem__(self, name: str) -> RereadVariable:
+        return self.variables[name]
+
+
+def check_readable(content: xr.Dataset | Layout, path: Path, read: Callable[[Any, Path], object]) -> None:
+    """Check that the reader of a kind of result accepts what was written to a path.
+
+    Raises an UnreadableError, which names what the reader refuses.
+    """
+    try:
+        read(content.reread() if isinstance(content, Layout) else content, path)
+    except DamagedError as error:
+        raise UnreadableError.of(path, error.what) from None
 
 
 def _names(dims: Any) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import CODES_OF_TEXTS, TEXTS, ResultWarning, texts_and_codes, warnings_of
 from ehlectric.runtime.file_rules import (
+    VALUES,
     Rule,
     UnfitError,
     check_variables,
@@ -27,6 +28,7 @@ from ehlectric.runtime.file_rules import (
     is_table,
     is_text,
     json_of,
+    unfit_error,
 )
 
 if TYPE_CHECKING:
@@ -134,6 +136,13 @@ class Part:
             kind = entry.dtype or ("f8" if entry.unknown else None)
             found[entry.name] = (entry.dims, np.array(values, dtype=kind), entry.attributes)
         return found
+
+    def check(self, thing: Any) -> None:
+        """Check the values of one object by the rules of its variables; raises an UnfitError."""
+        for name, entry in self.fields.items():
+            value = getattr(thing, name)
+            if value is not None and not VALUES[entry.rule](np.atleast_1d(value)):
+                raise unfit_error(entry.name, np.asarray(value), entry.rule)
 
     def read(self, values: Mapping[str, Array], *at: int) -> dict[str, Any]:
         """Arguments of the class for the object at some place, without those that a file does not have."""
@@ -265,7 +274,10 @@ def _leaves(things: Any) -> Iterator[Any]:
 
 def _value(entry: Stored, value: Any) -> Any:
     """Value of a field from that of its variable: numbers of Python, masks of booleans."""
-    value = value.astype(bool) if entry.rule == "0 or 1" else value
+    if entry.rule == "0 or 1":
+        value = value.astype(bool)
+    elif entry.rule == "0 to 1":
+        value = np.clip(value, 0.0, 1.0)
     value = value.item() if value.ndim == 0 else value
     return None if entry.unknown and np.ndim(value) == 0 and np.isnan(value) else value
 

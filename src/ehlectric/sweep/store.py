@@ -18,7 +18,16 @@ from typing import Any, Self, get_args
 from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field
 from ehlectric.cases.table import number_of
-from ehlectric.errors import CODES_OF_TEXTS, TEXTS, DamagedError, InputError, WriteError
+from ehlectric.errors import (
+    CODES_OF_TEXTS,
+    TEXTS,
+    DamagedError,
+    InputError,
+    ResultWarning,
+    WriteError,
+    texts_and_codes,
+    warnings_of,
+)
 from ehlectric.runtime.file_rules import (
     LARGEST,
     UnfitError,
@@ -316,6 +325,39 @@ def _is_summary(value: Any, levels: int = _DEEPEST) -> bool:
 _OTHERS = frozenset({str, bool, type(None)})
 
 
+def _readable(summary: Mapping[str, Any]) -> str:
+    """JSON text of a summary that readers accept: numbers that no file may contain are null, with a warning.
+
+    Examples
+    --------
+    >>> found = json.loads(_readable({"film": {"at": [1.0, 2e40]}, "warnings": [], "warning_codes": []}))
+    >>> found["film"], found["warning_codes"], found["warnings"][0][23:41]
+    ({'at': [1.0, None]}, ['number-not-stored'], 'film.at.1 is 2e+40')
+    """
+    unfit: dict[str, float] = {}
+    fit = _with_fit_numbers(summary, "", unfit)
+    if unfit:
+        names = ", ".join(f"{key} is {value:.3g}" for key, value in unfit.items())
+        told = texts_and_codes([*warnings_of(fit), ResultWarning.of("number-not-stored", names=names)])
+        fit |= told
+    return json.dumps(fit, allow_nan=False)
+
+
+def _with_fit_numbers(value: Any, key: str, unfit: dict[str, float]) -> Any:
+    """Value of JSON whose numbers are null if no file may contain them; these are added to ``unfit``."""
+    if isinstance(value, Mapping):
+        return {
+            name: _with_fit_numbers(one, f"{key}.{name}" if key else name, unfit)
+            for name, one in value.items()
+        }
+    if isinstance(value, list | tuple):
+        return [_with_fit_numbers(one, f"{key}.{number}", unfit) for number, one in enumerate(value)]
+    if isinstance(value, float) and not abs(value) < LARGEST:
+        unfit[key] = value
+        return None
+    return value
+
+
 def _has_warnings(summary: Mapping[str, Any]) -> bool:
     """Whether the warnings of a summary are texts, with as many codes, where it has any."""
     texts = summary.get(TEXTS, [])
@@ -457,11 +499,15 @@ class Store:
         return dict(rows)
 
     def write(self, rows: Iterable[tuple[str, Outcome]]) -> None:
-        """Commit the outcomes of points, given with their keys."""
+        """Commit the outcomes of points, given with their keys.
+
+        Numbers of a summary that ``read_sweep`` would refuse are stored as null, with a warning that names
+        them.
+        """
         values = [
             (
                 key, outcome.status, outcome.reason, int(outcome.again),
-                None if outcome.summary is None else json.dumps(outcome.summary, allow_nan=False),
+                None if outcome.summary is None else _readable(outcome.summary),
                 outcome.seconds, outcome.version, outcome.date,
             )
             for key, outcome in rows

@@ -157,7 +157,13 @@ def test_nothing_of_the_library_is_printed(damaged, capfd, in_thread):
 FILM = xr.Dataset(
     {"x": ("x", [0.0, 1.0, 2.0]), "h": ("x", [1.0, 2.0, 3.0], {"units": "m"}), "on": ("x", [0, 1, 1])}
 )
-RULES = {"x": Rule(("x",), "increasing"), "h": Rule(("x",), "positive", "m"), "on": Rule(("x",), "0 or 1")}
+RULES = {
+    "x": Rule(("x",), "increasing"),
+    "h": Rule(("x",), "positive", "m"),
+    "on": Rule(("x",), "0 or 1"),
+    "oil": Rule(("x",), "0 to 1", needed=False),
+    "flow": Rule(("x",), "not negative", needed=False),
+}
 
 
 @each(
@@ -171,6 +177,9 @@ RULES = {"x": Rule(("x",), "increasing"), "h": Rule(("x",), "positive", "m"), "o
         (FILM.assign(h=("x", [1.0, 2.0, 3.0], {"units": "um"})), "h is not in m"),
         (FILM.assign(h=(("x", "s"), np.ones((3, 2)))), "h is over (x, s), not (x)"),
         (FILM.assign(on=("x", [0, 2, 1])), "on is not 0 or 1"),
+        (FILM.assign(oil=("x", [0.5, 1.0, 1.1])), "oil is not from 0 to 1, but 1.1"),
+        (FILM.assign(oil=("x", [0.5, np.nan, 1.0])), "oil is not from 0 to 1"),
+        (FILM.assign(flow=("x", [0.5, -4e-16, 1.0])), "flow is negative, -4e-16"),
         (FILM.assign_coords(x=[0.0, 2.0, 1.0]), "x is not increasing"),
         (FILM.isel(x=slice(0, 1)), "x has 1 values along x"),
     ],
@@ -192,8 +201,14 @@ def test_texts_and_numbers_of_attributes(tmp_path):
     ):
         with pytest.raises(UnfitError, match=f"^{says}$"):
             json_of(attributes, "seconds", lambda value: isinstance(value, list))
-    for number, says in (("x", "a number"), ([1.0, 2.0], "a number"), (-1.0, "not negative")):
-        with pytest.raises(UnfitError, match=f"^seconds is not {says}$"):
+    wrong = (
+        ("x", "not a number"),
+        ([1.0, 2.0], "not a number"),
+        (-1.0, "negative, -1"),
+        (1e40, "not finite"),
+    )
+    for number, says in wrong:
+        with pytest.raises(UnfitError, match=f"^seconds is {says}$"):
             number_of({"seconds": number}, "seconds")
     with (
         pytest.raises(DamagedError, match=r"^\S+: is damaged: its values do not fit together; compute"),

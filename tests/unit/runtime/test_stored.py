@@ -142,6 +142,21 @@ def test_numbers_that_do_not_fit_are_refused(edited):
         read_numbers(Film, {"film": edited}, "film")
 
 
+def test_a_share_of_an_earlier_version_is_read_without_its_rounding():
+    """Version 1.0.0 wrote film_fraction of -4e-16, and refused its own file."""
+
+    @dataclass(frozen=True)
+    class Oil:
+        share: np.ndarray = field(metadata=stored("x", "1", "0 to 1"))
+
+    part = Part(Oil)
+    written = xr.Dataset(part.written(Oil(np.array([-4e-16, 0.5, 1.0 + 2e-16]))))
+    check_parts(written, [part])
+    np.testing.assert_array_equal(Oil(**part.read(values_of(written))).share, [0.0, 0.5, 1.0])
+    with pytest.raises(UnfitError, match=r"^share is not from 0 to 1, but -0\.001$"):
+        part.check(Oil(np.array([-1e-3, 0.5])))
+
+
 def test_objects_with_arrays_of_different_lengths_come_back():
     drives = [
         Drive(1.5, None, True, np.array([1.0, 2.0])),
