@@ -17,9 +17,9 @@ from ehlectric.sweep.evaluation import evaluate
 
 LIVES = {
     "basic_life": ("basic rating life $L_{10}$", MIDDLE_GREY),
-    "modified_life": ("modified by the viscosity ratio", BLUE),
-    "reference_modified_life": ("modified by the film, loads of all balls", GREEN),
-    "roughened_life": ("the same with a roughness of 0.3 µm", ORANGE),
+    "reference_modified_life": ("modified reference rating life $L_{10mr}$", BLUE),
+    "film_reference_modified_life": ("modified reference life with the film", GREEN),
+    "roughened_life": ("with the film and a roughness of 0.3 µm", ORANGE),
 }
 SPEEDS = np.geomspace(20.0, 1200.0, 40)
 

@@ -208,19 +208,20 @@ class RatedLoads:
 class RatingLife(RatedLoads):
     """Ratings, viscosity ratios, factors and lives of a bearing, of shape (...); NaN where there is none."""
 
-    # viscosity_ratio and film_viscosity_ratio: viscosity ratios by the oil at the temperature of the bearing,
-    # and by the thinnest film over the roughness; the factors and the lives [s] that follow.
-    viscosity_ratio: Numbers
-    film_viscosity_ratio: Numbers
+    rated_viscosity: Numbers  # kinematic viscosity that ISO 281 requires, nu_1 [m^2/s]
+    viscosity_ratio: Numbers  # viscosity of the oil at the temperature of the bearing, divided by nu_1
+    film_viscosity_ratio: Numbers  # viscosity ratio that corresponds to the lambda ratio
+    # Factors and lives [s]. Names with "film" use the viscosity ratio of the film, which is no standard's.
     life_factor: Numbers
     film_life_factor: Numbers
     basic_life: Numbers
     modified_life: Numbers
     film_modified_life: Numbers
-    # reference_life, reference_modified_life and roughened_life: by the loads of the elements [s].
+    # Lives from the loads of the elements [s].
     reference_life: Numbers
     reference_modified_life: Numbers
-    roughened_life: Numbers | None  # None where no roughness after discharges is given
+    film_reference_modified_life: Numbers
+    roughened_life: Numbers | None  # None if no roughness after discharges is given
 
 
 # Keys of ``life`` in summary.json.
@@ -242,7 +243,8 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
     def factor(ratio: Numbers, load: Numbers) -> Numbers:
         return _life_factor(rules.factor, ratio, clean / load)
 
-    by_oil, by_film = _viscosity_ratio(solution), _film_ratio(of_film)
+    required = _required_viscosity(bearing)
+    by_oil, by_film = _viscosity(solution) / required, _film_ratio(of_film)
     factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
     basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
     at = solution.positions[0].equilibrium
@@ -260,6 +262,7 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
         rougher = factor(_film_ratio(solution.least_film / rq), same) * reference
     return RatingLife(
         **vars(rated),
+        rated_viscosity=required,
         viscosity_ratio=by_oil,
         film_viscosity_ratio=by_film,
         life_factor=factors[0],
@@ -268,7 +271,8 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
         modified_life=factors[0] * basic,
         film_modified_life=factors[1] * basic,
         reference_life=reference,
-        reference_modified_life=factor(by_film, same) * reference,
+        reference_modified_life=factor(by_oil, same) * reference,
+        film_reference_modified_life=factor(by_film, same) * reference,
         roughened_life=rougher,
     )
 
@@ -293,15 +297,15 @@ def _rated(solution: BearingSolution, life: Life) -> RatedLoads:
     return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static, tracks * bearing.rows))
 
 
-def _viscosity_ratio(solution: BearingSolution) -> Numbers:
-    """Kinematic viscosity of the oil at the temperature of the bearing over the rated one; NaN without the
-    density of the oil, shape (...).
-    """
-    bearing, oil = solution.case.bearing, solution.conditions.oil
-    if oil.density is None:
-        return math.nan
-    rated = _at_points(rated_viscosity)(rpm(bearing.inner_speed), bearing.pitch_diameter)
-    return oil.viscosity / oil.density / rated
+def _required_viscosity(bearing: Bearing) -> Numbers:
+    """Kinematic viscosity nu_1 that ISO 281 requires at the speed of a bearing [m^2/s]."""
+    return _at_points(rated_viscosity)(rpm(bearing.inner_speed), bearing.pitch_diameter)
+
+
+def _viscosity(solution: BearingSolution) -> Numbers:
+    """Kinematic viscosity of the oil at the temperature of the bearing [m^2/s]; NaN without its density."""
+    oil = solution.conditions.oil
+    return math.nan if oil.density is None else oil.viscosity / oil.density
 
 
 def life_flags(solution: BearingSolution) -> Iterator[Flag]:
@@ -311,10 +315,12 @@ def life_flags(solution: BearingSolution) -> Iterator[Flag]:
     if life is None:
         return
     rated, film = _rated(solution, life), _film_ratio(lambda_ratio(solution))
+    ratio = _viscosity(solution) / _required_viscosity(bearing)
     limit, static = rated.fatigue_load_limit, rated.static_rating
     part = rated.equivalent_load / rated.dynamic_rating
     yield Flag.of(np.isnan(part), "life-outside", "angle")
-    yield Flag.of(film < LOWEST_RATIO, "life-outside", "oil", ratio=film)
+    yield Flag.of(ratio < LOWEST_RATIO, "life-outside", "oil", ratio=ratio)
+    yield Flag.of(film < LOWEST_RATIO, "life-outside", "film", ratio=film)
     yield Flag.of(part > _MOST_LOAD, "life-outside", "load", part=part)
     yield Flag.of(limit > static, "life-outside", "limit", limit=limit, static=static)
     given = life.static_rating is not None and life.fatigue_load_limit is not None

@@ -72,14 +72,20 @@ def scale_of(unit: str) -> Scale:
     return CELSIUS if unit == "°C" else Scale(round_factor(UNITS[unit][1]), unit)
 
 
-def formatted(value: float, digits: str) -> str:
+def formatted(value: float, digits: str, ceiling: float | None = None) -> str:
     """Number as a string in a format, without an exponent where its few digits can be read without one.
+
+    A number above the ``ceiling`` becomes "above" with this limit.
 
     Examples
     --------
     >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0, 4e7)]
     ['0.012', '99', '210', '41000', '4e+07']
+    >>> formatted(3.2e7, ".3g", 1e6)
+    'above 1 000 000'
     """
+    if ceiling is not None and value > ceiling:
+        return f"above {ceiling:,.0f}".replace(",", " ")
     text = format(value, digits)
     return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
 

@@ -36,6 +36,8 @@ class Quantity:
     # there is none, or for "prefixed", the SI unit with the prefix that suits the value.
     shown: str = field(default="", kw_only=True)
     digits: str = field(default=".4g", kw_only=True)  # format of the shown number
+    # Shown number above which texts only state that the value is higher; None without such a number.
+    ceiling: float | None = field(default=None, kw_only=True)
     # What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``result_bounds``
     # says whether it holds for a result.
     bound: Bound = field(default="", kw_only=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
@@ -36,6 +36,7 @@ class Row:
     unit: str = ""  # unit in which a number is shown, one of ``UNITS``, or the unit of a string
     note: str = ""  # note that follows the unit, or the value if there is no unit
     digits: str = field(default=".4g", kw_only=True)  # format of the shown number
+    ceiling: float | None = field(default=None, kw_only=True)  # as of ``Quantity``
     alarm: bool = field(default=False, kw_only=True)  # True if the row says that the numbers must not be used
     # "≤" for a value that is an upper bound, "≥" for a lower bound; it holds for both ends of a range.
     bound: Bound = field(default="", kw_only=True)
@@ -50,7 +51,7 @@ class Row:
         """Value as a string, in the shown unit."""
         if self.value is None or isinstance(self.value, str):
             return self.value or ""
-        return formatted(scale_of(self.unit).of(self.value), self.digits)
+        return formatted(scale_of(self.unit).of(self.value), self.digits, self.ceiling)
 
     @property
     def bounded(self) -> str:
@@ -196,7 +197,8 @@ def row_of(
     if isinstance(value, str):
         return Row(name, value, "", note, alarm=alarm, bound=bound, key=key)
     unit = shown_unit(about, value)
-    return Row(name, value, unit, note, digits=about.digits, alarm=alarm, bound=bound, key=key)
+    row = Row(name, value, unit, note, digits=about.digits, alarm=alarm, bound=bound, key=key)
+    return replace(row, ceiling=about.ceiling)
 
 
 def shown_unit(about: Quantity, value: float) -> str:

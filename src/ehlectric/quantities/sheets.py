@@ -49,6 +49,9 @@ BREAKDOWN_FORMULAS = {"line": "pan_hamrock", "point": "chittenden"}
 # Large numbers of the first page of a report, each with those that stand small below it.
 FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_DRIVE = _cards("first_page_of_bearing"), _cards("first_page_of_drive")
 
+# Numbers of the rating life on this page.
+FIRST_PAGE_OF_LIFE = tuple[str, ...](_READ["first_page_of_life"]["keys"])
+
 # Columns of the tables of all contacts of a bearing: of its loads, of its films, and on its page.
 LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (
     tuple[str, ...](_READ["columns"][name]) for name in ("loads", "films", "page")

@@ -25,7 +25,7 @@ from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row
-from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING
+from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.quantities.units import rpm
 from ehlectric.report.background import given_inputs, input_text, named
 from ehlectric.report.light import Light, light_of
@@ -129,7 +129,9 @@ def _unit(row: Row) -> str:
 
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
+    totals = tuple(totals)
     yield Numbers(numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING))
+    yield from _lives({row.key: row for row in totals})
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     better = [
@@ -173,6 +175,17 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
         for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
     )
+
+
+def _lives(rows: Mapping[str, Row]) -> Iterator[Text]:
+    """Sentence with the rating lives of a bearing and with the numbers from which they follow; none if no row
+    is a life.
+    """
+    if FIRST_PAGE_OF_LIFE[-1] in rows:
+        parts = (rows[key] for key in FIRST_PAGE_OF_LIFE if key in rows)
+        # The symbol is the last word of a label.
+        text = "; ".join(f"{row.name.rpartition(' ')[2]} = {row.text}" for row in parts)
+        yield Text(with_units_kept(f"{SENTENCES['rating_life']}: {text}."), "small")
 
 
 def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:

@@ -275,6 +275,17 @@ def _meter(summary: Summary) -> Noted:
     return Noted(totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films")
 
 
+def _viscosity_ratio(summary: Summary) -> Noted:
+    """Viscosity ratio with the viscosity of the oil, or the reason why it is unknown."""
+    life = summary["life"]
+    if life["rated_viscosity"] is None:
+        return Noted(None, "")
+    if life["viscosity_ratio"] is None:
+        return Noted("unknown", ", the density of the oil is not given")
+    viscosity = 1e6 * life["viscosity_ratio"] * life["rated_viscosity"]
+    return Noted(life["viscosity_ratio"], f", ν/ν1 with ν = {viscosity:.3g} mm²/s")
+
+
 def _shaft_note(summary: Summary) -> str:
     leaks = "shaft-leaks" in summary["warning_codes"]
     return f", by the capacitive divider{'; upper bound: the oil discharges it' if leaks else ''}"
@@ -450,6 +461,7 @@ _WORDS = Words(
         "bearing.parallel_capacitance": _parallel,
         "bearing.meter_capacitance": _meter,
         "bearing.first_break": _first_break,
+        "life.viscosity_ratio": _viscosity_ratio,
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
         "duty.left_out_share": lambda s: value_at(s, "duty.left_out_share") or None,

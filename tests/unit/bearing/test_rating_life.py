@@ -1,5 +1,7 @@
 """Rating life in the results of a bearing, against numbers by hand and printed ratings."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from ehlectric.bearing.rating_life import KEYS
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.errors import InputError
 from ehlectric.sweep.evaluation import evaluate
+from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.each import each
 
@@ -38,6 +41,64 @@ def test_ball_bearing_by_hand():
     factor = life_factor("radial ball", found["film_viscosity_ratio"], 0.5 * 17_900.0 / 22.0 / 1800.0)
     assert found["film_life_factor"] == pytest.approx(factor, rel=1e-9)
     assert found["film_modified_life"] == pytest.approx(factor * found["basic_life"], rel=1e-9)
+
+
+def walther(temperature, points):
+    """Kinematic viscosity [mm^2/s] at a temperature [K] between two points, by ASTM D341."""
+    logs = [(math.log10(t), math.log10(math.log10(nu + 0.7))) for t, nu in points.items()]
+    (first, low), (last, high) = logs
+    part = (math.log10(temperature) - first) / (last - first)
+    return 10.0**10.0 ** (low + part * (high - low)) - 0.7
+
+
+@pytest.mark.slow
+def test_modified_reference_life_uses_the_viscosity_of_the_oil():
+    """ISO/TS 16281 takes kappa = nu/nu_1, with nu_1 = 4500/(3000 60)^0.5 mm^2/s at 3000 rpm and 60 mm, and
+    P as the load whose basic life is the reference life. The film has a life with a name of its own.
+    """
+    found = life(bearing__life=PRINTED, bearing__inner_speed="3000 rpm")
+    required = 4500.0 / math.sqrt(3000.0 * 60.0)
+    kappa = walther(343.15, {313.15: 46.0, 373.15: 6.8}) / required
+    assert found["rated_viscosity"] == pytest.approx(1e-6 * required, rel=1e-9)
+    assert found["viscosity_ratio"] == pytest.approx(kappa, rel=2e-3)
+    kappa = found["viscosity_ratio"]
+    load = 29_100.0 / (found["reference_life"] * 3000.0 / 60.0 / 1e6) ** (1.0 / 3.0)
+    part = 0.5 * 17_900.0 / 22.0 / load
+    oil_part = 2.5671 - 1.9987 / kappa ** (0.071739 if kappa >= 1.0 else 0.19087)
+    factor = min(50.0, 0.1 * (1.0 - oil_part**0.83 * part ** (1.0 / 3.0)) ** -9.3)
+    expected = factor * found["reference_life"]
+    assert found["reference_modified_life"] == pytest.approx(expected, rel=1e-6)
+    of_film = life_factor("radial ball", found["film_viscosity_ratio"], part)
+    assert found["film_reference_modified_life"] == pytest.approx(of_film * found["reference_life"], rel=1e-6)
+    assert found["film_reference_modified_life"] > 1.5 * found["reference_modified_life"]
+
+
+def rows_of_life(**changes):
+    """Texts of the rows of the rating life by key."""
+    solution = solve_bearing(bearing_case(BALLS, contacts="atlas", **changes), workers=1)
+    rows = total_rows(solution.summary(probable=False))
+    return {row.key.removeprefix("life."): row.text for row in rows if row.key.startswith("life.")}
+
+
+@pytest.mark.slow
+def test_the_table_shows_what_the_lives_follow_from():
+    found = rows_of_life(bearing__life=PRINTED, bearing__inner_speed="3000 rpm")
+    assert found["dynamic_rating"].startswith("29100 N")
+    assert found["static_rating"].startswith("17900 N")
+    assert found["fatigue_load_limit"].startswith("814 N")
+    assert found["equivalent_load"].startswith("1800 N")
+    assert found["rated_viscosity"].startswith("10.6 mm²/s")
+    assert "viscosity_ratio" in found
+
+
+@pytest.mark.slow
+def test_lives_above_a_million_hours_are_not_numbers_in_texts():
+    """The number in the summary remains: 29.1 kN and 100 N are 2.5e13 revolutions, 1.4e8 h at 3000 rpm."""
+    changes = {"bearing__life": PRINTED, "bearing__inner_speed": "3000 rpm"}
+    loads = {"bearing__radial_load": "100 N", "bearing__axial_load": "0 N"}
+    assert rows_of_life(**changes, **loads)["basic_life"] == "above 1 000 000 h"
+    hours = 291.0**3 * 1e6 / 180e3
+    assert life(**changes, **loads)["basic_life"] == pytest.approx(3600.0 * hours, rel=1e-9)
 
 
 @pytest.mark.slow
@@ -72,7 +133,7 @@ def test_roughened_raceways_shorten_the_life():
         life(bearing__life={"contamination_factor": 0.5, "roughened_rq": rq}) for rq in ("0.03 um", "0.5 um")
     )
     # The roughness of the case itself is 0.03 um.
-    assert smooth["roughened_life"] == pytest.approx(smooth["reference_modified_life"], rel=1e-9)
+    assert smooth["roughened_life"] == pytest.approx(smooth["film_reference_modified_life"], rel=1e-9)
     assert rough["roughened_life"] < 0.3 * smooth["roughened_life"]
 
 

@@ -72,6 +72,7 @@ def tables_of(report):
     return {table.caption: table for table in blocks(report, Table)}
 
 
+LIFE = "Rating life"
 RANKED = "Measure first: the assumptions that matter most"
 MEASURE = "Measure first: assumptions behind the answer, not ranked"
 
@@ -173,6 +174,40 @@ def test_a_bearing_without_a_motor_has_a_breakdown_voltage(pages):
     machine = blocks(report, Text)[0].text
     assert "grease with oil" in machine
     assert "winding" not in machine
+
+
+def life_of(report):
+    """Texts of the rating life by symbol."""
+    (text,) = [one.text for one in blocks(report, Text) if one.text.startswith(LIFE)]
+    parts = text.removeprefix(f"{LIFE}: ").removesuffix(".").replace("\xa0", " ").split("; ")
+    return dict(part.split(" = ", 1) for part in parts)
+
+
+@pytest.mark.slow
+def test_rating_lives_stand_next_to_their_inputs(pages):
+    _, summary, report = pages("bearing_greased")
+    found, life = life_of(report), summary["life"]
+    assert found["C"].startswith(f"{life['dynamic_rating']:.0f}"[:3])
+    assert found["C0"].startswith(f"{life['static_rating']:.0f}"[:3])
+    assert found["Cu"].startswith(f"{life['fatigue_load_limit']:.3g} N")
+    assert found["P"].startswith("1800 N")
+    assert found["ν1"].startswith(f"{4500.0 / (6000.0 * 60.0) ** 0.5:.3g} mm²/s")
+    assert found["κ"].startswith(f"{life['viscosity_ratio']:.3g}")
+    for symbol, key in (("L10", "basic_life"), ("L10mr", "reference_modified_life")):
+        hours = life[key] / 3600.0
+        shown = "above 1 000 000 h" if hours > 1e6 else f"{float(f'{hours:.3g}'):.0f} h"
+        assert found[symbol] == shown
+
+
+@pytest.mark.slow
+def test_the_page_of_a_bearing_with_a_margin_has_room_for_its_lives(tmp_path):
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    save(solve(case.replace({"contacts": "atlas", "bearing.life": {"contamination_factor": 0.5}})), tmp_path)
+    report = report_of(tmp_path, summary=True)
+    assert {"C", "ν1", "κ", "L10mr"} <= set(life_of(report))
+    page = first_page(report)
+    page.wrapOn(Canvas(BytesIO()), page.maxWidth, page.maxHeight)
+    assert getattr(page, "_scale", 1.0) == 1.0
 
 
 @pytest.mark.slow
