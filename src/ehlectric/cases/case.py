@@ -11,12 +11,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, TypeVar, Unpack
 
-from pydantic import PrivateAttr, model_validator
+from pydantic import PrivateAttr, ValidationInfo, model_validator
 
 from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
 from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys, geometry_of, warn_of
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.cases.film_inputs import FilmPhysics, Inlet, check_film
 from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_grid
 from ehlectric.cases.key_names import refuse_deep
@@ -24,14 +25,17 @@ from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
 from ehlectric.cases.table import CaseFile, Title, read_toml
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
-from ehlectric.lubricant.python_laws import SampledLaws
+from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
 from ehlectric.quantities.formats import amount
 from ehlectric.runtime.values import headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
 _SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
+
+# Key of the laws of a user's own, in tables of Python and in the context of a validation.
+LAWS = "laws"
 
 
 class _Tables(TypedDict, total=False):
@@ -47,6 +51,7 @@ class _Tables(TypedDict, total=False):
     inlet: Inlet | Keys | None
     grid: Grid | Keys | None
     solver: Solver | Keys | None
+    laws: OwnLaws | None
 
 
 class _LineCaseKeys(_Tables, LineKeys, total=False):
@@ -63,6 +68,9 @@ class Case(CaseFile, book="case_file"):
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
     the keys of its contact by ``Case.line`` or ``Case.point``. Wrong inputs raise an ``InputError`` that
     names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units.
+
+    ``from_dict``, ``Case.line``, ``Case.point``, ``replace`` and ``with_laws`` also take ``laws``, functions
+    of your own for the oil. They belong to the case, and no file can contain them.
 
     Parameters
     ----------
@@ -97,7 +105,10 @@ class Case(CaseFile, book="case_file"):
             solver: Solver | Keys = ...,
         ) -> None: ...
 
-    _laws: SampledLaws | None = PrivateAttr(default=None)
+    # Laws of the user's own, their values in this contact, and ``discharge`` without their strength.
+    _laws: OwnLaws | None = PrivateAttr(default=None)
+    _sampled: SampledLaws | None = PrivateAttr(default=None)
+    _given_discharge: Discharge | None = PrivateAttr(default=None)
 
     title: Title = ""
     contact: Contact
@@ -116,6 +127,8 @@ class Case(CaseFile, book="case_file"):
     @classmethod
     def _point_grid(cls, table: Any) -> Any:
         """Add the defaults of a point contact's grid for the keys that the case does not give."""
+        if isinstance(table, Mapping) and LAWS in table:
+            raise _laws_in_table(table[LAWS])
         if not isinstance(table, Mapping) or geometry_of(table.get("contact")) != "point":
             return table
         grid = table.get("grid", {})
@@ -124,13 +137,14 @@ class Case(CaseFile, book="case_file"):
         return {**table, "grid": point_grid(grid)} if isinstance(grid, Mapping) else table
 
     @model_validator(mode="after")
-    def _check(self) -> Self:
+    def _check(self, info: ValidationInfo) -> Self:
+        laws = info.context.get(LAWS) if info.context else None
         given = {name for name, table in self if table is not None}
         moves = "motion" in given
         self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
-        check_film(self.film, self.contact, self.lubricant)
+        check_film(self.film, self.contact, self.lubricant, () if laws is None else laws.names)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
         if self.meter is not None:
@@ -141,13 +155,36 @@ class Case(CaseFile, book="case_file"):
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
             object.__setattr__(self, "grid", self.grid.fixed())
+        if laws is not None:
+            self._take(laws)
         return self
+
+    def _take(self, laws: OwnLaws) -> None:
+        """Take laws of the user's own, with their values in this contact, as the case is made."""
+        if self.motion is not None:
+            raise InputError.worded(
+                LAWS, "are not used with moving roughness, whose file of the run cannot contain functions"
+            )
+        temperature, discharge = self.contact.temperature, self.discharge
+        if temperature is None:
+            text = "missing; a law of your own needs it"
+            raise InputError.worded("contact.temperature", text, takes="a temperature")
+        sampled = laws.at(temperature, hertz_pressure(self.contact))
+        if strength := sampled.samples.get("strength"):
+            values = {"pressure": strength.pressure.tolist(), "strength": strength.values.tolist()}
+            table = {} if discharge is None else discharge.model_dump(mode="json", exclude_none=True)
+            tables = {"discharge": table}
+            displace_alternatives(tables, {"discharge.strength_table": values}, self.contact.geometry)
+            tables.setdefault("discharge", {})["strength_table"] = values
+            object.__setattr__(self, "discharge", Discharge.from_dict(tables["discharge"]))
+        private = {"_laws": laws, "_sampled": sampled, "_given_discharge": discharge}
+        object.__setattr__(self, "__pydantic_private__", private)
 
     @property
     def oil(self) -> Oil:
         """Oil at the temperature of the contact: its numbers and its laws over pressure."""
         oil = self.lubricant.at(self.contact.temperature)
-        return oil if self._laws is None else self._laws.applied(oil)
+        return oil if self._sampled is None else self._sampled.applied(oil)
 
     @property
     def first_grid(self) -> Grid:
@@ -155,26 +192,69 @@ class Case(CaseFile, book="case_file"):
         return self.grid.first(rough=bool(self.roughness))
 
     @property
-    def own_laws(self) -> SampledLaws | None:
-        """Laws of the user's own that replace those of the lubricant; None without any."""
+    def own_laws(self) -> OwnLaws | None:
+        """Laws of the user's own that replace the laws of the lubricant; None without any."""
         return self._laws
 
-    def with_laws(self, laws: SampledLaws) -> Self:
-        """Copy of the case whose oil has laws of the user's own; they are not part of its file."""
-        case = self.model_copy()
-        object.__setattr__(case, "__pydantic_private__", {"_laws": laws})
-        return case
+    @property
+    def law_values(self) -> SampledLaws | None:
+        """Values of these laws in this contact; None without any."""
+        return self._sampled
+
+    def with_laws(self, laws: OwnLaws | None) -> Self:
+        """Return the case with laws of your own for its oil, or without them for None.
+
+        >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9, "temperature": "40 degC"}
+        >>> case = Case.line(**steel, max_hertz_pressure="1 GPa", entrainment_speed=4.0, lubricant="paper")
+        >>> case.with_laws(Laws(density=lambda p, T: 870.0 * (1.0 + 1e-10 * p))) == case
+        False
+        """
+        return self._validated(self._without_laws() | {LAWS: laws}, written=False)
+
+    def _without_laws(self) -> dict[str, Any]:
+        """Tables of the case as they are without laws of the user's own."""
+        table = self.plain_tables()
+        if self._laws is not None:
+            table.pop("discharge", None)
+            if self._given_discharge is not None:
+                table["discharge"] = self._given_discharge.model_dump(mode="json", exclude_none=True)
+        return table
+
+    def _check_file(self) -> None:
+        if self._laws is not None:
+            raise InputError.worded(
+                LAWS,
+                f"{_listed(self._laws)} cannot be contained in tables or in a file; with_laws(None) returns "
+                "the case with the laws of its lubricant",
+            )
+
+    def described_toml(self) -> str:
+        """TOML text of the case; it names laws of the user's own, so that no reader takes it for complete."""
+        return self.toml_text(**({} if self._laws is None else {LAWS: self._laws.names}))
+
+    @classmethod
+    def _validated(
+        cls, table: Mapping[str, Any], *, written: bool, context: Mapping[str, Any] | None = None
+    ) -> Self:
+        laws = table.get(LAWS)
+        if laws is None or isinstance(laws, OwnLaws):
+            table = {key: value for key, value in table.items() if key != LAWS}
+            context = {**(context or {}), LAWS: laws if laws is not None and laws.names else None}
+        return super()._validated(table, written=written, context=context)
 
     def __eq__(self, other: object) -> bool:
         # A LineCase is equal to a Case with the same values, as a result has once it is loaded.
-        return self.__dict__ == other.__dict__ if isinstance(other, Case) else NotImplemented
+        if not isinstance(other, Case):
+            return NotImplemented
+        return self.__dict__ == other.__dict__ and _same_laws(self, other)
 
     def _headline(self) -> str:
         """Title, geometry, load and speed on one line."""
         given = [(key, self.contact.value(key), unit) for key, unit in _SHOWN.items()]
         numbers = [f"{key} {amount(value, unit)}" for key, value, unit in given if value is not None]
         motion = None if self.motion is None else "moving roughness"
-        return headline(self.title, f"{self.contact.geometry} contact", *numbers, motion)
+        laws = None if self._laws is None else f"own laws of {', '.join(self._laws.names)}"
+        return headline(self.title, f"{self.contact.geometry} contact", *numbers, motion, laws)
 
     @classmethod
     @takes(_LineCaseKeys)
@@ -220,7 +300,8 @@ class Case(CaseFile, book="case_file"):
 
         A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
         radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the
-        keys that only the old geometry has, and the lengths, nodes and error of its grid.
+        keys that only the old geometry has, and the lengths, nodes and error of its grid. Laws of your own
+        stay, unless ``laws`` replaces them.
 
         Parameters
         ----------
@@ -233,13 +314,14 @@ class Case(CaseFile, book="case_file"):
         """
         refuse_deep({**tables, "changes": changes})
         flat = {**flattened(tables), **(changes or {})}
-        table = self.to_dict()
+        laws = flat.pop(LAWS, self._laws)
+        table = self._without_laws()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)
         if geometry != self.contact.geometry:
             drop_geometry(table, self.contact.geometry)
         displace_alternatives(table, flat, geometry)
         set_keys(table, flat)
-        return self.from_dict(table)
+        return self.from_dict(table | {LAWS: laws})
 
 
 class LineCase(Case):
@@ -279,3 +361,31 @@ def _of_kind(case: C, geometry: str) -> C:
     if case.motion is not None:
         raise InputError.worded("motion", f"is no table of a {name}; Case.from_dict takes it")
     return case
+
+
+def _same_laws(one: Case, other: Case) -> bool:
+    """Whether two cases have the same laws of a user's own: equal functions, or equal values of a file."""
+    if one.own_laws is None or other.own_laws is None:
+        return one.own_laws is other.own_laws
+    if isinstance(one.own_laws, Laws) and isinstance(other.own_laws, Laws):
+        return one.own_laws == other.own_laws
+    assert one.law_values is not None and other.law_values is not None
+    return one.law_values.same_values(other.law_values)
+
+
+def _listed(laws: OwnLaws) -> str:
+    """Properties with their laws, for messages."""
+    return "; ".join(f"{key}: {name}" for key, name in laws.names.items())
+
+
+def _laws_in_table(given: object) -> InputError:
+    """Error of laws in the tables of a case that are no functions, or stand in a file."""
+    if isinstance(given, Mapping) and given and all(isinstance(name, str) for name in given.values()):
+        named = "; ".join(f"{key}: {name}" for key, name in given.items())
+        return InputError.worded(
+            LAWS,
+            f"a file cannot contain laws of your own ({short(named)}); give the functions in Python, as in "
+            "Case.from_dict({..., 'laws': Laws(...)}), or remove the table [laws] to use the oil of the file",
+            takes="Laws of functions",
+        )
+    return InputError(LAWS, got=shown(type(given).__name__), takes="Laws of functions, in Case.from_dict")

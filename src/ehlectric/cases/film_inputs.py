@@ -93,9 +93,9 @@ class FilmPhysics(Table, book="film"):
     thermal: bool = False
     rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
 
-    def check(self, contact: Contact, lubricant: Lubricant) -> None:
+    def check(self, contact: Contact, lubricant: Lubricant, own: Collection[str] = ()) -> None:
         """Check that a case has all that a film with heat or shear needs. Raises InputError if a property of
-        the oil, of a body or a temperature is missing.
+        the oil, of a body or a temperature is missing. ``own``, properties with a law of the user's own.
         """
         for key in CONSTANTS[self.rheology]:
             if getattr(lubricant, key) is None:
@@ -107,7 +107,7 @@ class FilmPhysics(Table, book="film"):
                 raise InputError.missing(
                     "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
                 )
-            check_thermal_oil(lubricant, contact.temperature)
+            check_thermal_oil(lubricant, contact.temperature, own=own)
             for name in ("body_1", "body_2"):
                 thermal_properties(getattr(contact, name), f"contact.{name}")
 
@@ -116,12 +116,14 @@ class FilmPhysics(Table, book="film"):
         return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
 
 
-def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant) -> None:
-    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case."""
+def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant, own: Collection[str] = ()) -> None:
+    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case. ``own``,
+    properties with a law of the user's own.
+    """
     if film is None or not film.thermal:
         _refuse_unused(contact)
     if film is not None:
-        film.check(contact, oil)
+        film.check(contact, oil, own)
 
 
 def _refuse_unused(contact: Contact) -> None:
@@ -134,12 +136,18 @@ def _refuse_unused(contact: Contact) -> None:
             )
 
 
-def check_thermal_oil(oil: Lubricant, temperature: float, what: str = "a thermal film") -> None:
-    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``."""
-    if viscosity_over_temperature(oil) is None:
+def check_thermal_oil(
+    oil: Lubricant, temperature: float, what: str = "a thermal film", own: Collection[str] = ()
+) -> None:
+    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``. ``own``,
+    properties with a law of the user's own.
+    """
+    if "viscosity" not in own and viscosity_over_temperature(oil) is None:
+        of_contact = what == "a thermal film"
+        also = ", or in Python the viscosity of Case.line(..., laws=Laws(...))" if of_contact else ""
         raise InputError.missing(
             "lubricant.atmospheric_law",
-            f"it or [lubricant.temperature]: {what} needs the viscosity over temperature",
+            f"it or [lubricant.temperature]{also}: {what} needs the viscosity over temperature",
         )
     for key, ways in _missing(oil, temperature):
         raise InputError.missing(f"lubricant.{key}", f"{ways}; {what} needs it")

@@ -43,15 +43,17 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "arrays",
     "check_one_of",
     "check_over",
+    "described_toml",
     "first_grid",
     "from_written",
     "known_keys",
     "own_laws",
+    "plain_tables",
     "shape",
     "sign_of",
     "single",
+    "toml_text",
     "with_arrays",
-    "with_laws",
     "with_values",
 }
 
@@ -199,10 +201,12 @@ class Table(BaseModel, metaclass=_Listed):
         return cls._validated(table, written=True)
 
     @classmethod
-    def _validated(cls, table: Mapping[str, Any], *, written: bool) -> Self:
+    def _validated(
+        cls, table: Mapping[str, Any], *, written: bool, context: Mapping[str, Any] | None = None
+    ) -> Self:
         refuse_deep(table)
         try:
-            return cls.model_validate(dict(table), context={WRITTEN: written})
+            return cls.model_validate(dict(table), context={WRITTEN: written, **(context or {})})
         except ValidationError as error:
             raise first_error(error, cls) from None
 
@@ -258,7 +262,17 @@ class CaseFile(Tabled, Table):
     """Table of a whole file: a case of a contact, a bearing or a drive."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units; InputError for many points."""
+        """Return all values that are set as nested tables, in SI units; InputError for many points, and for a
+        contact with laws of the user's own, which no table can contain.
+        """
+        self._check_file()
+        return self.plain_tables()
+
+    def _check_file(self) -> None:
+        """Raise an InputError if a file cannot contain the case; no error by default."""
+
+    def plain_tables(self) -> dict[str, Any]:
+        """Return all values that a file can contain as nested tables, in SI units."""
         if arrays := self.arrays():
             raise InputError(
                 next(iter(arrays)), got="an array", takes="a number; single(index) has those of a point"
@@ -267,9 +281,18 @@ class CaseFile(Tabled, Table):
 
     def to_toml(self) -> str:
         """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        self._check_file()
+        return self.toml_text()
+
+    def described_toml(self) -> str:
+        """Return the case as TOML text for a report, also of a case that no file can contain."""
+        return self.to_toml()
+
+    def toml_text(self, **further: Any) -> str:
+        """Return the values that a file can contain as TOML text, with further tables."""
         import tomli_w
 
-        table = self.to_dict()
+        table = self.plain_tables() | further
         # A rotational speed without a unit is refused in a file.
         for within, key in self._speeds(table):
             value = within[key]

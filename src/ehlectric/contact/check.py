@@ -23,12 +23,12 @@ from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, reach_of
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
 from ehlectric.contact.warnings import case_warnings
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.film.far_field import MOST_OUTSIDE
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import FilmProblem
-from ehlectric.lubricant.python_laws import OF_STRENGTH, Laws
+from ehlectric.lubricant.python_laws import Laws, Recorder, SampledLaws
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
 from ehlectric.surfaces.surface_warnings import surface_warnings
@@ -110,25 +110,35 @@ def check_case(case: Case) -> PreparedContact:
     return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))
 
 
-def with_laws(case: Case, laws: Laws) -> Case:
-    """Case of a contact whose oil has user-defined laws at the temperature of the contact.
-
-    A dielectric strength becomes the strength table of the case. Raises an InputError if the contact has no
-    temperature, or a law has no valid values at its pressures.
+def case_with_laws(case: object, laws: object) -> Case:
+    """Case of a contact with laws of the user's own. Raises InputError for other laws, and for a bearing or a
+    drive.
     """
-    if case.film is not None and case.film.thermal:
+    if not isinstance(laws, Laws | SampledLaws):
+        raise InputError("laws", got=shown(type(laws).__name__), takes="Laws of functions")
+    if not isinstance(case, Case):
         raise InputError.worded(
-            "film.thermal",
-            "is not used with laws of your own, which are those at one temperature",
+            "laws",
+            f"are for the oil of one contact, not for a {type(case).__name__}; give its oil by the laws of "
+            "[lubricant], for example viscosity_law",
+            takes="a Case of a contact",
         )
-    conditions = KINDS[case.contact.geometry].resolve(case)
-    sampled = laws.sampled(case.contact.temperature, conditions.max_pressure)
-    strength = sampled.samples.get("strength")
-    if strength is not None:
-        places = slice(None, None, OF_STRENGTH)
-        table = {"pressure": strength.pressure[places].tolist(), "strength": strength.values[places].tolist()}
-        case = case.replace({"discharge.strength_table": table})
-    return case.with_laws(sampled)
+    return case.with_laws(laws)
+
+
+def portable(case: Case) -> Case:
+    """Case for another process: functions of the user's own are replaced by all values that it needs.
+
+    Raises InputError if a function has no valid value at a temperature or a pressure of the contact.
+    """
+    if not isinstance(case.own_laws, Laws):
+        return case
+    recorder = Recorder(case.own_laws)
+    recorded = case.with_laws(recorder)
+    conditions = KINDS[case.contact.geometry].resolve(recorded)
+    physics_of(recorded, conditions)
+    assert case.contact.temperature is not None
+    return case.with_laws(recorder.recorded(case.contact.temperature, conditions.max_pressure))
 
 
 # Part of the error asked for at which a longer domain aims, and bounds of the factor of one step.

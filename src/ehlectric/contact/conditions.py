@@ -12,25 +12,13 @@ import numpy as np
 from ehlectric.arrays import Numbers, as_float
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
+from ehlectric.cases.dry_contacts import line_load, line_radius, modulus_of, point_load, point_radius
 from ehlectric.errors import InputError, within
 from ehlectric.film.problem import velocity_parameter
 from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.lubricant.oil import Oil
-
-
-def modulus_of(contact: Contact) -> tuple[float, float]:
-    """Reduced modulus E' [Pa], and surface 1's share of 2/E': 0.5 if only E' is known."""
-    if contact.reduced_modulus is not None:
-        return contact.reduced_modulus, 0.5
-    first, second = (
-        hertz.body_compliance(
-            contact.value(f"{body}.youngs_modulus"), contact.value(f"{body}.poissons_ratio")
-        )
-        for body in ("body_1", "body_2")
-    )
-    return hertz.reduced_modulus(first, second), first / (first + second)
 
 
 def speeds_of(contact: Contact) -> tuple[float, float]:
@@ -363,15 +351,11 @@ def resolve(case: Case) -> Conditions:
     (0.01, 2.0, 1.0)
     """
     contact, shared = case.contact, _shared(case, "line")
-    radius, curvature_share = _line_radius(contact)
-    load = contact.load_per_length
-    if load is None:
-        assert contact.max_hertz_pressure is not None
-        load = hertz.line_load(contact.max_hertz_pressure, radius, shared["reduced_modulus"])
+    radius, curvature_share = line_radius(contact)
     return line_conditions(
         case.oil,
         reduced_radius=radius,
-        load_per_length=load,
+        load_per_length=line_load(contact),
         bodies=[abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None],
         curvature_share=curvature_share,
         **shared,
@@ -399,22 +383,6 @@ def _shared(case: Case, geometry: str) -> dict[str, Any]:
     }
 
 
-def _line_radius(contact: Contact) -> tuple[float, float]:
-    """Reduced radius R [m], and surface 1's share of 1/R: 0.5 if only R is known."""
-    if contact.reduced_radius is not None:
-        return contact.reduced_radius, 0.5
-    r1, r2 = contact.radius_1, contact.radius_2
-    assert r1 is not None and r2 is not None
-    if not 1.0 / r1 + 1.0 / r2 > 0.0:
-        raise InputError(
-            "contact.radius_1",
-            got=f"{r1:g} m with radius_2 {r2:g} m",
-            takes="radii with 1/radius_1 + 1/radius_2 above 0: a concave body must be wider than the other",
-        )
-    radius = hertz.reduced_radius(r1, r2)
-    return radius, radius / r1
-
-
 def resolve_point(case: Case) -> PointConditions:
     """Compute the operating conditions of a case of a point contact.
 
@@ -437,15 +405,10 @@ def resolve_point(case: Case) -> PointConditions:
     (0.0048, 0.156, 9.32)
     """
     contact, shared = case.contact, _shared(case, "point")
-    radii = _point_radius(contact, "radius_x"), _point_radius(contact, "radius_y")
-    load = contact.load
-    if load is None:
-        assert contact.max_hertz_pressure is not None
-        load = hertz.point_load(contact.max_hertz_pressure, *radii, shared["reduced_modulus"])
     conditions = point_conditions(
         case.oil,
-        radii=radii,
-        load=load,
+        radii=(point_radius(contact, "radius_x"), point_radius(contact, "radius_y")),
+        load=point_load(contact),
         bodies=(_bodies(contact, "radius_x"), _bodies(contact, "radius_y")),
         side=case.grid.side,
         **shared,
@@ -459,20 +422,3 @@ def _bodies(contact: Contact, key: str) -> list[float]:
     """Magnitudes of those body radii [m] in one plane that the case gives."""
     radii = [contact.value(f"{body}.{key}") for body in ("body_1", "body_2")]
     return [abs(radius) for radius in radii if radius is not None]
-
-
-def _point_radius(contact: Contact, key: str) -> float:
-    """Reduced radius in one plane [m]; ``key`` is "radius_x" or "radius_y"."""
-    reduced: float | None = contact.value(key)
-    if reduced is not None:
-        return reduced
-    r1, r2 = (contact.value(f"{body}.{key}") for body in ("body_1", "body_2"))
-    if not 1.0 / r1 + 1.0 / r2 > 0.0:
-        raise InputError(
-            f"contact.body_1.{key}",
-            got=f"{r1:g} m with {r2:g} m of body_2",
-            takes="radii with 1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be "
-            "wider than the other",
-        )
-    radius: float = hertz.reduced_radius(r1, r2)
-    return radius

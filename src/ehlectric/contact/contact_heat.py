@@ -17,6 +17,7 @@ from ehlectric.film.hot_oil import Body, HeatedFilm, HotOil, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import UNBOUNDED, Rheology
 from ehlectric.lubricant.oil import Oil
+from ehlectric.lubricant.python_laws import OwnLaws, SampledLaws
 
 # Keys of the temperatures of the oil in the inlet and of both bodies.
 _TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temperature_2")
@@ -72,7 +73,9 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
     return Thermal(
         bodies=(bodies[0], bodies[1]),
         inlet_temperature=inlet,
-        oil=hot_oil(case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES),
+        oil=hot_oil(
+            case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES, laws=case.own_laws
+        ),
     )
 
 
@@ -123,8 +126,9 @@ _OUTLET, _NEAR = 0.3, 0.05
 # Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
 _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
 
-# Temperatures at which the slope of the viscosity is looked at.
-_SAMPLES = 50
+# Temperatures at which the slope of the viscosity is looked at, and the slope of ln(eta) that is more than
+# rounding [1/K].
+_SAMPLES, _RISES = 50, 1e-6
 
 
 def heat_warnings(
@@ -195,7 +199,7 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
 def _thicker_from(oil: HotOil, pressure: float) -> float | None:
     """Temperature [K] from which the laws of an oil make it thicker with temperature; None if nowhere."""
     temperature = np.linspace(oil.lowest, oil.highest, _SAMPLES)
-    rises = oil.log_viscosity(np.full(_SAMPLES, pressure), temperature).by_temperature > 0.0
+    rises = oil.log_viscosity(np.full(_SAMPLES, pressure), temperature).by_temperature > _RISES
     return float(temperature[np.argmax(rises)]) if rises.any() else None
 
 
@@ -211,6 +215,8 @@ def _temperatures(
 ) -> Iterator[ResultWarning]:
     """Warnings about temperatures at which oil, laws or model are not known."""
     found, known = heated.temperature_range, case.lubricant.temperature_range
+    if case.own_laws is not None and "viscosity" in case.own_laws.names:
+        known = None  # the range of the laws that are replaced
     assert found is not None
     reasons = []
     if known is not None and not (known[0] <= found[0] and found[1] <= known[1]):
@@ -309,8 +315,18 @@ def oil_over_temperature(lubricant: Lubricant) -> Callable[[float], Oil]:
     return lambda temperature: mechanical.at(temperature)
 
 
+def _with_laws(oil_at: Callable[[float], Oil], laws: OwnLaws, max_pressure: float) -> Callable[[float], Oil]:
+    """Oil as a function of temperature, with a user's own laws at each temperature."""
+    return lambda temperature: laws.at(temperature, max_pressure).applied(oil_at(temperature))
+
+
 def hot_oil(
-    lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure: float, keys: tuple[str, ...] = ()
+    lubricant: Lubricant,
+    temperatures: tuple[float, ...],
+    max_pressure: float,
+    keys: tuple[str, ...] = (),
+    *,
+    laws: OwnLaws | None = None,
 ) -> HotOil:
     """Oil over pressure and temperature for the energy equation of a film.
 
@@ -319,6 +335,12 @@ def hot_oil(
     an InputError, which names one of the ``keys``, if they have none near these temperatures.
     """
     oil_at = oil_over_temperature(lubricant)
+    if laws is not None:
+        # A law without values at the inlet is named, and so is a file that has values at the inlet only.
+        laws.at(temperatures[0], max_pressure)
+        if isinstance(laws, SampledLaws) and not laws.others:
+            laws.at(max(temperatures) + _ABOVE, max_pressure)
+        oil_at = _with_laws(oil_at, laws, max_pressure)
     ends = []
     for extreme, furthest, least in ((min, -_BELOW, 0.0), (max, _ABOVE, _LEAST)):
         start = extreme(temperatures)

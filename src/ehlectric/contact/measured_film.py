@@ -149,10 +149,9 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
 
     def film(number: int) -> tuple[float, float]:
         changed = case.replace(rows[number])
-        oil = changed.lubricant.at(changed.contact.temperature)
         contact = kind.resolve(changed).contact
         try:
-            found = contact_film(contact, oil)
+            found = contact_film(contact, changed.oil)
         except InputError:
             return float(formula[number]), _FORMULA_ERROR
         return found.central_thickness, found.errors["central"]

@@ -12,8 +12,11 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.cases.contact_inputs import Contact
+from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.contact.contact_solution import Smooth, Solution
 from ehlectric.contact.touching import Coarser
+from ehlectric.errors import InputError
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.film.film_solver import Starvation
@@ -126,9 +129,9 @@ def layout_of(solution: Solution[Any, Any, Any], summary: Mapping[str, Any]) -> 
         "field": numbers_of(solution.field),
     }
     if isinstance(case, Case):
-        attributes["case"] = case.to_toml()
-        if case.own_laws is not None:
-            attributes["laws"] = json.dumps(case.own_laws.stored())
+        attributes["case"] = case.toml_text()
+        if case.law_values is not None:
+            attributes["laws"] = json.dumps(case.law_values.stored())
     others = {"coarser": solution.coarser, "starvation": film.starvation, "heated": film.heated}
     attributes |= {name: numbers_of(thing) for name, thing in others.items() if thing is not None}
     return Layout(variables, attributes, (form.heights,))
@@ -136,10 +139,19 @@ def layout_of(solution: Solution[Any, Any, Any], summary: Mapping[str, Any]) -> 
 
 def stored_case(attributes: Mapping[Any, Any]) -> Case:
     """Case in the attributes of a file, with the laws of the oil that a user defined."""
-    case = case_of(attributes, Case.from_dict)
-    if "laws" in attributes:
-        return case.with_laws(SampledLaws.restored(json_of(attributes, "laws", is_laws)))
-    return case
+    stored = json_of(attributes, "laws", is_laws) if "laws" in attributes else None
+    return case_of(attributes, partial(case_with_stored_laws, stored=stored))
+
+
+def case_with_stored_laws(table: Mapping[str, Any], stored: Mapping[str, Any] | None) -> Case:
+    """Case of tables, with the values of laws that a file keeps; None without such laws."""
+    if stored is None:
+        return Case.from_dict(table)
+    contact = Contact.from_dict(table["contact"])
+    if contact.temperature is None:
+        raise InputError.missing("contact.temperature", "the temperature of the stored laws")
+    laws = SampledLaws.restored(stored, contact.temperature, hertz_pressure(contact))
+    return Case.from_dict({**table, "laws": laws})
 
 
 def parts_of(dataset: xr.Dataset, geometry: str, scales: Scales) -> dict[str, Any]:

@@ -116,7 +116,8 @@ def _known_before(case: Case | Setup, conditions: Conditions | PointConditions) 
 
 def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
     """Inputs of a contact as nested tables, with the resolved operating conditions as its contact."""
-    kind, inputs = KINDS[conditions.geometry], case.to_dict()
+    kind = KINDS[conditions.geometry]
+    inputs = case.plain_tables() if isinstance(case, Case) else case.to_dict()
     contact = {name: getattr(conditions, name) for name in kind.contact_keys}
     if case.oil.temperature is not None:
         contact["temperature"] = case.oil.temperature

@@ -16,7 +16,7 @@ from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.contact_heat import unconverged_heat
+from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line_field import Field
@@ -41,6 +41,7 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     key = "radius_x" if isinstance(conditions, PointConditions) else "reduced_radius"
     yield from radius_doubt(key, conditions.radius_along)
     yield from modulus_doubt(conditions.reduced_modulus)
+    yield from own_law_warnings(setup, conditions)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     # Load that the Hertz pressure would carry on the whole domain, over the load of the contact.
@@ -54,9 +55,29 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     yield from hardness_warnings(conditions)
 
 
+def own_law_warnings(
+    setup: Case | Setup, conditions: Conditions | PointConditions
+) -> Iterator[ResultWarning]:
+    """Notes about laws of the user's own, which no file contains, and which heat may not change."""
+    if not isinstance(setup, Case) or setup.own_laws is None:
+        return
+    names = setup.own_laws.names
+    yield ResultWarning.of("own-laws", laws=", ".join(f"{key}: {name}" for key, name in names.items()))
+    if "viscosity" not in names or setup.film is None or not setup.film.thermal:
+        return
+    physics = physics_of(setup, conditions)
+    assert physics is not None
+    assert physics.thermal is not None
+    first, last = physics.thermal.oil.oils[0], physics.thermal.oil.oils[-1]
+    if math.isclose(first.viscosity, last.viscosity, rel_tol=1e-6):
+        yield ResultWarning.of("temperature-unused", "law", law=names["viscosity"])
+
+
 def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
     """Note about a temperature of the contact on which the oil of its case does not depend."""
     if not isinstance(setup, Case) or setup.contact.temperature is None:
+        return
+    if setup.own_laws is not None and "viscosity" in setup.own_laws.names:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
         yield ResultWarning.of(

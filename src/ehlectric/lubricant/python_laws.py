@@ -4,9 +4,11 @@ pressure.
 
 from __future__ import annotations
 
+import hashlib
 import math
+import pickle
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -16,7 +18,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning, short
-from ehlectric.lubricant.oil import Oil
+from ehlectric.lubricant.oil import BoundLaw, Oil
 
 # Property as a function of pressure [Pa] and temperature [K].
 Function: TypeAlias = Callable[[Array, float], ArrayLike]
@@ -30,20 +32,27 @@ _UNITS = {"viscosity": "Pa s", "density": "kg/m^3", "permittivity": "", "strengt
 # number of samples also keeps three laws below the 64 kB of an attribute of HDF5.
 _INTERVALS, _MOST, _NEEDED = 400, 4.0, 1.5
 
-# Of the samples of a strength, each of this number is kept.
-OF_STRENGTH = 10
+# A strength has a tenth of the samples: it becomes a table of the case.
+_OF_STRENGTH = 10
+
+# Properties that no pressure decreases, and the relative decrease between two samples that is rounding.
+_RISING, _ROUNDING = ("viscosity", "density"), 1e-9
+
+# Relative difference up to which a Hertz pressure equals the pressure of stored samples.
+_SAME_PRESSURE = 1e-9
 
 
 @dataclass(frozen=True)
 class Laws:
-    """Laws of a user's own, in place of those of a case.
+    """Laws of a user's own, which replace the laws of a case.
 
     Attributes
     ----------
     viscosity, density, permittivity, strength : callable, optional
         Viscosity [Pa s], density [kg/m^3], relative permittivity and dielectric strength [V/m]: functions
-        ``law(pressure, temperature)`` of an array of pressures [Pa] above the ambient one, and of the
-        temperature of the contact [K]. They return an array of the same shape.
+        ``law(pressure, temperature)`` of an array of pressures [Pa] above the ambient one, and of a
+        temperature [K]. They return an array of the same shape. An isothermal film calls them at the
+        temperature of the contact, a thermal film at all its temperatures.
 
     Examples
     --------
@@ -67,13 +76,13 @@ class Laws:
             if law is not None
         }
 
-    def sampled(self, temperature: float | None, max_pressure: float) -> SampledLaws:
-        """Laws at the temperature of a contact, sampled over pressure.
+    def at(self, temperature: float, max_pressure: float) -> SampledLaws:
+        """Laws at a temperature, sampled over pressure.
 
         Parameters
         ----------
-        temperature : float or None
-            Temperature of the contact [K].
+        temperature : float
+            Temperature [K].
         max_pressure : float
             Hertz pressure of the contact [Pa].
 
@@ -85,19 +94,27 @@ class Laws:
         Raises
         ------
         InputError
-            If the temperature is missing, or a law has no valid value up to 1.5 times the Hertz pressure.
+            If a law has no valid value up to 1.5 times the Hertz pressure.
         """
-        if temperature is None:
-            raise InputError.worded(
-                "contact.temperature", "missing; a law of your own needs it", takes="a temperature"
-            )
         names = self.names
-        return SampledLaws(
-            {
-                name: _sampled(name, names[name], getattr(self, name), temperature, max_pressure)
-                for name in names
-            }
-        )
+        samples = {
+            name: _sampled(name, names[name], getattr(self, name), temperature, max_pressure)
+            for name in names
+        }
+        return SampledLaws(samples, temperature, max_pressure)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Functions by property. Raises InputError if one of them cannot be pickled."""
+        for key, name in self.names.items():
+            try:
+                pickle.dumps(getattr(self, key))
+            except (AttributeError, TypeError, pickle.PicklingError):
+                raise InputError(
+                    f"laws.{key}",
+                    got=f"{name}, which cannot be pickled",
+                    takes="a function that is defined at the top level of a module",
+                ) from None
+        return dict(vars(self))
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,23 +162,59 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class SampledLaws:
-    """Laws of a user's own at the temperature of a contact."""
+    """Values of laws of a user's own at one temperature, as a result and its file keep them."""
 
     samples: Mapping[str, Samples]  # samples by "viscosity", "density", "permittivity" and "strength"
+    temperature: float  # [K]
+    max_pressure: float  # Hertz pressure of the contact [Pa]
+    # Values at further temperatures, which a thermal film needs in another process.
+    others: Mapping[float, SampledLaws] = field(default_factory=dict)
 
     @property
     def names(self) -> dict[str, str]:
         """Names of the laws, by property."""
         return {key: samples.name for key, samples in self.samples.items()}
 
+    def at(self, temperature: float, max_pressure: float) -> SampledLaws:
+        """Laws at a temperature [K] for a Hertz pressure [Pa]. Raises InputError if there are no values."""
+        found = self if temperature == self.temperature else self.others.get(temperature)
+        if found is not None and math.isclose(max_pressure, found.max_pressure, rel_tol=_SAME_PRESSURE):
+            return found
+        raise InputError.worded(
+            "laws",
+            f"this result contains values of {', '.join(self.names.values())} at {self.temperature:.6g} K "
+            f"for a Hertz pressure of {self.max_pressure / 1e9:.4g} GPa only, not at {temperature:.6g} K and "
+            f"{max_pressure / 1e9:.4g} GPa; give the functions again, as in case.with_laws(Laws(...))",
+            takes="Laws of functions",
+        )
+
+    def same_values(self, other: SampledLaws) -> bool:
+        """Whether the values of other laws are equal at the temperature of the contact."""
+        return self.stored() == other.stored()
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 hash of all values, hexadecimal."""
+        found = hashlib.sha256()
+        for laws in (self, *(self.others[temperature] for temperature in sorted(self.others))):
+            found.update(repr(laws.temperature).encode())
+            for key in sorted(laws.samples):
+                law = laws.samples[key]
+                found.update(key.encode() + law.name.encode() + law.pressure.tobytes() + law.values.tobytes())
+        return found.hexdigest()
+
     def applied(self, oil: Oil) -> Oil:
-        """Oil with these laws in place of its own."""
+        """Oil whose own laws are replaced by these laws."""
         changes: dict[str, Any] = {"laws": {**oil.laws, **self.names}}
         if viscosity := self.samples.get("viscosity"):
             changes |= {"viscosity": float(viscosity.values[0]), "log_viscosity": viscosity.log_ratio}
             changes["laws"].pop("atmospheric", None)
         if density := self.samples.get("density"):
             changes |= {"density": float(density.values[0]), "density_ratio": density.ratio}
+            heat = oil.heat_capacity_law
+            if isinstance(heat, BoundLaw) and "density" in heat.parameters:
+                parameters = {**heat.parameters, "density": changes["density"]}
+                changes["heat_capacity_law"] = replace(heat, parameters=parameters)
         if permittivity := self.samples.get("permittivity"):
             changes |= {"relative_permittivity": float(permittivity.values[0])}
             changes |= {"permittivity": permittivity.at}
@@ -183,26 +236,49 @@ class SampledLaws:
                 )
 
     def stored(self) -> dict[str, Any]:
-        """Samples as lists, for files; of a dielectric strength, which the case has too, every tenth."""
-        stored = {}
-        for key, law in self.samples.items():
-            part = slice(None, None, OF_STRENGTH if key == "strength" else 1)
-            stored[key] = {
-                "name": law.name,
-                "pressure": law.pressure[part].tolist(),
-                "values": law.values[part].tolist(),
-            }
-        return stored
+        """Samples at the temperature of the contact as lists, for files."""
+        return {
+            key: {"name": law.name, "pressure": law.pressure.tolist(), "values": law.values.tolist()}
+            for key, law in self.samples.items()
+        }
 
     @classmethod
-    def restored(cls, table: Mapping[str, Any]) -> SampledLaws:
-        """Laws of the lists that ``stored`` makes."""
-        return cls(
-            {
-                key: Samples(str(law["name"]), np.array(law["pressure"]), np.array(law["values"]))
-                for key, law in table.items()
-            }
-        )
+    def restored(cls, table: Mapping[str, Any], temperature: float, max_pressure: float) -> SampledLaws:
+        """Laws of the lists that ``stored`` makes, at the temperature [K] and Hertz pressure [Pa] of their
+        contact.
+        """
+        samples = {
+            key: Samples(str(law["name"]), np.array(law["pressure"]), np.array(law["values"]))
+            for key, law in table.items()
+        }
+        return cls(samples, temperature, max_pressure)
+
+
+@dataclass(frozen=True, eq=False)
+class Recorder:
+    """Laws of functions that keep all values that they are asked for, for a process without the functions."""
+
+    laws: Laws
+    known: dict[float, SampledLaws] = field(default_factory=dict)
+
+    @property
+    def names(self) -> dict[str, str]:
+        """Names of the laws, by property."""
+        return self.laws.names
+
+    def at(self, temperature: float, max_pressure: float) -> SampledLaws:
+        """Laws at a temperature [K] for a Hertz pressure [Pa]."""
+        found = self.laws.at(temperature, max_pressure)
+        self.known[temperature] = found
+        return found
+
+    def recorded(self, temperature: float, max_pressure: float) -> SampledLaws:
+        """Values at the temperature of a contact [K], and at all others that were asked for."""
+        return replace(self.laws.at(temperature, max_pressure), others=dict(self.known))
+
+
+# Laws of a case: functions, values that a file keeps, or functions whose values are recorded.
+OwnLaws: TypeAlias = Laws | SampledLaws | Recorder
 
 
 def is_laws(table: Any) -> bool:
@@ -224,9 +300,17 @@ def _is_samples(law: Any) -> bool:
 def _sampled(key: str, name: str, law: Function, temperature: float, max_pressure: float) -> Samples:
     """Samples of a law up to four times the Hertz pressure [Pa], or up to where its values end."""
     # Dense at low pressures, where the film is formed.
-    pressure = _MOST * max_pressure * np.linspace(0.0, 1.0, _INTERVALS + 1) ** 2
-    with np.errstate(all="ignore"):
-        values = np.asarray(law(pressure.copy(), temperature), dtype=float)
+    intervals = _INTERVALS // _OF_STRENGTH if key == "strength" else _INTERVALS
+    pressure = _MOST * max_pressure * np.linspace(0.0, 1.0, intervals + 1) ** 2
+    try:
+        with np.errstate(all="ignore"):
+            values = np.asarray(law(pressure.copy(), temperature), dtype=float)
+    except Exception as error:
+        raise InputError(
+            f"laws.{key}",
+            got=f"{type(error).__name__} ({short(str(error))}) of {name} at {temperature:g} K",
+            takes="a function of an array of pressures [Pa] and a temperature [K]",
+        ) from error
     if values.shape == ():
         values = np.full_like(pressure, float(values))
     if values.shape != pressure.shape:
@@ -236,10 +320,15 @@ def _sampled(key: str, name: str, law: Function, temperature: float, max_pressur
             takes="a function that returns one value for each pressure",
         )
     right = np.isfinite(values) & (values >= _LEAST[key]) & (values > 0.0) & (values < 1e300)
+    if key in _RISING:
+        # Beyond a pole a formula may have finite values again.
+        with np.errstate(all="ignore"):
+            right[1:] &= values[1:] >= (1.0 - _ROUNDING) * values[:-1]
     end = int(np.argmin(right)) if not np.all(right) else pressure.size
     if end < 2 or pressure[end - 1] < _NEEDED * max_pressure:
         bad = values[min(end, pressure.size - 1)]
         least = "1 or more" if _LEAST[key] else "above 0"
+        least += ", which does not decrease with pressure" if key in _RISING else ""
         raise InputError(
             f"laws.{key}",
             got=f"{bad:g} {_UNITS[key]}".strip()

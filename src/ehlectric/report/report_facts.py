@@ -49,7 +49,7 @@ def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: A
         "warnings": result.warnings,
         "figures": tuple(sorted(names, key=lambda name: name != first)),
         "details": _details(summary, date),
-        "toml": result.case.to_toml(),
+        "toml": result.case.described_toml(),
     }
     return Part(**shared | own)
 

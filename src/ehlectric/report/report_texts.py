@@ -84,14 +84,19 @@ def conditions_of(case: SweptCase) -> dict[str, bool]:
         return _of_drive(case)
     own = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
     oil, discharge = case.lubricant, case.discharge
-    laws = (oil.viscosity_law, oil.density_law, oil.permittivity_law)
+    replaced = case.own_laws.names if isinstance(case, Case) and case.own_laws is not None else {}
+    laws = [
+        getattr(oil, f"{name}_law")
+        for name in ("viscosity", "density", "permittivity")
+        if name not in replaced
+    ]
     return own | {
         "strength": discharge is not None and discharge.has_strength,
         "weibull": discharge is not None and discharge.weibull is not None,
         # The viscosity over temperature follows from two kinematic viscosities.
-        "data sheet": oil.over_temperature and oil.atmospheric_law is None,
+        "data sheet": oil.over_temperature and oil.atmospheric_law is None and "viscosity" not in replaced,
         **{f"law {law}": True for law in laws},
-        "law roelands": "roelands" in (oil.viscosity_law, oil.atmospheric_law),
+        "law roelands": "roelands" in (*laws, None if "viscosity" in replaced else oil.atmospheric_law),
     }
 
 

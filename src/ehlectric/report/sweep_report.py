@@ -59,7 +59,7 @@ def sweep_part(results: SweepResults) -> Part:
         further=tuple(_sections(results)),
         rests=deciding_blocks(case, varied=results.varied) if isinstance(case, DriveCase) else (),
         details=_details(results),
-        toml=results.to_toml(),
+        toml=results.described_toml(),
         varied=tuple(results.varied),
     )
 

@@ -330,7 +330,7 @@ def workbook(result: Exported) -> bytes:
     summary = flat(result.summary())
     inputs = {key: value for key, value in summary.items() if key.startswith("inputs.")}
     if not inputs:
-        inputs = flat({"inputs": case.to_dict()})
+        inputs = flat({"inputs": case.plain_tables()})
     _fill(book, "summary", _keys({key: value for key, value in summary.items() if key not in inputs}, case))
     _fill(book, "inputs", _keys(inputs, case))
     _fill(book, "table", _table(frame))

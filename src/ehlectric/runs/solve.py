@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
 from contextlib import closing
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,7 +19,7 @@ from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict, case_of_file
 from ehlectric.cases.table import read_toml
 from ehlectric.contact import run as of_contacts
-from ehlectric.contact.check import PreparedContact, check_case, with_laws
+from ehlectric.contact.check import PreparedContact, case_with_laws, check_case, portable
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
@@ -212,8 +213,8 @@ def solve(
     beside_smooth : bool
         Whether to solve a rough contact with smooth surfaces too, for ``result.smooth``.
     laws : Laws, optional
-        Laws of your own for the oil of a contact, in place of those of the case: Python functions of pressure
-        and temperature. The contact needs a temperature.
+        Laws of your own for the oil of a contact, which replace the laws of the case: Python functions of
+        pressure and temperature. The contact needs a temperature. The case of the result keeps them.
     workers : int, optional
         Number of processes that solve the contacts of bearings; by default the number of cores.
 
@@ -244,10 +245,8 @@ def solve(
     """
     found = case_of(case)
     told_to(progress)
-    if laws is not None and (not isinstance(laws, Laws) or not isinstance(found, Case)):
-        raise InputError(
-            "laws", got=shown(type(laws).__name__), takes="Laws of functions, for a case of a contact"
-        )
+    if laws is not None:
+        found = case_with_laws(found, laws)
     if isinstance(found, BearingCase | DriveCase):
         return _of_bearings(found, progress, workers, solvers, require_convergence=require_convergence)
     if found.motion is not None:
@@ -255,8 +254,6 @@ def solve(
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
     chosen = solvers_of(solvers)
     accepted = chosen.accept(found)
-    if laws is not None:
-        accepted = with_laws(accepted, laws)
     prepared = check_case(accepted)
     if prepared.reach is not None:
         log_warnings(found.title, prepared.reach.warnings())
@@ -437,15 +434,27 @@ class Solved(NamedTuple, Generic[R]):
 
 @overload
 def solve_many(
-    cases: Iterable[LineCase], workers: int | None = None, *, progress: Progress | None = None
+    cases: Iterable[LineCase],
+    workers: int | None = None,
+    *,
+    progress: Progress | None = None,
+    laws: Laws | None = None,
 ) -> Iterator[Solved[Result]]: ...
 @overload
 def solve_many(
-    cases: Iterable[PointCase], workers: int | None = None, *, progress: Progress | None = None
+    cases: Iterable[PointCase],
+    workers: int | None = None,
+    *,
+    progress: Progress | None = None,
+    laws: Laws | None = None,
 ) -> Iterator[Solved[PointResult]]: ...
 @overload
 def solve_many(
-    cases: Iterable[Case], workers: int | None = None, *, progress: Progress | None = None
+    cases: Iterable[Case],
+    workers: int | None = None,
+    *,
+    progress: Progress | None = None,
+    laws: Laws | None = None,
 ) -> Iterator[Solved[Result | PointResult]]: ...
 @overload
 def solve_many(
@@ -457,12 +466,20 @@ def solve_many(
 ) -> Iterator[Solved[DriveResult]]: ...
 @overload
 def solve_many(
-    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
+    cases: Iterable[Solvable],
+    workers: int | None = None,
+    *,
+    progress: Progress | None = None,
+    laws: Laws | None = None,
 ) -> Iterator[Solved[Result | PointResult | BearingResult | DriveResult]]: ...
 
 
 def solve_many(
-    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
+    cases: Iterable[Solvable],
+    workers: int | None = None,
+    *,
+    progress: Progress | None = None,
+    laws: Laws | None = None,
 ) -> Iterator[Solved[Any]]:
     """Solve many contacts, bearings and drives in parallel, and yield each as it finishes.
 
@@ -477,6 +494,9 @@ def solve_many(
     progress : callable, optional
         Called before each case is yielded with the number of finished cases, the number of all cases, which
         is 0 where ``cases`` has no length, and the title of the case. ``print`` will do.
+    laws : Laws, optional
+        Laws of your own for the oil of every contact, as in ``solve``. The processes get their values, so
+        that functions of a script work.
 
     Yields
     ------
@@ -513,8 +533,10 @@ def solve_many(
         raise InputError(
             "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
         )
+    if laws is not None and not isinstance(laws, Laws):
+        raise InputError("laws", got=shown(type(laws).__name__), takes="Laws of functions")
     number, report = workers or cores(), told_to(progress)
-    given = enumerate(cases)
+    given = enumerate(cases if laws is None else (_given_laws(case, laws) for case in cases))
     found = _here(given) if number == 1 else _in_processes(given, number)
     return _reported(found, len(cases) if isinstance(cases, Sized) else 0, report)
 
@@ -528,31 +550,54 @@ def _reported(found: Generator[Solved[Any], None, None], of: int, report: Progre
             yield one
 
 
-def _here(cases: Iterator[tuple[int, Solvable]]) -> Generator[Solved[Any], None, None]:
+def _given_laws(case: Solvable, laws: Laws) -> Solvable | InputError:
+    """Case with laws of the user's own, or the error of a case that does not take them."""
+    try:
+        return case_with_laws(case_of(case), laws)
+    except InputError as error:
+        return error
+
+
+def _here(cases: Iterator[tuple[int, Solvable | InputError]]) -> Generator[Solved[Any], None, None]:
     """Cases solved in this process."""
     for index, case in cases:
         yield _told(index, solve_case(case))
 
 
-def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generator[Solved[Any], None, None]:
+def _in_processes(
+    cases: Iterator[tuple[int, Solvable | InputError]], number: int
+) -> Generator[Solved[Any], None, None]:
     """Cases solved in processes of this machine."""
-    handed = ((index, _without_classes_of_the_script(case)) for index, case in cases)
+    own: dict[int, Case] = {}  # cases with functions, which the processes do not get
+
+    def handed() -> Iterator[tuple[int, Solvable | InputError]]:
+        for index, given in cases:
+            case = _without_classes_of_the_script(given)
+            if isinstance(given, Case) and case is not given:
+                own[index] = given
+            yield index, case
+
     with (
         processes(number) as crew,
-        closing(finished_tasks(handed, crew, solve_case, LostError, _ran_out)) as batches,
+        closing(finished_tasks(handed(), crew, solve_case, LostError, _ran_out)) as batches,
     ):
         for index, outcome in (each for batch in batches for each in batch):
+            case = own.pop(index, None)
+            if case is not None and isinstance(outcome, Result | PointResult):
+                outcome = replace(outcome, case=case)
             yield _told(index, outcome)
 
 
-def _without_classes_of_the_script(given: Solvable) -> Solvable:
-    """Case of nested tables, in which values may be of classes that other processes cannot import."""
-    if not isinstance(given, Mapping):
-        return given
+def _without_classes_of_the_script(given: Solvable | InputError) -> Solvable | InputError:
+    """Case of nested tables, in which values may be of classes that other processes cannot import, and case
+    with the values of functions of the user's own.
+    """
     try:
-        return case_of(given)
-    except InputError:
-        return given  # refused where it is solved, as a case that does not stop the others
+        if isinstance(given, Mapping):
+            given = case_of(given)
+        return portable(given) if isinstance(given, Case) else given
+    except InputError as error:
+        return error if isinstance(given, Case) else given  # refused where it is solved
 
 
 def _ran_out(outcome: _Outcome) -> bool:
@@ -568,8 +613,10 @@ def _told(index: int, outcome: _Outcome) -> Solved[Any]:
     return Solved(index, outcome)
 
 
-def solve_case(given: Solvable) -> _Outcome:
-    """Result of a case, or the error that its solution raises; bearings are solved in this process alone."""
+def solve_case(given: Solvable | InputError) -> _Outcome:
+    """Result of a case, or the error that its solution raises; bearings are solved in this process only."""
+    if isinstance(given, InputError):
+        return given
     try:
         case = case_of(given)
         if isinstance(case, DriveCase):

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -30,9 +30,11 @@ from ehlectric.bearing.uncertainty import SEED
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
+from ehlectric.contact.check import portable
 from ehlectric.contact.solver import solve
 from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
+from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
@@ -47,6 +49,17 @@ from ehlectric.version import __version__
 _TABLES_KEPT = 2000
 
 
+# Case of a point as data for any process: its tables, or the case with the values of laws of the user's own.
+PointCase: TypeAlias = Mapping[str, Any] | Case
+
+
+def task_of(case: SweptCase) -> PointCase:
+    """Case of a point as data for any process."""
+    if isinstance(case, Case) and case.own_laws is not None:
+        return portable(case)
+    return case.to_dict()
+
+
 @dataclass(frozen=True)
 class Planned:
     """Point of a sweep before it is solved."""
@@ -56,7 +69,7 @@ class Planned:
     key: str | None  # key of its case, from ``case_key``; None if these inputs make no valid case
     refused: str = ""  # reason why the inputs make no valid case; empty if they do
     # Tables of its case, for the first points only, which would fill the memory of a large sweep.
-    table: Mapping[str, Any] | None = None
+    table: PointCase | None = None
 
 
 @dataclass(frozen=True)
@@ -89,7 +102,7 @@ def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
     >>> case_key(case) == case_key(case.replace(title="Another", solver={"max_iterations": 30}))
     True
     """
-    table = case.to_dict()
+    table = case.plain_tables()
     # Rough surfaces, and the measured voltage of a drive.
     for holder in (*table.get("roughness", ()), table.get("source", {})):
         if "file" in holder:
@@ -97,6 +110,9 @@ def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
             with regular(path) as file:
                 status = os.fstat(file.fileno())
             holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
+    if isinstance(case, Case) and (laws := portable(case).own_laws) is not None:
+        assert isinstance(laws, SampledLaws)
+        table["laws"] = laws.digest
     return hash_of(text_of(table, uncertainty_samples))
 
 
@@ -132,7 +148,7 @@ def planned_point(sweep: Sweep, number: int, inputs: Mapping[str, Any]) -> Plann
     """Point of a sweep with the key of its case, or with the reason why it is no valid case."""
     try:
         case = sweep.case.replace(inputs)
-        table = case.to_dict() if number < _TABLES_KEPT else None
+        table = task_of(case) if number < _TABLES_KEPT else None
         return Planned(number, inputs, case_key(case, sweep.uncertainty_samples), table=table)
     except InputError as error:
         return Planned(number, inputs, None, str(error))
@@ -191,11 +207,11 @@ def _films(point: Planned) -> tuple[float, float]:
     return found[0], found[1]
 
 
-Task = tuple[str, Mapping[str, Any]]
+Task = tuple[str, PointCase]
 
 
-def solve_point(table: Mapping[str, Any], uncertainty_samples: int | None = None) -> Outcome:
-    """Solve a case given as plain data, in any process. Returns outcome of the point; no exception is raised:
+def solve_point(table: PointCase, uncertainty_samples: int | None = None) -> Outcome:
+    """Solve a case given as data, in any process. Returns outcome of the point; no exception is raised:
     an error becomes the reason of a failed point. ``uncertainty_samples``, those of the probability of
     breakdown of a bearing, which is not computed without them.
     """
@@ -206,9 +222,7 @@ def solve_point(table: Mapping[str, Any], uncertainty_samples: int | None = None
     return Outcome(status, reason, again, summary, time.perf_counter() - started, __version__, now())
 
 
-def _attempt(
-    table: Mapping[str, Any], samples: int | None
-) -> tuple[Status, str, bool, dict[str, Any] | None]:
+def _attempt(table: PointCase, samples: int | None) -> tuple[Status, str, bool, dict[str, Any] | None]:
     """Status and reason of a case, whether another try may succeed, and its summary."""
     try:
         solved, summary, reason = _solved(table, samples)
@@ -225,10 +239,11 @@ def _attempt(
     return ("solved", "", False, summary) if solved else ("not converged", reason, False, summary)
 
 
-def _solved(table: Mapping[str, Any], samples: int | None) -> tuple[bool, dict[str, Any], str]:
+def _solved(table: PointCase, samples: int | None) -> tuple[bool, dict[str, Any], str]:
     """Whether a case converged, its summary, and the reason if it did not."""
-    case = swept_case_of_dict(table)
-    return _SOLVERS[type(case)](case, samples)
+    case = table if isinstance(table, Case) else swept_case_of_dict(table)
+    kind = Case if isinstance(case, Case) else type(case)
+    return _SOLVERS[kind](case, samples)
 
 
 def _solve_contact(case: Case, _: int | None) -> tuple[bool, dict[str, Any], str]:

@@ -13,6 +13,7 @@ from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import is_quantity
+from ehlectric.contact.check import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.quantities.results import TEXTS_OF_POINTS
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dataset:
+def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: object = None) -> xr.Dataset:
     """Evaluate a bearing, or both of a drive, at many points of operation: a thousand a second on one core.
 
     Contacts are from the atlas of films, or by formula where those of the case are; those of a case with
@@ -39,6 +40,8 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dat
         Arrays or lists of equal length n by dotted key of the case: numbers in SI units, texts with units, or
         names. Points that share their names and whole numbers are computed together. Keys of a drive are
         ``drive.speed``, ``drive.temperature``, and those of its bearings.
+    laws : None
+        Refused: only the contacts of ``solve``, ``solve_many`` and ``run_sweep`` take laws of your own.
 
     Returns
     -------
@@ -71,6 +74,8 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any]) -> xr.Dat
     >>> bool(found["bearing.capacitance"][0] > found["bearing.capacitance"][1])
     True
     """
+    if laws is not None:
+        case_with_laws(case, laws)
     given = {key: _values(key, values) for key, values in inputs.items()}
     if not given:
         raise InputError("inputs", got="none", takes="at least one key with an array")

@@ -125,7 +125,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
             "title": results.title or results.case.title or "Sweep of a lubricated contact",
             "source": f"ehlectric {__version__}",
             "comment": "SI units; NaN where a point is not solved; see warnings before a value is used",
-            "case": results.case.to_toml(),
+            "case": results.case.described_toml(),
             "design": results.design,
             "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
             "samples": results.samples,
@@ -261,7 +261,16 @@ class SweepResults(Shown, SweepPoints):
         }
 
     def to_toml(self) -> str:
-        """Return the sweep as TOML text in SI units, from which ``Sweep.from_toml`` has the same points."""
+        """Return the sweep as TOML text in SI units, from which ``Sweep.from_toml`` has the same points.
+        Raises InputError for a case with laws of the user's own.
+        """
+        return self._toml(self.case.to_toml())
+
+    def described_toml(self) -> str:
+        """TOML text of the sweep for a report; it names laws of the user's own."""
+        return self._toml(self.case.described_toml())
+
+    def _toml(self, case: str) -> str:
         import tomli_w
 
         table: dict[str, Any] = {"title": self.title, "design": self.design}
@@ -274,7 +283,7 @@ class SweepResults(Shown, SweepPoints):
             for key, one in self.ranges.items()
         }
         axes = {key: [_written(key, value) for value in values] for key, values in self.axes.items()}
-        return tomli_w.dumps(table | {"case": tomllib.loads(self.case.to_toml()), "vary": axes | ranges})
+        return tomli_w.dumps(table | {"case": tomllib.loads(case), "vary": axes | ranges})
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of inputs and results, over the varied keys in a "grid" design, the same as sweep.nc."""

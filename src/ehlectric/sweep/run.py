@@ -10,14 +10,16 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from ehlectric.contact.check import case_with_laws
 from ehlectric.errors import InputError, shown
+from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.progress import Progress, RunOutcome, silent, told_to
 from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes, this_process
 from ehlectric.sweep.batches import batches_of, run_batches, weight_of
-from ehlectric.sweep.engine import Outcome, Planned, Task, run_points
+from ehlectric.sweep.engine import Outcome, Planned, Task, run_points, task_of
 from ehlectric.sweep.point_groups import Inputs, plan_together
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
@@ -36,6 +38,7 @@ def run_sweep(
     progress: Progress | None = None,
     *,
     workers: int | None = None,
+    laws: Laws | None = None,
 ) -> SweepResults:
     """Solve a sweep, except the points that its folder already has, and write its tables.
 
@@ -52,6 +55,9 @@ def run_sweep(
         Called with the number of solved points, the number of all points, and a message.
     workers : int, optional
         Number of processes of this machine; by default as many as there are cores.
+    laws : Laws, optional
+        Laws of your own for the oil of a contact, at every point. The processes get their values, so that
+        functions of a script work.
 
     Returns
     -------
@@ -71,7 +77,7 @@ def run_sweep(
     Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
     was killed or ran out of memory.
     """
-    given, told = _sweep_of(sweep), told_to(progress)
+    given, told = _with_laws(_sweep_of(sweep), laws), told_to(progress)
     return run(given, folder, told, solvers=crew(executor, workers)).result
 
 
@@ -85,6 +91,13 @@ def _sweep_of(given: object) -> Sweep:
         return Sweep.from_toml(given)
     takes = "a Sweep, a dict, or the path of a TOML file"
     raise InputError("sweep", got=shown(type(given).__name__), takes=takes)
+
+
+def _with_laws(sweep: Sweep, laws: Laws | None) -> Sweep:
+    """Sweep whose base case has laws of the user's own; unchanged for None."""
+    if laws is None:
+        return sweep
+    return sweep.model_copy(update={"case": case_with_laws(sweep.case, laws)})
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:
@@ -155,7 +168,7 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
 
     def tasks(some: Iterable[tuple[str, Inputs]]) -> Iterator[Task]:
         for key, inputs in some:
-            yield key, tables.get(key) or sweep.case.replace(inputs).to_dict()
+            yield key, tables.get(key) or task_of(sweep.case.replace(inputs))
 
     done(())
     batches, others = batches_of(sweep, store.open_points())

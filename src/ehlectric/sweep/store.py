@@ -15,9 +15,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self, get_args
 
+from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field
 from ehlectric.cases.table import number_of
+from ehlectric.contact.stored import case_with_stored_laws
 from ehlectric.errors import (
     CODES_OF_TEXTS,
     TEXTS,
@@ -28,6 +30,7 @@ from ehlectric.errors import (
     texts_and_codes,
     warnings_of,
 )
+from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.runtime.file_rules import (
     LARGEST,
     UnfitError,
@@ -65,6 +68,9 @@ _DESIGNS = ("grid", "paired", "sobol")
 
 # Setting of the samples of the probability of breakdown.
 _UNCERTAINTY = "uncertainty_samples"
+
+# Setting of the values of laws of the user's own in the base case.
+_LAWS = "laws"
 
 # Most levels of a summary; those that are written have five.
 _DEEPEST = 20
@@ -137,6 +143,11 @@ def check_results(file: sqlite3.Connection) -> None:
         _check_outcome(name, status, reason, seconds, version, table)
 
 
+def _law_values(case: SweptCase) -> SampledLaws | None:
+    """Values of laws of the user's own; None without any."""
+    return case.law_values if isinstance(case, Case) else None
+
+
 def results_of(file: sqlite3.Connection) -> SweepResults:
     """Results of a sweep from its tables, in an open transaction. Raises UnfitError where a setting or a
     point is not as it was written; sqlite3.Error where the file cannot be read.
@@ -145,7 +156,9 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
     rows = file.execute(
         f"SELECT {_COLUMNS_OF_POINTS} FROM points LEFT JOIN results USING (key) ORDER BY number"
     ).fetchall()
-    case = case_of(settings, swept_case_of_dict)
+    stored = settings[_LAWS]
+    read = swept_case_of_dict if stored is None else partial(case_with_stored_laws, stored=stored)
+    case: SweptCase = case_of(settings, read)
     results = SweepResults(
         case=case,
         design=settings["design"],
@@ -201,11 +214,12 @@ _SETTINGS: Mapping[str, Callable[[Any], bool]] = MappingProxyType(
         "seed": _is_count,
         "title": is_text,
         _UNCERTAINTY: _is_count,
+        _LAWS: lambda value: value is None or is_laws(value),
     }
 )
 
 # Settings that files of earlier versions do not have, as JSON.
-_ADDED = MappingProxyType({_UNCERTAINTY: "0"})
+_ADDED = MappingProxyType({_UNCERTAINTY: "0", _LAWS: "null"})
 
 
 def _settings(rows: Sequence[tuple[Any, Any]]) -> dict[str, Any]:
@@ -453,7 +467,8 @@ class Store:
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
         """Replace the stored input and points by those of a sweep; stored outcomes are kept."""
         settings = {
-            "case": sweep.case.to_toml(),
+            "case": sweep.case.toml_text(),
+            _LAWS: None if (laws := _law_values(sweep.case)) is None else laws.stored(),
             "design": sweep.design,
             "axes": sweep.axes,
             "ranges": {key: asdict(over) for key, over in sweep.ranges.items()},

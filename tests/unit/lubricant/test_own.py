@@ -1,11 +1,12 @@
 """Laws of a user's own, against the laws of the package with the same formula, and their mistakes."""
 
 import json
+from functools import partial
 
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, Laws, load, save, solve
+from ehlectric import BearingCase, Case, InputError, Laws, evaluate, example, load, save, solve
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.electrical_laws import clausius_mossotti
 from ehlectric.lubricant.python_laws import SampledLaws
@@ -101,21 +102,23 @@ def test_a_law_needs_a_temperature():
 def test_only_contacts_take_laws():
     with pytest.raises(InputError, match=r"^laws: .*'dict'"):
         solve(case(temperature="40 degC"), laws={"viscosity": viscosity})
+    bearing = BearingCase.from_toml(example("bearing_6208"))
+    for refused in (partial(solve, bearing), partial(evaluate, bearing, {"bearing.radial_load": [1e3]})):
+        with pytest.raises(InputError, match=r"^laws: .*one contact, not for a BearingCase"):
+            refused(laws=ALL)
 
 
 def test_a_film_beyond_the_samples_is_a_warning():
     """A law that ends at 1.6 times the Hertz pressure, under a film that is said to go beyond."""
-    sampled = Laws(viscosity=lambda p, _: np.where(p < 1.6e9, 0.04 * np.exp(2e-8 * p), np.nan)).sampled(
-        313.0, 1e9
-    )
+    sampled = Laws(viscosity=lambda p, _: np.where(p < 1.6e9, 0.04 * np.exp(2e-8 * p), np.nan)).at(313.0, 1e9)
     assert [one.code for one in sampled.exceeded(2e9)] == ["law-range"]
     assert not list(sampled.exceeded(1.2e9))
 
 
 def test_slopes_are_those_of_the_function():
     """Barus' law, whose logarithm is linear: the spline is exact."""
-    sampled = Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)).sampled(313.0, 0.2e9)
+    sampled = Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)).at(313.0, 0.2e9)
     value, slope = sampled.samples["viscosity"].log_ratio(np.array([0.0, 1e7, 0.3e9]))
     np.testing.assert_allclose(value, [0.0, 0.2, 6.0], atol=1e-9)
     np.testing.assert_allclose(slope, 2e-8, rtol=1e-7)
-    assert SampledLaws.restored(sampled.stored()).names == sampled.names
+    assert SampledLaws.restored(sampled.stored(), 313.0, 0.2e9).same_values(sampled)

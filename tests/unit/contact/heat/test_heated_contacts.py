@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, Laws, load, solve
+from ehlectric import Case, InputError, load, solve
 from ehlectric.app.compute.contact_answers import answer_of
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import resolve
@@ -241,10 +241,8 @@ def test_a_surface_against_entrainment_is_refused(ratio):
         check_case(case)
 
 
-def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
+def test_the_solver_of_the_paper_has_no_heat():
     case = case_with("contact")
-    with pytest.raises(InputError, match=r"^film\.thermal: "):
-        solve(case, laws=Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)))
     with pytest.raises(InputError, match=r"^film: .*'paper'"):
         solve(case, solvers=PAPER)
 
