@@ -160,9 +160,12 @@ def _of_index(at_40: Numbers, index: Numbers) -> Numbers:
     """Kinematic viscosity at 100 degC [m^2/s] of an oil, or of many, with a viscosity index."""
     if not is_many(at_40, index):
         return _at_100(at_40, index)
-    if not (_latest and same(_latest[0][0], at_40) and same(_latest[0][1], index)):
-        _latest[:] = [(at_40, index, viscosity_at_100(at_40, index))]
-    return _latest[0][2]
+    # One look at the list: another thread may replace its content at any time.
+    latest = _latest[0] if _latest else None
+    if latest is None or not (same(latest[0], at_40) and same(latest[1], index)):
+        latest = (at_40, index, viscosity_at_100(at_40, index))
+        _latest[:] = [latest]
+    return latest[2]
 
 
 # Roots of many oils that were found last, with their arguments.

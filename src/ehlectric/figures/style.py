@@ -45,7 +45,7 @@ from ehlectric.figures.tones import Outline, toned_figure
 from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
 from ehlectric.runtime.files import write
-from ehlectric.runtime.threads import Turn
+from ehlectric.runtime.threads import Turn, own_filters
 
 D = TypeVar("D")
 
@@ -121,7 +121,7 @@ def style(name: str | None = None) -> Iterator[None]:
     name = _style.get() if name is None else name
     if name not in _LOOKS:
         raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
-    with _turn.taken(), mpl.rc_context(_LOOKS[name].settings), warnings.catch_warnings():  # type: ignore[arg-type]
+    with _turn.taken(), mpl.rc_context(_LOOKS[name].settings), own_filters():  # type: ignore[arg-type]
         # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         token = _style.set(name)

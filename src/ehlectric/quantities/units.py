@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import sys
 from functools import cache
 from typing import TYPE_CHECKING, TypeGuard
 
@@ -112,7 +111,11 @@ def rpm_text(speed: float) -> str:
 
 @cache
 def registry() -> pint.UnitRegistry[float]:
-    """Registry of units, made when it is first needed, because importing pint takes a while."""
+    """Registry of units, made when it is first needed, because importing pint takes a while.
+
+    Threads that need it for the first time at once get two registries, whose quantities cannot be combined:
+    ask once for each conversion.
+    """
     import pint
 
     return pint.UnitRegistry()
@@ -220,11 +223,12 @@ def factor(written: str, unit: str) -> float:
 
     named = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
     expression = f"1{named}" if named.startswith("/") else named
+    known_units = registry()
     try:
-        return float(registry().Quantity(1.0, registry().parse_units(expression)).to(unit).magnitude)
+        return float(known_units.Quantity(1.0, known_units.parse_units(expression)).to(unit).magnitude)
     except pint.DimensionalityError:
         other, hint = _HINTS.get(unit, ("", ""))
-        mistaken = other and registry().Quantity(1.0, expression).check(other)
+        mistaken = other and known_units.Quantity(1.0, expression).check(other)
         advice = f"; {hint}" if mistaken else ""
         raise ValueError(f"{short(written)} is not a unit of this quantity{advice}") from None
     except pint.UndefinedUnitError:
@@ -259,9 +263,16 @@ def absolute(number: float, written: str) -> float:
 
 
 def is_pint(entry: object) -> TypeGuard[pint.Quantity[float]]:
-    """Whether an entry is a quantity of pint."""
-    module = sys.modules.get("pint")
-    return module is not None and isinstance(entry, module.Quantity)
+    """Whether an entry is a quantity of pint.
+
+    The classes of the entry decide. Another thread may be importing pint, and ``sys.modules`` then contains a
+    module without its names; an import waits until it is complete.
+    """
+    if not any(str(kind.__module__).partition(".")[0] == "pint" for kind in type(entry).__mro__):
+        return False
+    import pint
+
+    return isinstance(entry, pint.Quantity)
 
 
 # Parts of the names of temperature scales, in small letters.

@@ -236,8 +236,9 @@ def remember_sound(path: Path, state: os.stat_result) -> None:
     was found or written sound.
     """
     _known[_key(path, state)] = None
-    while len(_known) > _MOST_KNOWN:
-        _known.pop(next(iter(_known)), None)
+    # A copy, which other threads do not change.
+    for oldest in list(_known)[:-_MOST_KNOWN]:
+        _known.pop(oldest, None)
 
 
 def _key(path: Path, state: os.stat_result) -> _State:

@@ -31,6 +31,7 @@ from ehlectric.runtime.hdf5_soundness import (
 )
 from ehlectric.runtime.locks import held_back, take
 from ehlectric.runtime.sizes import check_netcdf_values
+from ehlectric.runtime.threads import own_filters
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,7 +52,7 @@ def read_dataset(path: Path) -> xr.Dataset:
     import xarray as xr
 
     try:
-        with warnings.catch_warnings(), opened(path) as file:
+        with own_filters(), opened(path) as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
             check_netcdf_values(path, file)
             return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()

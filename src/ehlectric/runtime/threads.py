@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 import threading
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache, cached_property
@@ -48,7 +49,18 @@ class Turn:
             yield
 
 
-_turn = Turn()
+_turn, _filters = Turn(), Turn()
+
+
+@contextmanager
+def own_filters() -> Iterator[None]:
+    """Context whose changes of the filters of warnings end with it.
+
+    The filters belong to the process. Threads take turns: the end of overlapping contexts would leave the
+    filters of one of them.
+    """
+    with _filters.taken(), warnings.catch_warnings():
+        yield
 
 
 def _renew_properties() -> None:
