@@ -112,6 +112,8 @@ class StoredDuty(Generic[R]):
     kind: type[R]
     rows: type[CycleRows]
     lists: Mapping[str, type[Any]]  # class of the objects of a list, by the name of its field
+    # Lists that files of version 1.0 do not contain; the field then keeps its default.
+    later: Mapping[str, type[Any]] = field(default_factory=dict)
 
     @cached_property
     def _part(self) -> Part:
@@ -125,7 +127,8 @@ class StoredDuty(Generic[R]):
         """Attributes of everything else; none without a duty cycle."""
         if duty is None:
             return {}
-        lists = {f"duty_{name}": many_numbers_of(getattr(duty, name)) for name in self.lists}
+        names = (*self.lists, *self.later)
+        lists = {f"duty_{name}": many_numbers_of(getattr(duty, name)) for name in names}
         return {_NUMBERS: numbers_of(duty), _WARNINGS: json.dumps(texts_and_codes(duty.warnings)), **lists}
 
     def read(self, dataset: xr.Dataset) -> R | None:
@@ -139,9 +142,10 @@ class StoredDuty(Generic[R]):
         found = self._part.read(values_of(dataset))
         if np.any(found["state"] >= len(STATES)):
             raise UnfitError("duty_state is no state")
+        known = {name: kind for name, kind in self.later.items() if f"duty_{name}" in attributes}
         lists: dict[str, Any] = {
             name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"duty_{name}"))
-            for name, kind in self.lists.items()
+            for name, kind in {**self.lists, **known}.items()
         }
         return self.kind(
             rows=self.rows(**found),

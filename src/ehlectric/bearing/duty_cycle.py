@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.cycle_life import CycleLife, cycle_life
 from ehlectric.bearing.cycle_rows import (
     FULL_FILM,
     LEFT_OUT,
@@ -119,6 +120,8 @@ class DutyResult(Values):
         Largest relative error of lambda ratio and margin by interpolation; None where every point was solved.
     touching_ratio : float
         Lambda ratio up to which surfaces are called touching, as no voltage is computed for them.
+    lives : tuple of CycleLife
+        Rating lives over the cycle, one object.
     warnings : tuple of ResultWarning
         Warnings about the file and about rows that are not computed.
     """
@@ -131,6 +134,7 @@ class DutyResult(Values):
     interpolation_error: float | None = field(metadata=number())
     touching_ratio: float = field(metadata=number("positive"))
     warnings: tuple[ResultWarning, ...] = ()
+    lives: tuple[CycleLife, ...] = (CycleLife(),)
 
     @property
     def low(self) -> Mask:
@@ -169,6 +173,7 @@ class DutyResult(Values):
             "breakdown_probability": self.breakdown_probability,
             "least_margin": None if worst is None else float(rows.margin[worst]),
             "least_margin_time": None if worst is None else float(rows.time[worst]),
+            **self.lives[0].summary(),
             "stretches": [asdict(one) for one in self.stretches],
         }
 
@@ -193,6 +198,7 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     _check_cycle(quick, cycle)
     rows, found = rows_of(quick, cycle)
     rows = replace(rows, breakdown_probability=_probabilities(quick, rows))
+    life = life_of(quick, rows, found)
     return DutyResult(
         rows=rows,
         stretches=tuple(_stretches(quick, rows)),
@@ -201,8 +207,17 @@ def run_duty(case: BearingCase) -> DutyResult | None:
         points=found.solved,
         interpolation_error=found.error,
         touching_ratio=float(touching_ratio(quick.bearing.summit_height)),
-        warnings=tuple(_warnings(quick, cycle, found, refused)),
+        warnings=(*_warnings(quick, cycle, found, refused), *life.warnings()),
+        lives=(life,),
     )
+
+
+def life_of(case: BearingCase, rows: DutyRows, found: PointValues) -> CycleLife:
+    """Rating lives of a bearing over the rows of its cycle, from the values of the rows that move."""
+    moves = rows.state != STANDSTILL
+    names = ("speed", "radial_load", "axial_load", "duration")
+    given = {name: getattr(rows, name)[moves] for name in names}
+    return cycle_life(case, given, found.values, float(np.sum(rows.duration)))
 
 
 def check_duty(case: BearingCase) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.many_points import gathered, solved_parts
+from ehlectric.bearing.rating_life import fatigue_of
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
@@ -21,6 +22,9 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
+
+# Quantities of a point that rating lives need in addition.
+_OF_LIFE = ("viscosity", "reference_turns")
 
 # Quantities of a point: lambda ratio, capacitance [F], first breakdown and shaft voltage [V], and margin.
 NAMES = ("lambda_ratio", "capacitance", "first_break", "shaft_voltage", "margin")
@@ -46,7 +50,9 @@ _STEPS = (64, 48, 40, 32, 28, 24, 20, 17, 14, 12, 10, 8, 6, 5, 4, 3, 2, 1)
 class PointValues:
     """Quantities of n operating points."""
 
-    values: Mapping[str, Array]  # by the names in ``NAMES``, shape (n,); NaN where a point has none
+    # By the names in ``NAMES``, and in ``Fatigue`` if the case has rating lives, shape (n,); NaN if a point
+    # has none.
+    values: Mapping[str, Array]
     reasons: Mapping[int, str]  # why a point has no result, by its place
     solved: int  # number of solved bearings
     error: float | None = None  # largest relative error by interpolation, of those compared; None without it
@@ -73,15 +79,20 @@ def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValu
     """Quantities at the rows of a table with a column for each key, shape (n, keys)."""
     reasons: dict[int, str] = {}
     many = case.with_arrays(dict(zip(keys, table.T, strict=True)))
-    found = gathered(solved_parts(many, reasons=reasons), _numbers, (len(NAMES), len(table)))
-    return PointValues(dict(zip(NAMES, found, strict=True)), reasons, len(table))
+    names = NAMES if case.bearing.life is None else (*NAMES, *_OF_LIFE)
+    found = gathered(solved_parts(many, reasons=reasons), _numbers, (len(names), len(table)))
+    return PointValues(dict(zip(names, found, strict=True)), reasons, len(table))
 
 
 def _numbers(solution: BearingSolution) -> tuple[Numbers | None, ...]:
-    """Quantities of solved points in the order of ``NAMES``; None for what no point has."""
-    broken = breaks(solution)
+    """Quantities of solved points in the order of ``NAMES`` and ``_OF_LIFE``; None for what no point has."""
+    broken, life = breaks(solution), solution.case.bearing.life
     voltages = broken["first_break"], shaft_voltage(solution), broken["margin"]
-    return lambda_ratio(solution), capacitance(solution), *voltages
+    found = lambda_ratio(solution), capacitance(solution), *voltages
+    if life is None:
+        return found
+    fatigue = fatigue_of(solution, life)
+    return *found, *(getattr(fatigue, name) for name in _OF_LIFE)
 
 
 def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:

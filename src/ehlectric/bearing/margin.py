@@ -773,10 +773,11 @@ def _time(solution: BearingSolution) -> str:
 
 
 def _at(solution: BearingSolution) -> str:
-    """Speed and temperature of a bearing as text."""
+    """Speed and temperature of a bearing as text, which names the operating point next to a duty cycle."""
     bearing = solution.case.bearing
     speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
-    return f"at {float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
+    point = "" if solution.case.duty is None else "the operating point of "
+    return f"at {point}{float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
 
 
 def _assumptions(solution: BearingSolution) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -85,6 +85,7 @@ class _Rules:
     equivalent: Callable[[Bearing, Numbers, int], Numbers]
     ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
     grooves: tuple[float, ...] = ()  # widest grooves over the ball diameter that have the ratings
+    tracks: int = 1  # contacts of an element with one ring
 
     @property
     def rollers(self) -> bool:
@@ -170,7 +171,7 @@ _OF_ROLLERS = _Rules(
 _RULES: dict[str, _Rules] = {
     "deep-groove ball": _OF_BALLS,
     "angular-contact ball": _OF_BALLS,
-    "four-point contact ball": _OF_BALLS,
+    "four-point contact ball": replace(_OF_BALLS, tracks=2),
     "thrust ball": _Rules(
         factor="thrust ball",
         dynamic=lambda bearing: _at_points(thrust_ball_dynamic_rating)(*_sizes(bearing)),
@@ -230,36 +231,60 @@ KEYS = tuple(field.name for field in fields(RatingLife))
 
 def life_summary(solution: BearingSolution) -> dict[str, Numbers | None]:
     """Rating lives by the keys of ``life`` in summary.json; None without the table ``bearing.life``."""
-    life = solution.case.bearing.life
-    return dict.fromkeys(KEYS) if life is None else vars(_life_of(solution, life))
+    bearing = solution.case.bearing
+    if bearing.life is None:
+        return dict.fromkeys(KEYS)
+    return vars(lives_of(bearing, bearing.life, fatigue_of(solution, bearing.life)))
 
 
-def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
-    """Rating lives of a bearing with the inputs of its table ``life``."""
-    bearing, rules, rated = solution.case.bearing, _RULES[solution.case.bearing.kind], _rated(solution, life)
+@dataclass(frozen=True)
+class Fatigue:
+    """What a solved bearing contributes to its rating lives, of shape (...)."""
+
+    viscosity: Numbers  # kinematic viscosity of the oil at the temperature of the bearing [m^2/s], or NaN
+    lambda_ratio: Numbers
+    reference_turns: Numbers  # basic reference rating life [revolutions]
+
+
+def fatigue_of(solution: BearingSolution, life: Life) -> Fatigue:
+    """What the rating lives of a bearing with the table ``life`` need of its solution."""
+    bearing, oil = solution.case.bearing, solution.conditions.oil
+    rules, groups = _RULES[bearing.kind], solution.conditions.geometry.groups
+    at = solution.positions[0].equilibrium
+    elements = rules.ratings(bearing, rated_loads(bearing, life).dynamic_rating / groups**rules.slope)
+    return Fatigue(
+        viscosity=math.nan if oil.density is None else oil.viscosity / oil.density,
+        lambda_ratio=lambda_ratio(solution),
+        reference_turns=reference_life(
+            (at.inner_load, at.outer_load), elements, rollers=rules.rollers, rows=groups
+        ),
+    )
+
+
+def lives_of(bearing: Bearing, life: Life, fatigue: Fatigue, *, least_ratio: float = 0.0) -> RatingLife:
+    """Rating lives of a bearing with the inputs of its table ``life``.
+
+    Viscosity ratios below ``least_ratio`` count as this ratio in the factors of the lives.
+    """
+    rules, rated = _RULES[bearing.kind], rated_loads(bearing, life)
     turns = bearing.inner_speed / _TURN
-    clean, of_film = life.contamination_factor * rated.fatigue_load_limit, lambda_ratio(solution)
+    clean = life.contamination_factor * rated.fatigue_load_limit
 
     def factor(ratio: Numbers, load: Numbers) -> Numbers:
-        return _life_factor(rules.factor, ratio, clean / load)
+        return _life_factor(rules.factor, np.maximum(ratio, least_ratio), clean / load)
 
     required = _required_viscosity(bearing)
-    by_oil, by_film = _viscosity(solution) / required, _film_ratio(of_film)
+    by_oil, by_film = fatigue.viscosity / required, _film_ratio(fatigue.lambda_ratio)
     factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
     basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
-    at = solution.positions[0].equilibrium
-    tracks = solution.conditions.geometry.groups
-    elements = rules.ratings(bearing, rated.dynamic_rating / tracks**rules.slope)
-    loads = at.inner_load, at.outer_load
-    revolutions = reference_life(loads, elements, rollers=rules.rollers, rows=tracks)
-    reference = revolutions / turns
-    # The load of which the reference life is the basic life.
-    same = _load_of_life(rated.dynamic_rating, revolutions, rules.exponent)
+    reference = fatigue.reference_turns / turns
+    # The load whose basic life equals the reference life.
+    same = _load_of_life(rated.dynamic_rating, fatigue.reference_turns, rules.exponent)
     rougher = None
     if life.roughened_rq is not None:
         # Points of a sweep may have a rougher surface than that.
-        rq = np.maximum(life.roughened_rq, bearing.composite_rq)
-        rougher = factor(_film_ratio(solution.least_film / rq), same) * reference
+        smoother = bearing.composite_rq / np.maximum(life.roughened_rq, bearing.composite_rq)
+        rougher = factor(_film_ratio(smoother * fatigue.lambda_ratio), same) * reference
     return RatingLife(
         **vars(rated),
         rated_viscosity=required,
@@ -277,35 +302,33 @@ def _life_of(solution: BearingSolution, life: Life) -> RatingLife:
     )
 
 
-def _rated(solution: BearingSolution, life: Life) -> RatedLoads:
-    """Ratings and load of a bearing; those of both bearings of a pair, as of one with two rows.
+def life_exponent(bearing: Bearing) -> float:
+    """Exponent p of the basic rating life, (C/P)^p."""
+    return _RULES[bearing.kind].exponent
 
-    The two tracks of a four-point contact bearing count as rows, too.
+
+def rated_loads(bearing: Bearing, life: Life) -> RatedLoads:
+    """Ratings and load of a bearing; a pair counts as a bearing with two rows.
+
+    The two tracks of a four-point contact bearing also count as rows.
     """
-    bearing = solution.case.bearing
-    rules, tracks = _RULES[bearing.kind], solution.conditions.geometry.tracks
+    rules = _RULES[bearing.kind]
     one: Numbers | None = life.dynamic_rating
     if one is None:
-        one = tracks**rules.slope * rules.dynamic(bearing)
+        one = rules.tracks**rules.slope * rules.dynamic(bearing)
     still: Numbers | None = life.static_rating
     if still is None:
-        still = tracks * rules.static(bearing)
+        still = rules.tracks * rules.static(bearing)
     dynamic, static = bearing.rows**rules.slope * one, bearing.rows * still
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
-    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static, tracks * bearing.rows))
+    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static, rules.tracks * bearing.rows))
 
 
 def _required_viscosity(bearing: Bearing) -> Numbers:
     """Kinematic viscosity nu_1 that ISO 281 requires at the speed of a bearing [m^2/s]."""
     return _at_points(rated_viscosity)(rpm(bearing.inner_speed), bearing.pitch_diameter)
-
-
-def _viscosity(solution: BearingSolution) -> Numbers:
-    """Kinematic viscosity of the oil at the temperature of the bearing [m^2/s]; NaN without its density."""
-    oil = solution.conditions.oil
-    return math.nan if oil.density is None else oil.viscosity / oil.density
 
 
 def life_flags(solution: BearingSolution) -> Iterator[Flag]:
@@ -314,8 +337,8 @@ def life_flags(solution: BearingSolution) -> Iterator[Flag]:
     life = bearing.life
     if life is None:
         return
-    rated, film = _rated(solution, life), _film_ratio(lambda_ratio(solution))
-    ratio = _viscosity(solution) / _required_viscosity(bearing)
+    rated, fatigue = rated_loads(bearing, life), fatigue_of(solution, life)
+    ratio, film = fatigue.viscosity / _required_viscosity(bearing), _film_ratio(fatigue.lambda_ratio)
     limit, static = rated.fatigue_load_limit, rated.static_rating
     part = rated.equivalent_load / rated.dynamic_rating
     yield Flag.of(np.isnan(part), "life-outside", "angle")

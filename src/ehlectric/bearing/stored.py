@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
+from ehlectric.bearing.cycle_life import CycleLife
 from ehlectric.bearing.cycle_rows import StoredDuty
 from ehlectric.bearing.duty_cycle import DutyResult, DutyRows, Stretch
 from ehlectric.bearing.loads.ball_loads import BallEquilibrium
@@ -51,7 +52,7 @@ RINGS = ("inner", "outer")
 # with the friction of their most loaded contacts.
 _HEAT, _FRICTIONS = "heat_factor", Part(ContactFriction, ("ring",), "solved_")
 
-_DUTY = StoredDuty(DutyResult, DutyRows, {"stretches": Stretch})
+_DUTY = StoredDuty(DutyResult, DutyRows, {"stretches": Stretch}, {"lives": CycleLife})
 
 # Contacts of all elements, and what these contacts are made of: solved contacts of each ring over the load.
 _OVER = ("cage_position", "ring", "element")
@@ -124,7 +125,10 @@ def duty_of(dataset: xr.Dataset) -> DutyResult | None:
     """Result of the duty cycle in a dataset that ``dataset_of`` made; None without one. Raises UnfitError
     where a variable or an attribute is missing, or is not as it was written.
     """
-    return _DUTY.read(dataset)
+    duty = _DUTY.read(dataset)
+    if duty is not None and len(duty.lives) != 1:
+        raise UnfitError("duty_lives has not the values of one bearing")
+    return duty
 
 
 def _solved_heat(solution: BearingSolution) -> dict[str, Any]:

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.bearing.cycle_life import CycleLife
 from ehlectric.bearing.cycle_rows import (
     FULL_FILM,
     LEFT_OUT,
@@ -29,7 +30,7 @@ from ehlectric.bearing.cycle_rows import (
     edges_of,
     stretches_of,
 )
-from ehlectric.bearing.duty_cycle import DutyRows, check_rows, file_warnings, rows_of
+from ehlectric.bearing.duty_cycle import DutyRows, check_rows, file_warnings, life_of, rows_of
 from ehlectric.bearing.duty_points import between_places
 from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
@@ -138,6 +139,8 @@ class DriveDuty(Values):
         Lambda ratio up to which the surfaces of either bearing are called touching.
     warnings : tuple of ResultWarning
         Warnings about the file and about rows that are not computed.
+    lives : tuple of CycleLife
+        Rating lives of each bearing over the cycle.
     """
 
     rows: DriveDutyRows
@@ -149,6 +152,7 @@ class DriveDuty(Values):
     simulated: float = field(metadata=number())
     touching_ratio: float = field(metadata=number("positive"))
     warnings: tuple[ResultWarning, ...] = ()
+    lives: tuple[CycleLife, CycleLife] = (CycleLife(), CycleLife())
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
@@ -176,7 +180,7 @@ class DriveDuty(Values):
         }
         for name, one in sums.items():
             found |= {f"duty_{name}": one.value, f"duty_{name}_low": one.low, f"duty_{name}_high": one.high}
-        return found
+        return found | {f"duty_{name}": value for name, value in self.lives[b].summary().items()}
 
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name."""
@@ -200,6 +204,7 @@ class _Ready:
     given: Mapping[str, Array]  # inputs of the rows by the names of their columns, SI units, shape (n,)
     ends: tuple[DutyRows, DutyRows]
     reasons: Mapping[int, str]  # why a row has no film, by its place
+    lives: tuple[CycleLife, CycleLife]
 
     @property
     def computed(self) -> Mask:
@@ -248,6 +253,7 @@ def run_drive_cycle(
         simulated=found.simulation.time,
         touching_ratio=max(float(touching_ratio(one.bearing.summit_height)) for one in case.bearings),
         warnings=tuple(_warnings(ready, found)),
+        lives=ready.lives,
     )
 
 
@@ -265,7 +271,8 @@ def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
     reasons = {**other.reasons, **found.reasons}
     own = np.full(cycle.time.size, peak)
     given = {name: getattr(first, name) for name in _KEYS} | {_VOLTAGE: cycle.values.get(_VOLTAGE, own)}
-    return _Ready(quick, cycle, peak, given, (first, second), reasons)
+    lives = life_of(drive_end, first, found), life_of(non_drive_end, second, other)
+    return _Ready(quick, cycle, peak, given, (first, second), reasons, lives)
 
 
 def _check(case: DriveCase, cycle: Cycle) -> None:
@@ -462,6 +469,7 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
 def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
     yield from file_warnings(ready.cycle, ready.case.bearings[0])
+    yield from dict.fromkeys(warning for life in ready.lives for warning in life.warnings())
     yield from _of_ring(ready)
     left_out = np.flatnonzero(~np.isfinite(found.rates[:, 0]))
     if left_out.size:

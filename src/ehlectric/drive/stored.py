@@ -12,6 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import Path
+from ehlectric.bearing.cycle_life import CycleLife
 from ehlectric.bearing.cycle_rows import StoredDuty
 from ehlectric.bearing.stored import with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
@@ -73,7 +74,10 @@ _SOLUTION, _RECORD = Part(DriveSolution, (_VARIANT,)), Part(Record, (_VARIANT,))
 _EVENTS, _SAMPLES = Part(_Events, (_VARIANT,), "event_"), Part(_Samples, (_VARIANT,), "sample_")
 _ELEMENT, _PATH = Part(BearingElement, (_VARIANT, _END), "element_"), Part(Path, (_VARIANT, _END), "path_")
 _DUTY = StoredDuty(
-    DriveDuty, DriveDutyRows, {"discharges": Expected, "energy": Expected, "stretches": DriveStretch}
+    DriveDuty,
+    DriveDutyRows,
+    {"discharges": Expected, "energy": Expected, "stretches": DriveStretch},
+    {"lives": CycleLife},
 )
 _PARTS = (_SOLUTION, _RECORD, _EVENTS, _SAMPLES, _ELEMENT, _PATH)
 
@@ -120,8 +124,8 @@ def duty_of(dataset: xr.Dataset) -> DriveDuty | None:
     where a variable or an attribute is missing, or is not as it was written.
     """
     duty = _DUTY.read(dataset)
-    if duty is not None and any(len(one) != len(ENDS) for one in (duty.discharges, duty.energy)):
-        raise UnfitError("duty_discharges or duty_energy has not the values of two bearings")
+    if duty is not None and any(len(one) != len(ENDS) for one in (duty.discharges, duty.energy, duty.lives)):
+        raise UnfitError("duty_discharges, duty_energy or duty_lives has not the values of two bearings")
     return duty
 
 

@@ -77,6 +77,12 @@ def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
         for end, bearing in inputs.items()
     ]
     divided = dict.fromkeys(_DIVIDED, any(unknown)) | {"capacitance": bool(unknown) and all(unknown)}
+    lives: dict[str, bool] = {}
+    for end in ENDS:
+        own = {key.removeprefix("duty_"): value for key, value in (summary.get(end) or {}).items()}
+        for key, holds in cycle_life_bounds(own, "duty_").items():
+            lives[key] = lives.get(key, False) or holds
+    divided |= lives
     return _holding(book, lambda key: divided.get(key.rpartition(".")[2], ideal))
 
 
@@ -145,6 +151,24 @@ _OF_SHAFT = (
 )
 
 
+# Lives of a duty cycle by the share of its revolutions that makes an upper bound of them.
+_OF_CYCLE = {
+    "low_viscosity_share": ("modified_life", "reference_modified_life"),
+    "low_film_share": ("film_modified_life", "film_reference_modified_life", "roughened_life"),
+}
+
+
+def cycle_life_bounds(duty: Mapping[str, Any], prefix: str) -> dict[str, bool]:
+    """Whether the lives of a duty cycle are upper bounds, by their keys with a prefix."""
+    missing = bool(duty.get("unsolved_share"))
+    found = {
+        f"{prefix}{key}": missing or bool(duty.get(share))
+        for share, keys in _OF_CYCLE.items()
+        for key in keys
+    }
+    return {f"{prefix}reference_life": missing, **found}
+
+
 def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a bearing, by dotted key.
 
@@ -163,6 +187,7 @@ def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
         **dict.fromkeys(_DISCHARGED, leaks),
         **dict.fromkeys(_FILMS, isothermal and summary["bearing"]["film_factor"] == 1.0),
         **dict.fromkeys(_OF_SHAFT, ideal and not leaks),
+        **cycle_life_bounds(summary.get("duty") or {}, "duty."),
     }
     # Words in place of a number are no bound.
     worded = [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
@@ -171,6 +172,34 @@ def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[s
     note = words.notes[key](summary) if key in words.notes else note or about.note
     alarm = words.alarms[key](summary) if key in words.alarms else False
     yield row_of(key, about, value, note, bound=bounds.get(key, ""), alarm=alarm)
+
+
+# Addition to names of numbers that belong to the operating point of a file with a duty cycle.
+_AT_POINT = "operating point"
+
+
+def placed(name: str, key: str, summary: Summary) -> str:
+    """Name of a number, or of a section with its first key, that states the operating point if the result
+    contains a duty cycle and the key does not belong to it.
+
+    Examples
+    --------
+    >>> placed("films", "bearing.lambda_ratio", {"duty": {}})
+    'films, operating point'
+    """
+    whole = key.startswith("duty.") or ".duty_" in key or key == "seconds"
+    return name if whole or not in_cycle(summary) else f"{name}, {_AT_POINT}"
+
+
+def in_cycle(summary: Summary) -> bool:
+    """Whether a result contains numbers of a duty cycle."""
+    return summary.get("duty") is not None
+
+
+def placed_rows(rows: Iterable[Row], summary: Summary) -> Iterator[Row]:
+    """Rows whose headings state the operating point; see ``placed``."""
+    for row, following in pairwise([*rows, Row("")]):
+        yield replace(row, name=placed(row.name, following.key, summary)) if row.heading else row
 
 
 def row_of(

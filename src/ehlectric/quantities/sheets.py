@@ -50,7 +50,9 @@ BREAKDOWN_FORMULAS = {"line": "pan_hamrock", "point": "chittenden"}
 FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_DRIVE = _cards("first_page_of_bearing"), _cards("first_page_of_drive")
 
 # Numbers of the rating life on this page.
-FIRST_PAGE_OF_LIFE = tuple[str, ...](_READ["first_page_of_life"]["keys"])
+FIRST_PAGE_OF_LIFE: Mapping[str, tuple[str, ...]] = {
+    place: tuple(keys) for place, keys in _READ["first_page_of_life"].items()
+}
 
 # Columns of the tables of all contacts of a bearing: of its loads, of its films, and on its page.
 LOAD_COLUMNS, FILM_COLUMNS, PAGE_COLUMNS = (

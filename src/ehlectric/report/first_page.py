@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
-from ehlectric.quantities.rows import Row
+from ehlectric.quantities.rows import Row, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.quantities.units import rpm
 from ehlectric.report.background import given_inputs, input_text, named
@@ -130,7 +129,8 @@ def _unit(row: Row) -> str:
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
     totals = tuple(totals)
-    yield Numbers(numbers_of(map(partial(_with_chance, summary), totals), FIRST_PAGE_OF_BEARING))
+    shown = (with_place(_with_chance(summary, row), summary) for row in totals)
+    yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING))
     yield from _lives({row.key: row for row in totals})
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
@@ -177,15 +177,23 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
     )
 
 
+def with_place(row: Row, summary: Mapping[str, Any]) -> Row:
+    """Row outside of its section, whose name states the operating point next to a duty cycle."""
+    return replace(row, name=placed(row.name, row.key, summary)) if row.key else row
+
+
 def _lives(rows: Mapping[str, Row]) -> Iterator[Text]:
-    """Sentence with the rating lives of a bearing and with the numbers from which they follow; none if no row
-    is a life.
+    """Sentences with the rating lives of a bearing and with the numbers from which they follow, and with its
+    lives over a duty cycle; none if no row is a life.
     """
-    if FIRST_PAGE_OF_LIFE[-1] in rows:
-        parts = (rows[key] for key in FIRST_PAGE_OF_LIFE if key in rows)
-        # The symbol is the last word of a label.
-        text = "; ".join(f"{row.name.rpartition(' ')[2]} = {row.text}" for row in parts)
-        yield Text(with_units_kept(f"{SENTENCES['rating_life']}: {text}."), "small")
+    for place, keys in FIRST_PAGE_OF_LIFE.items():
+        # The symbol is the last word of the label of the operating point.
+        symbols = {
+            key: BEARING_BOOK[f"life.{key.partition('.')[2]}"].label.rpartition(" ")[2] for key in keys
+        }
+        text = "; ".join(f"{symbols[key]} = {rows[key].text}" for key in keys if key in rows)
+        if text:
+            yield Text(with_units_kept(f"{SENTENCES[f'rating_life_{place}']}: {text}."), "small")
 
 
 def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:

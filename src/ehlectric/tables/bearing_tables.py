@@ -16,7 +16,16 @@ from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
-from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, shown_unit, value_at
+from ehlectric.quantities.rows import (
+    Noted,
+    Row,
+    Summary,
+    Words,
+    placed_rows,
+    sheet_rows,
+    shown_unit,
+    value_at,
+)
 from ehlectric.quantities.sheets import (
     BEARING,
     BEARING_CHECK,
@@ -42,7 +51,7 @@ def total_rows(summary: Summary) -> list[Row]:
     The first row is an alarm if a film is not converged.
     """
     rows = sheet_rows(BEARING, BEARING_BOOK, summary, _WORDS, bearing_bounds(BEARING_BOOK, summary))
-    return [*status_rows(summary), *rows]
+    return [*status_rows(summary), *placed_rows(rows, summary)]
 
 
 def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
@@ -370,6 +379,10 @@ def _left_out(summary: Summary) -> Iterator[Row]:
         yield Row("not computed", note=text, key="margin.left_out")
 
 
+def _unless_zero(key: str) -> Callable[[Summary], Any]:
+    return lambda summary: value_at(summary, key) or None
+
+
 def _stretches(summary: Summary) -> Iterator[Row]:
     """Rows of the worst stretches of a duty cycle, the worst first."""
     bounds = bearing_bounds(BEARING_BOOK, summary)
@@ -464,7 +477,10 @@ _WORDS = Words(
         "life.viscosity_ratio": _viscosity_ratio,
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
-        "duty.left_out_share": lambda s: value_at(s, "duty.left_out_share") or None,
+        **{
+            f"duty.{name}_share": _unless_zero(f"duty.{name}_share")
+            for name in ("left_out", "low_viscosity", "low_film", "unsolved")
+        },
         "margin.critical_speed": _critical_speed,
         **{
             f"margin.{name}": _speed(name)

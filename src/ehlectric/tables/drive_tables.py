@@ -15,7 +15,16 @@ from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
-from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
+from ehlectric.quantities.rows import (
+    Row,
+    Sheet,
+    Summary,
+    Words,
+    head_of,
+    placed,
+    placed_rows,
+    sheet_rows,
+)
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
 from ehlectric.quantities.units import rpm_text, unit_for
 from ehlectric.tables.measured_tables import columns_table, status_rows
@@ -41,9 +50,9 @@ def drive_rows(summary: Summary) -> list[Row]:
 
 
 def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
-    rows = list(whole_rows(summary, sheet))
+    rows = list(placed_rows(whole_rows(summary, sheet), summary))
     for end, place in NAMES_OF_ENDS.items():
-        for row in end_rows(summary, end, sheet):
+        for row in placed_rows(end_rows(summary, end, sheet), summary):
             own = replace(row, name=f"{row.name}, {place}") if row.heading else row
             rows.append(replace(own, key=own.key.replace("end.", f"{end}.", 1)))
     return rows
@@ -72,7 +81,7 @@ def side_by_side(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, 
     for section in _part(sheet, ends=True):
         pairs = [tuple(rows.get(key) for rows in found) for key in section.keys]
         if known := [pair for pair in pairs if any(pair)]:
-            yield section.heading, known
+            yield placed(section.heading, section.keys[0], summary), known
 
 
 def end_cells(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, list[tuple[str, ...]]]]:
@@ -180,6 +189,11 @@ def _time_above(name: str, before: str) -> Callable[[Summary], Any]:
     return value
 
 
+def _unless_zero(name: str) -> Callable[[Summary], Any]:
+    """Share of the bearing at an end; None if it is zero or unknown."""
+    return lambda summary: summary["end"].get(name) or None
+
+
 def _contact_current(summary: Summary) -> Any:
     """Current through asperities; None where it is none in both bearings."""
     either = any(summary[end]["contact_current"] for end in ENDS)
@@ -207,6 +221,10 @@ _WORDS = Words(
         "end.events_per_second_range": _range,
         "end.duty_discharges_range": _duty_range("discharges"),
         "end.duty_energy_range": _duty_range("energy"),
+        **{
+            f"end.duty_{name}_share": _unless_zero(f"duty_{name}_share")
+            for name in ("low_viscosity", "low_film", "unsolved")
+        },
         "duty.left_out_share": lambda s: (s.get("duty") or {}).get("left_out_share") or None,
         "end.contact_current": _contact_current,
         **{f"end.time_above.{name}": _time_above(name, before) for before, name in pairwise(_LIMITS)},

@@ -86,9 +86,10 @@ def summary(session, tmp_path_factory):
 def test_the_page_has_the_numbers_of_the_command(answer, summary):
     rows = [row for row in total_rows(summary) if row.key.startswith("duty.")]
     assert answer.lines == lines_of(row for row in rows if not row.key.startswith("duty.stretches"))
-    assert {"share of time at a standstill", "probability of breakdown, mean over the time"} <= {
-        line.name for line in answer.lines
-    }
+    assert {
+        "share of the duty cycle at a standstill",
+        "probability of breakdown, mean of the duty cycle",
+    } <= {line.name for line in answer.lines}
     stretches = summary["duty"]["stretches"]
     assert stretches
     assert [(float(row[0]), float(row[1])) for row in answer.stretches.rows] == [

@@ -51,6 +51,27 @@ def by_speed(case):
 
 
 @pytest.mark.slow
+def test_both_bearings_have_a_life_of_the_cycle(tmp_path):
+    """Rows at one load: the basic life is the life at the mean speed. The ends differ in their ratings."""
+    case = cycle_of(tmp_path)
+    ratings = dict(zip(ENDS, (20e3, 40e3), strict=True))
+    lives = {
+        f"{end}.bearing.life": {"contamination_factor": 0.5, "dynamic_rating": rating}
+        for end, rating in ratings.items()
+    }
+    loads = {"bearings.bearing.radial_load": 1000.0, "bearings.bearing.axial_load": 0.0}
+    duty = run_drive_cycle(case.replace(lives | loads), PEAK, by_speed)
+    time = np.full(len(SPEEDS), 1.0)
+    time[[0, -1]] = 0.5
+    turns = float(time @ np.array(SPEEDS)) / 60.0 / float(np.sum(time))
+    for b, rating in enumerate(ratings.values()):
+        found = duty.end_summary(b)
+        assert found["duty_basic_life"] == pytest.approx((rating / 1000.0) ** 3 * 1e6 / turns, rel=1e-9)
+        assert found["duty_mean_speed"] == pytest.approx(2.0 * np.pi * turns, rel=1e-9)
+        assert found["duty_reference_modified_life"] is not None
+
+
+@pytest.mark.slow
 def test_sums_are_those_of_a_law_that_is_known(tmp_path):
     """The sum over the rows by hand is within the stated interval, which is narrow for a smooth law."""
     duty = run_drive_cycle(cycle_of(tmp_path), PEAK, by_speed)

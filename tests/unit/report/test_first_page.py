@@ -72,7 +72,7 @@ def tables_of(report):
     return {table.caption: table for table in blocks(report, Table)}
 
 
-LIFE = "Rating life"
+LIFE = "Rating life at the operating point"
 RANKED = "Measure first: the assumptions that matter most"
 MEASURE = "Measure first: assumptions behind the answer, not ranked"
 

@@ -40,7 +40,12 @@ from ehlectric.quantities.sheets import BEARING_CARDS
 
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("capacitance",)
 
-_OTHER_ROWS = "All other rows, as the command prints them"
+_OTHER_ROWS = "All rows of the operating point, as the command prints them"
+
+_AT_POINT = (
+    "The answer, its numbers and its figures belong to the operating point of the form. The numbers of the "
+    "duty cycle are below, under Duty cycle."
+)
 
 _OR_SOLVE = "solve the contacts, which computes the duty cycle, too"
 
@@ -63,7 +68,8 @@ class BearingView(AnswerView[BearingAnswer]):
         super().__init__()
 
     def build_below_panel(self) -> None:
-        """Build the place of the remedies."""
+        """Build the place of the remedies, and of a note that the answer belongs to the operating point."""
+        self._point = ui.label().classes("notice").props('data-testid="operating-point"')
         self.helps = HelpBox(self._session)
 
     def build(self) -> None:
@@ -74,6 +80,11 @@ class BearingView(AnswerView[BearingAnswer]):
         self.build_figures((*_AT_ONCE, *_OVER_SPEED), wide=_OVER_SPEED)
         self.duty = DutyView()
         self._pending: BearingAnswer | None = None
+
+    def place(self, *, cycle: bool) -> None:
+        """State what belongs to the operating point if there is a duty ``cycle``."""
+        self.rows_title = _OTHER_ROWS if cycle else AnswerView.rows_title
+        say(self._point, _AT_POINT if cycle else "")
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""
@@ -214,8 +225,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
                 self._cycle.ask(inputs)
 
     def _put(self, answer: BearingAnswer) -> None:
-        # The rows of a duty cycle stand with it.
-        self.view.rows_title = AnswerView.rows_title if self.duty.file is None else _OTHER_ROWS
+        self.view.place(cycle=self.duty.file is not None)
         super()._put(answer)
 
     def _show_cycle(self, answer: DutyAnswer) -> None:

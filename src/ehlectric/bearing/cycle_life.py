@@ -1,0 +1,110 @@
+"""Rating lives of a bearing over its duty cycle, by the rule of Palmgren and Miner, SI units.
+
+Each row of the cycle uses the part of a life that its duration takes: revolutions divided by the life in
+revolutions. The cycle is repeated until the parts add up to 1. Rows at rest use no part.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.loads.life import LOWEST_RATIO
+from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored import number
+
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class CycleLife:
+    """Mean load and rating lives of a bearing over a duty cycle; None for what is not known."""
+
+    mean_speed: float | None = field(default=None, metadata=number())  # [rad/s], rows at rest included
+    equivalent_load: float | None = field(default=None, metadata=number())  # mean over the revolutions [N]
+    # Lives [s] by their names in ``RatingLife``.
+    basic_life: float | None = field(default=None, metadata=number())
+    modified_life: float | None = field(default=None, metadata=number())
+    film_modified_life: float | None = field(default=None, metadata=number())
+    reference_life: float | None = field(default=None, metadata=number())
+    reference_modified_life: float | None = field(default=None, metadata=number())
+    film_reference_modified_life: float | None = field(default=None, metadata=number())
+    roughened_life: float | None = field(default=None, metadata=number())
+    # Shares of the revolutions with a viscosity ratio below 0.1, the lowest ratio of ISO 281, of the oil and
+    # of the film. They count with a ratio of 0.1, so that the modified lives are upper bounds.
+    low_viscosity_share: float | None = field(default=None, metadata=number())
+    low_film_share: float | None = field(default=None, metadata=number())
+    # Share of the revolutions in rows without a result, which only the basic life contains.
+    unsolved_share: float | None = field(default=None, metadata=number())
+
+    def summary(self) -> dict[str, float | None]:
+        """Values by the keys of the table ``duty`` of summary.json, without the speed."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+    def warnings(self) -> Iterator[ResultWarning]:
+        """Notes of revolutions for which ISO 281 has no life modification factor."""
+        for share, what in ((self.low_viscosity_share, "oil"), (self.low_film_share, "film")):
+            if share:
+                yield ResultWarning.of("life-outside", f"cycle-{what}", percent=100.0 * share)
+
+
+# Names of the lives.
+LIVES = tuple(each.name for each in fields(CycleLife) if each.name.endswith("_life"))
+
+
+def cycle_life(
+    case: BearingCase, given: Mapping[str, Array], values: Mapping[str, Array], total: float
+) -> CycleLife:
+    """Rating lives over a cycle of a duration ``total`` [s]; all None without ``[bearing.life]``.
+
+    ``given``, speed, loads and duration of the rows that move, and ``values``, the fields of ``Fatigue`` at
+    them, NaN for a row without a result, SI units, shape (n,).
+    """
+    life, speed, duration = case.bearing.life, np.abs(given["speed"]), given["duration"]
+    if life is None:
+        return CycleLife()
+    if not speed.size:
+        return CycleLife(mean_speed=0.0)
+    loads = {f"bearing.{name}": given[name] for name in ("radial_load", "axial_load")}
+    bearing = case.with_values({"bearing.inner_speed": speed, **loads}).bearing
+    fatigue = Fatigue(**{each.name: values[each.name] for each in fields(Fatigue)})
+    lives = lives_of(bearing, life, fatigue, least_ratio=LOWEST_RATIO)
+    # The basic life needs no solution of a row.
+    computed, turns = np.isfinite(fatigue.reference_turns), speed * duration / _TURN
+    found: dict[str, Any] = {
+        name: _miner(total, duration, getattr(lives, name), computed | (name == "basic_life"))
+        for name in LIVES
+    }
+    power = life_exponent(bearing)
+    mean = np.average(lives.equivalent_load**power, weights=turns) ** (1.0 / power)
+    rows = {
+        "low_viscosity_share": lives.viscosity_ratio < LOWEST_RATIO,
+        "low_film_share": lives.film_viscosity_ratio < LOWEST_RATIO,
+        "unsolved_share": ~computed,
+    }
+    return CycleLife(
+        mean_speed=float(np.sum(speed * duration) / total),
+        equivalent_load=_known(mean),
+        **found,
+        **{name: float(np.sum(turns[within]) / np.sum(turns)) for name, within in rows.items()},
+    )
+
+
+def _miner(total: float, duration: Array, life: Any, counted: Mask) -> float | None:
+    """Life [s] of a cycle of a duration ``total`` [s] from the lives [s] of its rows that are counted; None
+    if one of these lives is unknown.
+    """
+    if life is None:
+        return None
+    return _known(total / np.sum((duration / life)[counted]) if np.any(counted) else math.nan)
+
+
+def _known(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
