@@ -3,33 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers
+from ehlectric.bearing.bearing_discharges import with_films_scaled
 from ehlectric.bearing.bearing_touching import CAPACITIVE, duty_of
 from ehlectric.bearing.changed_bearings import (
     LEAST,
     MOST,
     OWN,
+    PARTS,
     Sampled,
     Several,
     at_speeds,
+    log_of,
     over_parts,
 )
+from ehlectric.bearing.curve_nodes import where_it_bends
 from ehlectric.bearing.film_factor import solved_scales
 from ehlectric.bearing.many_points import single_tables
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.solution import (
-    CONDUCTING,
     BearingSolution,
     lambda_ratio,
-    part_over_summits,
     touching_ratio,
 )
 from ehlectric.cases.bearing_case import BearingCase
@@ -37,19 +38,35 @@ from ehlectric.errors import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 
-# Logarithm of the lambda ratio that is looked for where surfaces part, for smooth films and above summits,
-# where the voltage begins at 0, and how often it is.
-_ABOVE, _ABOVE_SUMMITS, _TRIES = 1e-3, 0.05, 4
+# Largest relative error of a curve between two of its speeds, and least distance of the logarithms of two
+# speeds.
+_BEND, _CLOSEST = 3e-3, 5e-4
 
 
-def over_speed(case: BearingCase, count: int | None = None) -> tuple[list[Speed], list[ResultWarning]]:
-    """Numbers of a bearing at speeds around that of its case, with contacts from the atlas.
+def over_speed(
+    case: BearingCase, count: int | None = None, *, own_ratio: float | None = None
+) -> tuple[list[Speed], list[ResultWarning]]:
+    """Compute the numbers of a bearing at speeds around the speed of its case, with contacts from the atlas.
 
-    ``case``, case of the bearing, whose contacts stay by formula where they are; ``count``, number of speeds
-    in a geometric series, by default that of ``PARTS``. Returns ``points``, speeds of the inner ring [rad/s]
-    with summaries of numbers and inputs, in increasing order; ``left_out``, warnings of what could not be
-    computed, and why: single speeds, breakdown voltages, or everything. Contacts have fewer loads than those
-    of ``solve_bearing``: numbers are within 1e-3 of its.
+    Contacts by formula remain contacts by formula. The loads of the contacts have fewer nodes than in
+    ``solve_bearing``: numbers differ by less than 1e-3.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing.
+    count : int, optional
+        Number of speeds in a geometric series. By default, the speeds of ``PARTS`` are computed, and further
+        speeds between them, until every curve is within 0.3 % of straight lines between its logarithms.
+    own_ratio : float, optional
+        Lambda ratio of the bearing at its own speed, dimensionless, to which the films are scaled.
+
+    Returns
+    -------
+    points : list of tuple
+        Speeds of the inner ring [rad/s] with summaries of numbers and inputs, in increasing order.
+    left_out : list of ResultWarning
+        What could not be computed, and why: single speeds, breakdown voltages, or everything.
 
     Examples
     --------
@@ -76,21 +93,26 @@ def over_speed(case: BearingCase, count: int | None = None) -> tuple[list[Speed]
         left_out.append(ResultWarning.of("speed-left-out", "incomplete", reason=refused))
     if changed is None:
         return [], left_out
+    scaled = changed if own_ratio is None else _with_ratio(changed, own_ratio)
     if count is None:
-        speeds, several = over_parts(changed)
+        speeds, several = over_parts(scaled)
     else:
         speeds = case.bearing.inner_speed * np.geomspace(LEAST, MOST, count)
-        several = at_speeds(changed, speeds)
+        several = at_speeds(scaled, speeds)
     for place, reason in sorted(several.reasons.items()):
         warning = ResultWarning.of("speed-left-out", "one_speed", speed=rpm(speeds[place]), reason=reason)
         left_out.append(warning)
-    points = _points(changed, several)
-    touch = [k for k, (_, summary) in enumerate(points) if _is_conducting(summary)]
-    if touch and touch[-1] + 1 < len(points):
-        low, high = points[touch[-1] : touch[-1] + 2]
-        parted = _parted(changed, low, high)
-        points[touch[-1] + 1 : touch[-1] + 1] = [] if parted is None else [parted]
-    return points, left_out
+    points = dict(_points(changed, several))
+    if count is None and len(points) > 1:
+        _add_bends(points, lambda speeds: _points(changed, at_speeds(scaled, speeds)))
+    return sorted(points.items()), left_out
+
+
+def _with_ratio(case: BearingCase, own_ratio: float) -> BearingCase:
+    """Quick case whose lambda ratio at its own speed is a given one; unchanged without a result there."""
+    _, several = over_parts(case)
+    ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+    return with_films_scaled(case, own_ratio / ratio) if ratio > 0.0 else case
 
 
 def _points(case: BearingCase, several: Several) -> list[Speed]:
@@ -102,32 +124,27 @@ def _points(case: BearingCase, several: Several) -> list[Speed]:
             bearing = {**inputs["bearing"], "inner_speed": speed}
             known = {"converged": True, "inputs": {**inputs, "bearing": bearing}}
             points.append((speed, known | tables))
-    return sorted(points, key=lambda point: point[0])
+    return points
 
 
-def _is_conducting(summary: dict[str, Any]) -> bool:
-    """Whether the surfaces touch, so that no voltage is computed."""
-    return bool(summary["bearing"]["lubrication"] == "conducting")
+def _add_bends(points: dict[float, dict[str, Any]], solved: Callable[[Array], list[Speed]]) -> None:
+    """Add speeds where a curve bends, and where it begins or ends, to points by their speeds [rad/s]."""
+
+    def logs(log: Array) -> Array:
+        """Logarithms of the values at logarithms of speeds, shape (n,) -> (k, n)."""
+        found = dict(solved(np.exp(log)))
+        points.update(found)
+        return log_of(_columns([found.get(speed) for speed in np.exp(log).tolist()]))
+
+    speeds = sorted(points)
+    known = log_of(_columns([points[speed] for speed in speeds]))
+    where_it_bends(logs, np.log(speeds), known, tolerance=_BEND, closest=_CLOSEST)
 
 
-def _parted(case: BearingCase, low: Speed, high: Speed) -> Speed | None:
-    """Point just above the lambda ratio up to which surfaces touch, between two speeds on either side of it;
-    None where not found.
-
-    Between two speeds the lambda ratio is nearly a power of the speed.
-    """
-    touching = float(touching_ratio(case.bearing.summit_height))
-    above = _ABOVE_SUMMITS if touching > CONDUCTING else _ABOVE
-    for _ in range(_TRIES):
-        ratios = [math.log(summary["bearing"]["lambda_ratio"] / touching) for _, summary in (low, high)]
-        if ratios[1] <= above:
-            return None
-        part = (above - ratios[0]) / (ratios[1] - ratios[0])
-        found = _points(case, at_speeds(case, np.array([low[0] * (high[0] / low[0]) ** part])))
-        if not found or not _is_conducting(found[0][1]):
-            return found[0] if found else None
-        low = found[0]
-    return None
+def _columns(summaries: Sequence[Mapping[str, Any] | None]) -> Array:
+    """Values of the curves in summaries, shape (k, n); NaN for None."""
+    values = [[summary and value_of(summary, key) for summary in summaries] for key in _KEYS]
+    return np.array(values, dtype=float)
 
 
 # Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
@@ -137,11 +154,11 @@ Speeds = Sequence[Speed]
 # Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
 _ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
 
-# Voltages that fall to 0 where the film is as thin as its highest summits.
-_OVER_SUMMITS = tuple(_ON_SHAFT)
+# Number of nodes of a whole curve, at least, between which straight lines are drawn.
+_NODES = 400
 
-# Number of nodes of a curve between two speeds.
-_PARTS = 32
+# Number of speeds from which on a curve is computed everywhere: ``over_speed`` halves each of its intervals.
+_FEW = 2 * len(PARTS) - 1
 
 _KEYS = (
     "capacitance",
@@ -172,27 +189,21 @@ class Curves:
     def __getitem__(self, key: str) -> Array:
         return self.values[key]
 
+    @property
+    def few(self) -> bool:
+        """Whether a figure marks each speed, because the curve between the speeds is not computed."""
+        return self.speed.size < _FEW
+
     def at(self, key: str, speed: float | Array) -> Any:
-        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN beside a missing value.
-
-        Of a breakdown voltage that of the smooth film is a power, times what the summits leave of the film.
-        """
-        if key not in _OVER_SUMMITS or not self.summit_height:
-            return self._between(speed, self.values[key])
-        ratio = self.values["lambda_ratio"] / self.scaled.get("lambda_ratio", 1.0)
-        part = partial(part_over_summits, summit_height=self.summit_height)
-        return self._between(speed, self.values[key] / part(ratio)) * part(self._between(speed, ratio))
-
-    def _between(self, speed: float | Array, known: Array) -> Any:
-        """Value at a speed [rad/s] that is a power of it between two speeds with known values."""
-        return np.exp(np.interp(np.log(speed), np.log(self.speed), np.log(known)))
+        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN next to a missing value."""
+        return np.exp(np.interp(np.log(speed), np.log(self.speed), np.log(self.values[key])))
 
     def between(self, key: str) -> tuple[Array, Array]:
         """Speeds [rad/s] and values at nodes between them; NaN between two speeds that lack one value."""
-        log = np.log(self.speed)
-        cells = [np.linspace(a, b, _PARTS, endpoint=False) for a, b in pairwise(log)]
+        log, parts = np.log(self.speed), -(-_NODES // self.speed.size)
+        cells = [np.linspace(a, b, parts, endpoint=False) for a, b in pairwise(log)]
         nodes = np.exp(np.append(np.concatenate([np.empty(0), *cells]), log[-1]))
-        nodes[::_PARTS] = self.speed
+        nodes[::parts] = self.speed
         return nodes, np.asarray(self.at(key, nodes))
 
 
@@ -208,7 +219,7 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     ordered = sorted(points, key=lambda point: point[0])
     speed = np.array([at for at, _ in ordered])
     height = ordered[0][1]["inputs"]["bearing"].get("summit_height", 0.0) if ordered else 0.0
-    columns = {key: _column(ordered, key) for key in _KEYS}
+    columns = dict(zip(_KEYS, _columns([summary for _, summary in ordered]), strict=True))
     plain = Curves(speed, columns, dict.fromkeys(_KEYS, 1.0), summit_height=height)
     if own is None:
         return plain
@@ -217,6 +228,14 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     critical, touching = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
     values = {key: factors[key] * plain[key] for key in _KEYS}
     return Curves(speed, values, factors, critical, touching, height)
+
+
+def listed(points: Speeds, own: float) -> list[Speed]:
+    """Points for a table: all of a few, else those at the speeds of ``PARTS`` times the own speed [rad/s]."""
+    if len(points) < _FEW:
+        return list(points)
+    parts = np.log(PARTS)
+    return [point for point in points if np.min(np.abs(np.log(point[0] / own) - parts)) < _CLOSEST / 4.0]
 
 
 def value_of(summary: Mapping[str, Any], key: str) -> Any:
@@ -228,12 +247,6 @@ def value_of(summary: Mapping[str, Any], key: str) -> Any:
 def is_coated(points: Speeds) -> bool:
     """Whether a bearing has a coating on a ring."""
     return any(summary["bearing"].get("coating_capacitance") is not None for _, summary in points)
-
-
-def _column(ordered: Speeds, key: str) -> Array:
-    """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
-    values = [value_of(summary, key) for _, summary in ordered]
-    return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
 def _factor(curves: Curves, key: str, own: Speed) -> float:

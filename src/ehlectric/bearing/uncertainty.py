@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin
 from ehlectric.bearing.changed_bearings import LEAST, MOST
+from ehlectric.bearing.curve_nodes import where_it_bends
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
 from ehlectric.bearing.many_points import gathered, many_of, solved_parts
 from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, margin_and_lambda
@@ -40,8 +41,12 @@ INTERVAL = (0.05, 0.5, 0.95)
 # Standard deviations of a normal distribution within which the sampling error is at a confidence of 95 %.
 _CONFIDENCE = 1.959963984540054
 
-# Speeds at which the probability is computed for its curve, and points at each of them, a power of 2.
-_SPEEDS, _AT_EACH = 12, 128
+# Speeds at which the margin is computed at first for its curve, and points at each speed, a power of 2.
+_SPEEDS, _AT_EACH = 7, 128
+
+# Largest error of the logarithms of quantiles between two speeds, least distance of the logarithms of two
+# speeds, and least quantile that is drawn.
+_BEND, _CLOSEST, _DRAWN = 0.05, 0.05, 0.05
 
 # Reason for which a bearing has no distribution of its margin.
 NO_MARGINS = "the margin has no value within the ranges of the inputs"
@@ -446,18 +451,54 @@ def margin_band(
     *,
     seed: int = SEED,
 ) -> MarginBand:
-    """Margin over the speed, from a tenth of that of the case to four times it, within what is uncertain.
+    """Compute the margin at speeds from a tenth of the speed of the case to four times it, within what is
+    uncertain.
 
     The temperature does not change with the speed. Every speed has the same 128 points of the other inputs.
+    By default, speeds are added until straight lines between the logarithms of the quantiles are within 5 %.
     """
-    own = solution.case.bearing.inner_speed
-    speed = own * np.geomspace(LEAST, MOST, _SPEEDS) if speeds is None else np.asarray(speeds, dtype=float)
     design = Design.of(solution)
     at = sobol_points(design.width, _AT_EACH, seed)
-    many = np.tile(at, (speed.size, 1))
-    computed = _computed(design, margins, many, np.repeat(speed, _AT_EACH))
-    rows = _with_factors(design, computed, many).reshape(speed.size, _AT_EACH)
-    known = np.any(np.isfinite(rows), axis=1)
-    low, median, high = np.nanquantile(rows[known], INTERVAL, axis=1)
-    below = np.nanmean(np.where(np.isfinite(rows[known]), rows[known] < 1.0, np.nan), axis=1)
-    return MarginBand(speed[known], low, median, high, below)
+
+    def quantiles(speed: Array) -> Array:
+        """Quantiles of ``INTERVAL`` and probability of a margin below 1, shape (4, n); NaN without any."""
+        computed = _computed(design, margins, np.tile(at, (speed.size, 1)), np.repeat(speed, _AT_EACH))
+        rows = _with_factors(design, computed, np.tile(at, (speed.size, 1))).reshape(speed.size, _AT_EACH)
+        found = np.full((len(INTERVAL) + 1, speed.size), np.nan)
+        known = np.any(np.isfinite(rows), axis=1)
+        found[:-1, known] = np.nanquantile(rows[known], INTERVAL, axis=1)
+        below = np.where(np.isfinite(rows[known]), rows[known] < 1.0, np.nan)
+        found[-1, known] = np.nanmean(below, axis=1)
+        return found
+
+    if speeds is not None:
+        speed = np.asarray(speeds, dtype=float)
+        found = quantiles(speed)
+    else:
+        own = solution.case.bearing.inner_speed
+        speed, found = _drawn_quantiles(quantiles, own * np.geomspace(LEAST, MOST, _SPEEDS))
+    known = np.isfinite(found[0])
+    return MarginBand(speed[known], *found[:, known])
+
+
+def _drawn_quantiles(quantiles: Callable[[Array], Array], speed: Array) -> tuple[Array, Array]:
+    """Return the given speeds [rad/s] with further ones where a quantile bends, shape (n,), and the quantiles
+    with the probability at all of them, shape (4, n).
+    """
+    speeds, columns = [speed], [quantiles(speed)]
+
+    def logs(log: Array) -> Array:
+        """Logarithms of the quantiles at logarithms of further speeds, shape (3, n)."""
+        speeds.append(np.exp(log))
+        columns.append(quantiles(speeds[-1]))
+        return _drawn(columns[-1])
+
+    where_it_bends(logs, np.log(speed), _drawn(columns[0]), tolerance=_BEND, closest=_CLOSEST)
+    every, found = np.concatenate(speeds), np.concatenate(columns, axis=1)
+    order = np.argsort(every)
+    return every[order], found[:, order]
+
+
+def _drawn(found: Array) -> Array:
+    """Logarithms of the quantiles that a figure shows, shape (3, n)."""
+    return np.asarray(np.log(np.maximum(found[:-1], _DRAWN)))

@@ -16,7 +16,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_touching import duty_of, time_text
 from ehlectric.bearing.impedance import impedance_of, shaft_capacitance
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_text, lubrication
+from ehlectric.bearing.solution import lambda_ratio, lambda_text, lubrication
 from ehlectric.bearing.speed_curves import (
     Curves,
     Speed,
@@ -347,7 +347,7 @@ def figure(result: BearingResult, name: str) -> Figure:
     drawings = bearing_figures_of(result)
     (name,) = in_formats([name])
     if name in SPEED_FIGURES:
-        points, _ = over_speed(result.case)
+        points, _ = over_speed(result.case, own_ratio=_own_ratio(result))
         return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
     voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
@@ -412,7 +412,7 @@ def save_over_speed(
     Returns ``files``, files written; none where its quick contacts have no speed; ``left_out``, speeds that
     are left out, and why.
     """
-    points, left_out = over_speed(result.case)
+    points, left_out = over_speed(result.case, own_ratio=_own_ratio(result))
     if not points:
         return [], left_out
     own = _own_speed(result)
@@ -429,6 +429,11 @@ def _speed_drawings(points: Speeds) -> dict[str, SpeedDrawing]:
 def _own_speed(result: BearingResult) -> Speed:
     """Speed of the inner ring of a bearing [rad/s], and its summary."""
     return result.case.bearing.inner_speed, result.summary()
+
+
+def _own_ratio(result: BearingResult) -> float:
+    """Lambda ratio of a bearing at its own speed, to which films at other speeds are scaled."""
+    return float(lambda_ratio(result.solution))
 
 
 def _lines_over_speed(result: BearingResult) -> str:

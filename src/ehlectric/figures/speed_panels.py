@@ -150,7 +150,7 @@ def _curves(
     if np.any(np.isfinite(curves[key])):
         nodes, between = curves.between(key)
         yield Curve(name, nodes / RPM, factor * between, *look)
-        if dots:
+        if dots and curves.few:
             yield Curve("", curves.speed / RPM, factor * curves[key], look[0], marker="dots")
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, regime, touches, touching_ratio
-from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
+from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of, listed
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
@@ -222,18 +222,20 @@ def _figure(over: OverSpeed, panel: Panel) -> Plot:
 
 
 def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
-    """Cells of the table over the speed, a row for each speed."""
+    """Cells of the table over the speed, a row for each speed that is listed."""
     rows = []
-    for k, (speed, summary) in enumerate(sorted(over.points, key=lambda point: point[0])):
-        first, shaft = (float(over.curves[key][k]) for key in ("first_break", "shaft_voltage"))
+    for speed, summary in listed(over.points, over.own[0]):
+        place = int(np.searchsorted(over.curves.speed, speed))
+        first, shaft, lambda_ratio, *capacitances = (
+            float(over.curves[key][place])
+            for key in ("first_break", "shaft_voltage", "lambda_ratio", "capacitance_air", "capacitance_oil")
+        )
         ratio = first / shaft if math.isfinite(first) and math.isfinite(shaft) else math.nan
-        lambda_ratio = float(over.curves["lambda_ratio"][k])
-        capacitances = (1e12 * float(over.curves[f"capacitance_{key}"][k]) for key in ("air", "oil"))
         rows.append(
             (
                 rpm_text(speed),
                 f"{lambda_ratio:.3g}",
-                *(f"{value:.4g}" for value in capacitances),
+                *(f"{1e12 * value:.4g}" for value in capacitances),
                 *(f"{value:.4g}" if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
                 _state(lambda_ratio, summary["bearing"]["lubrication"], over.curves.summit_height),
             )

@@ -373,7 +373,7 @@ def answer_of(
     warnings = result.warnings
     figures = _figures(result, summary) if result.converged else {}
     if whole and result.converged:
-        points, left_out = over_speed(result.case)
+        points, left_out = over_speed(result.case, own_ratio=summary["bearing"]["lambda_ratio"])
         warnings += tuple(left_out)
         own = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)

@@ -89,7 +89,7 @@ _OVER_SPEED = ("first_break", "shaft_voltage")
 
 def _over_speed(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[OverSpeed]:
     """First breakdown voltage and shaft voltage over the speed; none where no other speed is solved."""
-    points, _ = over_speed(case)
+    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
     if len(points) < 2:
         return
     at = case.bearing.inner_speed

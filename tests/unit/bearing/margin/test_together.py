@@ -15,7 +15,7 @@ from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, lambda_ratio
 from ehlectric.bearing.solving import quick_solution
-from ehlectric.bearing.speed_curves import over_speed
+from ehlectric.bearing.speed_curves import listed, over_speed
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.unit.bearing.intermittency.test_duty import THIN
@@ -126,6 +126,7 @@ def test_numbers_over_the_speed_are_those_of_whole_bearings():
     case = bearing_case(BALLS, contacts="formula")
     points, left_out = over_speed(case)
     assert not left_out
+    points = listed(points, case.bearing.inner_speed)
     assert [speed / case.bearing.inner_speed for speed, _ in points] == pytest.approx(PARTS)
     for speed, summary in (points[0], points[8], points[-1]):
         own = solve_bearing(case.replace({SPEED: speed}), workers=1).summary()

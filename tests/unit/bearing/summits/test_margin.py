@@ -1,8 +1,6 @@
 """Margins of bearings with summits: their range, films that are uncertain, speeds, and drives."""
 
 import dataclasses
-import itertools
-import math
 
 import numpy as np
 import pytest
@@ -125,20 +123,20 @@ def test_critical_and_touching_speed_are_those_of_bearings_at_them(rough):
     assert first_margin(own[1]) < 0.02
 
 
-def test_curves_are_powers_less_the_summits():
-    """A smooth voltage that is proportional to the film, and a film that is a power of the speed."""
+def test_curves_between_few_speeds_stay_between_their_values():
+    """A film that is a power of the speed, and a voltage that is 0 where the summits part."""
     speed = np.geomspace(10.0, 1000.0, 4)
 
     def ratio(at):
         return 3.0 * (at / 10.0) ** 0.7
 
-    def voltage(at):
-        return 0.5 * (ratio(at) - 2.0)
-
-    values = {"lambda_ratio": ratio(speed), "first_break": voltage(speed)}
+    values = {"lambda_ratio": ratio(speed), "first_break": 0.5 * (ratio(speed) - 2.0)}
     curves = Curves(speed, values, {}, summit_height=2.0)
     at = np.geomspace(10.0, 1000.0, 50)
-    np.testing.assert_allclose(curves.at("first_break", at), voltage(at), rtol=1e-9)
+    np.testing.assert_allclose(curves.at("lambda_ratio", at), ratio(at), rtol=1e-9)
+    drawn, place = curves.at("first_break", at), np.minimum(np.searchsorted(speed, at, side="right"), 3)
+    ends = values["first_break"][place - 1], values["first_break"][place]
+    assert np.all((drawn > (1.0 - 1e-9) * ends[0]) & (drawn < (1.0 + 1e-9) * ends[1]))
     assert opening_speed_of(curves) is None
     touching = Curves(speed, values | {"lambda_ratio": 0.5 * ratio(speed)}, {}, summit_height=2.0)
     assert opening_speed_of(touching) == pytest.approx(10.0 * (4.0 / 3.0) ** (1.0 / 0.7), rel=1e-6)
@@ -149,11 +147,9 @@ def test_curves_over_the_speed_are_near_bearings_between_their_speeds():
     assert not left_out
     curves = curves_of(points)
     with_voltage = curves.speed[np.isfinite(curves["first_break"])]
-    # Just above the speed at which the voltage begins at 0, a further speed is computed.
-    ratios = [summary["bearing"]["lambda_ratio"] for _, summary in points]
-    assert any(2.0 < ratio < 2.11 for ratio in ratios)
-    for low, high in itertools.pairwise(with_voltage[:4].tolist()):
-        at = math.sqrt(low * high)
+    # The curve begins where the summits part.
+    assert curves.at("lambda_ratio", with_voltage[0]) == pytest.approx(2.0, rel=1e-3)
+    for at in (with_voltage[0] * np.array([1.01, 1.1, 1.5])).tolist():
         found = solve_bearing(case(**{SPEED: at}), workers=1).breaks()["first_break"]
         assert curves.at("first_break", at) == pytest.approx(found, rel=0.02)
 
