@@ -72,7 +72,7 @@ def test_a_simulation_has_the_numbers_of_the_command_and_a_remedy_stands_beside_
     seen(page, "figure-remedies").wait_for()
     table = page.get_by_test_id("remedies-table")
     table.get_by_text("Grounding ring").wait_for()
-    assert table.locator("tbody tr").count() == 2
+    assert table.locator("tbody tr").count() == 6, "both bearings and their sum, of the drive and the ring"
     # Further figures are drawn when their place is opened, one at a time.
     further = page.get_by_test_id("figure-further")
     assert not further.is_visible()

@@ -99,9 +99,6 @@ class _Result(Protocol):
 
 R = TypeVar("R", bound=_Result)
 
-# Attributes of a file with the numbers of a duty cycle and with its warnings.
-_NUMBERS, _WARNINGS = "duty", "duty_warnings"
-
 
 @dataclass(frozen=True)
 class StoredDuty(Generic[R]):
@@ -114,10 +111,11 @@ class StoredDuty(Generic[R]):
     lists: Mapping[str, type[Any]]  # class of the objects of a list, by the name of its field
     # Lists that files of version 1.0 do not contain; the field then keeps its default.
     later: Mapping[str, type[Any]] = field(default_factory=dict)
+    name: str = "duty"  # of the attribute with the numbers, and before the names of all others
 
     @cached_property
     def _part(self) -> Part:
-        return Part(self.rows, prefix="duty_")
+        return Part(self.rows, prefix=f"{self.name}_")
 
     def variables(self, duty: R | None) -> dict[str, Any]:
         """Variables of the rows; none without a duty cycle."""
@@ -128,28 +126,29 @@ class StoredDuty(Generic[R]):
         if duty is None:
             return {}
         names = (*self.lists, *self.later)
-        lists = {f"duty_{name}": many_numbers_of(getattr(duty, name)) for name in names}
-        return {_NUMBERS: numbers_of(duty), _WARNINGS: json.dumps(texts_and_codes(duty.warnings)), **lists}
+        lists = {f"{self.name}_{name}": many_numbers_of(getattr(duty, name)) for name in names}
+        told = json.dumps(texts_and_codes(duty.warnings))
+        return {self.name: numbers_of(duty), f"{self.name}_warnings": told, **lists}
 
     def read(self, dataset: xr.Dataset) -> R | None:
         """Duty cycle with these variables and attributes; None without one. Raises UnfitError where one is
         missing, or is not as it was written.
         """
         attributes = dataset.attrs
-        if _NUMBERS not in attributes:
+        if self.name not in attributes:
             return None
         check_parts(dataset, [self._part])
         found = self._part.read(values_of(dataset))
         if np.any(found["state"] >= len(STATES)):
-            raise UnfitError("duty_state is no state")
-        known = {name: kind for name, kind in self.later.items() if f"duty_{name}" in attributes}
+            raise UnfitError(f"{self.name}_state is no state")
+        known = {name: kind for name, kind in self.later.items() if f"{self.name}_{name}" in attributes}
         lists: dict[str, Any] = {
-            name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"duty_{name}"))
+            name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"{self.name}_{name}"))
             for name, kind in {**self.lists, **known}.items()
         }
         return self.kind(
             rows=self.rows(**found),
             **lists,
-            **read_numbers(self.kind, attributes, _NUMBERS),
-            warnings=warnings_in_tables(attributes, depth=0, name=_WARNINGS),
+            **read_numbers(self.kind, attributes, self.name),
+            warnings=warnings_in_tables(attributes, depth=0, name=f"{self.name}_warnings"),
         )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -16,12 +17,11 @@ from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
-from ehlectric.drive.summary import drive_summary, whole_summary
+from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.warnings import drive_warnings
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
-from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
@@ -46,6 +46,8 @@ class DriveResult(Shown):
         Title, changes and solution of each remedy.
     duty : DriveDuty, optional
         Expected discharges over the duty cycle of the case.
+    remedy_duties : tuple of DriveDuty
+        Expected discharges over the duty cycle with each remedy; empty without a duty cycle.
     seconds : float
         Computing time [s].
     version : str
@@ -57,6 +59,7 @@ class DriveResult(Shown):
     duty: DriveDuty | None = None
     seconds: float = field(default=0.0, compare=False)
     version: str = __version__
+    remedy_duties: tuple[DriveDuty, ...] = ()
 
     @property
     def case(self) -> DriveCase:
@@ -82,13 +85,18 @@ class DriveResult(Shown):
 
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
-        remedies = [(title, changes, drive_summary(found)) for title, changes, found in self.remedies]
+        remedies = [(one.title, one.changes, one.tables) for one in self.variants]
         summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
-        if self.duty is not None:
-            summary["duty"] = plain(self.duty.summary())
-            for b, end in enumerate(ENDS):
-                summary[end] |= plain(self.duty.end_summary(b))
-        return summary
+        return summary if self.duty is None else with_cycle(summary, self.duty)
+
+    @property
+    def variants(self) -> tuple[Variant, ...]:
+        """Remedies with what they change, in the order of the case."""
+        duties = self.remedy_duties or (None,) * len(self.remedies)
+        return tuple(
+            Variant(title, changes, DriveResult(found, duty=duty))
+            for (title, changes, found), duty in zip(self.remedies, duties, strict=True)
+        )
 
     def events(self) -> list[dict[str, Any]]:
         """Table of discharges in the order of time, SI units; the first 200 000 of them.
@@ -151,7 +159,8 @@ class DriveResult(Shown):
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of the result, as drive.nc holds it; SI units."""
-        return dataset_of(self.solution, self.remedies, self.duty, self.seconds, self.version)
+        duties = (self.duty, *self.remedy_duties)
+        return dataset_of(self.solution, self.remedies, duties, self.seconds, self.version)
 
     def _headline(self) -> str:
         found = drive_summary(self.solution)
@@ -163,6 +172,21 @@ class DriveResult(Shown):
             ),
             "converged" if self.converged else "NOT CONVERGED",
         )
+
+
+@dataclass(frozen=True)
+class Variant:
+    """Remedy of a drive: title, changes by dotted key, and the result of the changed drive."""
+
+    title: str
+    changes: dict[str, Any]
+    result: DriveResult
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Tables of the changed drive, with its duty cycle if it has one; SI units."""
+        tables, duty = drive_summary(self.result.solution), self.result.duty
+        return tables if duty is None else with_cycle(tables, duty)
 
 
 def _parts(report: Progress, number: int) -> Iterator[Progress]:
@@ -180,8 +204,8 @@ def solve_drive(
 ) -> DriveResult:
     """Solve a drive: its bearings, the voltage across their films over time, and their discharges.
 
-    The remedies of the case are solved beside it, with the same random numbers. With a duty cycle, some of
-    its rows are simulated as well.
+    The remedies of the case are solved as well, with the same random numbers. With a duty cycle, some of
+    its rows are simulated, for the drive and for each remedy.
 
     Parameters
     ----------
@@ -209,13 +233,30 @@ def solve_drive(
     start, report = time.perf_counter(), progress or silent
     # A mistake in a remedy is told before the drive itself takes its time.
     variants = case.variants()
-    parts = _parts(report, 1 + len(variants) + (case.duty is not None))
+    parts = _parts(report, (1 + len(variants)) * (1 if case.duty is None else 2))
     solution = solve(case, next(parts), workers=workers)
     remedies = tuple(
         (one.title, dict(one.changes), solve(variant, next(parts), workers=workers))
         for one, variant in zip(case.remedies, variants, strict=True)
     )
-    duty = None
-    if case.duty is not None:
-        duty = run_drive_cycle(case, solution.highest_source, partial(solve, workers=workers), next(parts))
-    return replace(DriveResult(solution, remedies, duty), seconds=time.perf_counter() - start)
+    duty, *others = _duties(
+        [(case, solution), *((one, found) for one, (*_, found) in zip(variants, remedies, strict=True))],
+        partial(solve, workers=workers),
+        parts,
+    )
+    result = DriveResult(solution, remedies, duty, remedy_duties=tuple(filter(None, others)))
+    return replace(result, seconds=time.perf_counter() - start)
+
+
+def _duties(
+    drives: Sequence[tuple[DriveCase, DriveSolution]],
+    solve: Callable[[DriveCase], DriveSolution],
+    parts: Iterator[Progress],
+) -> Iterator[DriveDuty | None]:
+    """Duty cycle of a drive, and of each remedy; None without one."""
+    for number, (case, found) in enumerate(drives):
+        if case.duty is None:
+            yield None
+            continue
+        with within(f"remedies.{number}.changes") if number else nullcontext():
+            yield run_drive_cycle(case, found.highest_source, solve, next(parts))

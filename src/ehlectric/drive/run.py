@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.stored import SCHEMA, duty_of, parts_of
+from ehlectric.drive.stored import SCHEMA, duties_of, parts_of
 from ehlectric.quantities.results import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
@@ -84,4 +84,5 @@ def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:
     check_format(dataset.attrs, SCHEMA, path, "the result of a drive")
     with refusing(path):
         solution, remedies, seconds, version = parts_of(dataset)
-        return DriveResult(solution, tuple(remedies), duty_of(dataset), seconds, version)
+        duty, others = duties_of(dataset, len(remedies))
+        return DriveResult(solution, tuple(remedies), duty, seconds, version, others)

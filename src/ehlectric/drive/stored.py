@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -83,9 +83,14 @@ _PARTS = (_SOLUTION, _RECORD, _EVENTS, _SAMPLES, _ELEMENT, _PATH)
 
 
 def dataset_of(
-    solution: DriveSolution, remedies: Remedies, duty: DriveDuty | None, seconds: float, version: str
+    solution: DriveSolution,
+    remedies: Remedies,
+    duties: Sequence[DriveDuty | None],
+    seconds: float,
+    version: str,
 ) -> xr.Dataset:
-    """Dataset of a result of a drive, SI units.
+    """Dataset of a result of a drive, SI units. ``duties``, results of the duty cycle of the drive and of
+    each remedy; None without one.
 
     Its variables are over the drive and its remedies, both bearings, events, bins of the voltage, lines of
     the spectrum and samples of the trace. Its attributes hold the case, so that ``parts_of`` returns equal
@@ -105,7 +110,7 @@ def dataset_of(
             **_SAMPLES.written([_Samples(one[:, 0], one[:, 1], one[:, 2:]) for one in traces]),
             **_ELEMENT.written(elements),
             **_PATH.written([[one.path for one in pair] for pair in elements]),
-            **_DUTY.variables(duty),
+            **{key: one for k, duty in enumerate(duties) for key, one in _duty(k).variables(duty).items()},
         },
         coords={_END: list(ENDS), "limit": ("limit", records[0].limits, {"units": "V"})},
         attrs={
@@ -114,18 +119,34 @@ def dataset_of(
             "case": solution.case.to_toml(),
             "seconds": seconds,
             TEXTS: json.dumps([texts_and_codes(one.told) for one in solutions]),
-            **_DUTY.attributes(duty),
+            **{key: one for k, duty in enumerate(duties) for key, one in _duty(k).attributes(duty).items()},
         },
     )
 
 
-def duty_of(dataset: xr.Dataset) -> DriveDuty | None:
-    """Result of the duty cycle in a dataset that ``dataset_of`` made; None without one. Raises UnfitError
-    where a variable or an attribute is missing, or is not as it was written.
+def _duty(variant: int) -> StoredDuty[DriveDuty]:
+    """Duty cycle of the drive, or of a remedy by its number from 1."""
+    return replace(_DUTY, name=f"remedy_{variant}_duty") if variant else _DUTY
+
+
+def duties_of(dataset: xr.Dataset, remedies: int) -> tuple[DriveDuty | None, tuple[DriveDuty, ...]]:
+    """Results of the duty cycle of a drive, None without one, and of each of its remedies, in a dataset that
+    ``dataset_of`` made. Files of version 1.0 have no cycles of remedies.
+
+    Raises UnfitError if a variable or an attribute is missing, or is not as it was written.
     """
-    duty = _DUTY.read(dataset)
+    own, *others = (_duty_of(dataset, variant) for variant in range(1 + remedies))
+    known = tuple(one for one in others if one is not None)
+    if len(known) not in (0, remedies):
+        raise UnfitError("some remedies have no duty cycle")
+    return own, known
+
+
+def _duty_of(dataset: xr.Dataset, variant: int) -> DriveDuty | None:
+    """Result of the duty cycle of the drive, or of a remedy by its number from 1; None without one."""
+    duty = _duty(variant).read(dataset)
     if duty is not None and any(len(one) != len(ENDS) for one in (duty.discharges, duty.energy, duty.lives)):
-        raise UnfitError("duty_discharges, duty_energy or duty_lives has not the values of two bearings")
+        raise UnfitError("discharges, energy or lives of a duty cycle have not the values of two bearings")
     return duty
 
 

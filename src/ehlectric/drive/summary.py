@@ -19,6 +19,7 @@ from ehlectric.drive.drive_record import (
     ON,
     VALUES,
     DriveSolution,
+    Rate,
     Record,
     event_rate,
     spread,
@@ -30,9 +31,13 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
+    from ehlectric.drive.drive_cycle import DriveDuty
     from ehlectric.drive.solver import PreparedDrive
 
 SCHEMA = "ehlectric.drive/1"
+
+# Ends of the keys of a rate and of its bounds, by the names of its fields.
+_BOUNDS: Mapping[str, str] = {"mean": "", "low": "_low", "high": "_high"}
 
 
 def drive_summary(solution: DriveSolution) -> dict[str, Any]:
@@ -44,7 +49,7 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
         "duration": record.duration,
         "periods": None if fundamental is None else record.duration * fundamental,
         "seed": case.drive.seed,
-        **{key: sum(one[key] for one in ends.values()) for key in ("events", "events_per_second", "power")},
+        **both_summary(solution),
     }
     tables = _tables(case, solution.highest_source, drive, ends)
     tables["source"] |= plain({"peak_to_peak": record.source_highest - record.source_lowest})
@@ -86,6 +91,22 @@ def edges_per_second(case: DriveCase) -> float | None:
     """Steps of the common-mode voltage in a second [1/s]; None for a measured source."""
     source = case.running_source
     return None if source.measured else edge_rate(source)
+
+
+def both_summary(solution: DriveSolution) -> dict[str, Any]:
+    """Return the discharges of both bearings together: number, rate with its bounds, and power."""
+    record = solution.record
+    counts = np.sum(record.counts, axis=0)
+    return {
+        "events": int(np.sum(counts)),
+        **_rates(event_rate(counts, record.duration)),
+        "power": float(np.sum(record.sums[:, ENERGY])) / record.duration,
+    }
+
+
+def _rates(rate: Rate) -> dict[str, float]:
+    """Rate of discharges with its bounds of 95 %."""
+    return {f"events_per_second{bound}": getattr(rate, name) for name, bound in _BOUNDS.items()}
 
 
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
@@ -145,9 +166,7 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
     own = record.events[record.events[:, FILM] == b]
     found: dict[str, Any] = {
         "events": count,
-        "events_per_second": rate.mean,
-        "events_per_second_low": rate.low,
-        "events_per_second_high": rate.high,
+        **_rates(rate),
         "events_per_second_positive": float(record.positive[b]) / record.duration,
         "events_per_second_negative": (count - float(record.positive[b])) / record.duration,
         "events_per_edge": None if edges is None else rate.mean / edges,
@@ -182,6 +201,25 @@ def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:
     }
 
 
+def with_cycle(tables: dict[str, Any], duty: DriveDuty) -> dict[str, Any]:
+    """Return the tables of a drive with the values of its duty cycle."""
+    ends = {end: tables[end] | plain(duty.end_summary(b)) for b, end in enumerate(ENDS)}
+    return {**tables, "duty": plain(duty.summary()), **ends}
+
+
+# Keys of the tables "drive" and "duty" that a remedy has: sums of both bearings.
+_OF_BOTH = ("events", *(f"events_per_second{bound}" for bound in _BOUNDS.values()), "power")
+_OF_CYCLE = ("discharges", "energy", "left_out_share")
+
+
+def _remedy_tables(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a remedy, from those of its drive: both bearings, and their sums."""
+    tables = {end: found[end] for end in ENDS} | {"drive": {key: found["drive"][key] for key in _OF_BOTH}}
+    if "duty" in found:
+        tables["duty"] = {key: found["duty"][key] for key in _OF_CYCLE}
+    return tables
+
+
 def whole_summary(
     solution: DriveSolution,
     remedies: Sequence[tuple[str, dict[str, Any], dict[str, Any]]],
@@ -205,7 +243,7 @@ def whole_summary(
         "inputs": solution.case.to_dict(),
         **tables,
         "remedies": [
-            {"title": title, "changes": changes, **{end: found[end] for end in ENDS}}
+            {"title": title, "changes": changes, **_remedy_tables(found)}
             for title, changes, found in remedies
         ],
         "seconds": seconds,

@@ -20,7 +20,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocato
 from ehlectric.arrays import Array
 from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.summary import end_summary
+from ehlectric.drive.summary import both_summary, end_summary
 from ehlectric.figures.bearing_figures import prefixed
 from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel
@@ -129,8 +129,8 @@ def remedies(result: DriveResult) -> str:
     """Sentence: which remedy has the fewest discharges, compared with the drive as it is."""
     rows = list(variants(result))
     (_, unchanged), *others = rows
-    rates = [sum(end["events_per_second"] for end in pair) for _, pair in others]
-    least, now = min(rates), sum(end["events_per_second"] for end in unchanged)
+    rates = [both["events_per_second"] for _, (*_, both) in others]
+    least, now = min(rates), unchanged[-1]["events_per_second"]
     best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
     if not now + max(rates):
         highest = max(end["events_per_second_high"] for _, pair in rows for end in pair)
@@ -349,17 +349,21 @@ def highest_lines(result: DriveResult) -> tuple[Array, Array]:
     return kept / result.solution.record.duration, np.maximum(amplitudes[kept], least)
 
 
-# Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row.
-_LETTERS, _LINES, _BESIDE = 20, 2, 0.16
+# Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row, where
+# their sum is.
+_LETTERS, _LINES, _BESIDE = 20, 2, 0.24
 
 AS_IT_IS = "as it is"
 
+# Colour, marker and name of each bearing and of both together.
+RATES = ((BLUE, "o", NAMES[0]), (ORANGE, "s", NAMES[1]), (BLACK, "D", "both bearings"))
+
 
 def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
-    """Name, and summary of both bearings, of the drive as it is and of each remedy."""
+    """Name, and summaries of the drive as it is and of each remedy: of each bearing, and of their sums."""
     solutions = [(AS_IT_IS, result.solution), *((title, found) for title, _, found in result.remedies)]
     for name, solution in solutions:
-        yield name, [end_summary(solution, b) for b in range(len(ENDS))]
+        yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), both_summary(solution)]
 
 
 def rates(result: DriveResult, ax: Axes) -> None:
@@ -376,11 +380,12 @@ def rates(result: DriveResult, ax: Axes) -> None:
     for row, (_, pair) in enumerate(rows):
         for b, end in enumerate(pair):
             at = _place(row, b)
-            look: dict[str, Any] = {"color": COLOURS[b], "lw": 1.3}
+            colour, marker, _ = RATES[b]
+            look: dict[str, Any] = {"color": colour, "lw": 1.3}
             low, high = end["events_per_second_low"], end["events_per_second_high"]
             if end["events"]:
                 ax.plot([max(low, bottom), high], [at, at], **look)
-                ax.plot([end["events_per_second"]], [at], marker="os"[b], ms=5.0, **look)
+                ax.plot([end["events_per_second"]], [at], marker=marker, ms=4.5, **look)
             else:
                 ax.plot([bottom, high], [at, at], ls=":", **look)
                 ax.plot([high], [at], marker="<", ms=5.5, mfc="white", **look)
@@ -392,9 +397,9 @@ def rates(result: DriveResult, ax: Axes) -> None:
 def energies(result: DriveResult, ax: Axes) -> None:
     """Draw the mean energy of a discharge of the drive and of each remedy in its row."""
     rows = list(variants(result))
-    found = [end["energy_mean"] for _, pair in rows for end in pair if end["events"]]
+    found = [end["energy_mean"] for _, (*pair, _) in rows for end in pair if end["events"]]
     factor, unit = unit_for(max(found, default=1e-9), "J", least=1.0)
-    for row, (_, pair) in enumerate(rows):
+    for row, (_, (*pair, _)) in enumerate(rows):
         for b, end in enumerate(pair):
             if end["events"]:
                 ax.plot(
@@ -415,15 +420,15 @@ def energies(result: DriveResult, ax: Axes) -> None:
 def legend_of_remedies(axes: list[Axes]) -> None:
     """Legend above the first panel: both bearings, and the bounds."""
     handles = [
-        Line2D([], [], color=COLOURS[b], marker="os"[b], ms=5.0, lw=1.3, label=f"{NAMES[b]}, bounds of 95 %")
-        for b in range(2)
+        Line2D([], [], color=colour, marker=marker, ms=4.5, lw=1.3, label=f"{name}, bounds of 95 %")
+        for colour, marker, name in RATES
     ]
     legend_above(axes[0], handles, columns=1)
 
 
 def _place(row: int, b: int) -> float:
-    """Height of a bearing in its row."""
-    return row + (_BESIDE if b else -_BESIDE)
+    """Height of a bearing in its row, between those of the bearings the height of their sum."""
+    return row + (-_BESIDE, _BESIDE, 0.0)[b]
 
 
 def _rows(ax: Axes, names: list[str]) -> None:

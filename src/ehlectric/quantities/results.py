@@ -132,10 +132,22 @@ _ENDS: Keys = {
     for end, words in NAMES_OF_ENDS.items()
     for name, one in _within("end", _DRIVE).items()
 }
+# Sums of both bearings that each remedy has.
+_SUMS = (
+    "drive.events",
+    "drive.events_per_second",
+    "drive.events_per_second_low",
+    "drive.events_per_second_high",
+    "drive.power",
+    "duty.discharges",
+    "duty.energy",
+    "duty.left_out_share",
+)
 DRIVE_KEYS: Keys = {
     **{key: one for key, one in _DRIVE.items() if not key.startswith(("end.", "event."))},
     **_ENDS,
     **under("remedies", _ENDS),
+    **under("remedies", {key: _DRIVE[key] for key in _SUMS}),
 }
 DRIVE_BOOK: Keys = {**_DRIVE, **DRIVE_KEYS, **_read("drive", stored=False)}
 EVENT_KEYS: Keys = _within("event", _DRIVE)

@@ -26,7 +26,7 @@ from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
-from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, REMEDIES, SWEEPS, at_ends
+from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range, with_place
@@ -36,12 +36,12 @@ from ehlectric.report.report_facts import density_tables, part_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import (
+    AS_IT_IS,
     end_cells,
     end_rows,
     remedy_cells,
-    remedy_heads,
+    remedy_rates,
     whole_rows,
-    worse_cells,
 )
 
 # Words for the origin of an input that is not a value of the library.
@@ -168,33 +168,21 @@ def number_tables(summary: Summary) -> Iterator[Table | Text]:
     )
 
 
-AS_IT_IS = "as it is"
-
-
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
     yield Text(SENTENCES["remedies"])
     heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
     yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
     drives = [(AS_IT_IS, result, summary)]
-    for title, _, found in result.remedies:
-        one = DriveResult(found)
-        drives.append((title, one, one.summary()))
+    drives += [(one.title, one.result, one.result.summary()) for one in result.variants]
     known = {warning.code for warning in result.warnings}
     verdicts = tuple((printable(title), _words(one, own), _further(one, known)) for title, one, own in drives)
     judged = ("drive", "verdict", "further warnings")
     yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
-    keys = REMEDIES[0].keys
-    rows = tuple(
-        (printable(title), place, *map(unbroken, remedy_cells(own, end, keys)))
-        for title, _, own in drives
-        for end, place in NAMES_OF_ENDS.items()
-    )
-    columns = ("drive", "bearing", *remedy_heads(keys))
-    yield Table(
-        "Remedies side by side", columns, rows, tuple(range(2, len(columns))),
-        shares=(0.2, 0.14, 0.12, 0.15, 0.1, 0.09, 0.09, 0.11),
-    )  # fmt: skip
+    columns, *cells = remedy_cells([(title, own) for title, _, own in drives])
+    rows = tuple((title, place, *map(unbroken, values)) for title, place, *values in cells)
+    shares = (0.18, 0.12, *(0.7 / (len(columns) - 2) for _ in columns[2:]))
+    yield Table("Remedies side by side", columns, rows, tuple(range(2, len(columns))), shares=shares)
 
 
 def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
@@ -312,7 +300,7 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     numbers = (numbers_of(ends[end], FIRST_PAGE_OF_DRIVE, place) for end, place in places)
     yield Numbers(tuple(chain.from_iterable(numbers)))
     if result.remedies:
-        heads, *cells = worse_cells(summary)
+        heads, *cells = remedy_rates(summary)
         yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))
         told = "; ".join(
             f"{title}: " + ", ".join(f"{name.text} =\xa0{value}" for _, name, _, value in changed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -110,30 +110,60 @@ def ends_table(summary: Summary) -> Table:
 
 
 def remedies_table(summary: Summary) -> Table:
-    """Table of the drive and its remedies for the terminal; of the worse bearing of each."""
-    heads, *rows = worse_cells(summary)
-    return columns_table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows, wrapped=(0,))
+    """Table of the drive and its remedies for the terminal: each bearing, and both together."""
+    heads, *rows = remedy_cells(remedied(summary), intervals=False)
+    wrapped = ["\n".join(textwrap.wrap(head, _HEAD)) for head in heads]
+    return columns_table(wrapped, rows, left=(0, 1), wrapped=(0,))
 
 
-def worse_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Heads of the table of remedies, then the cells of each drive, of its bearing with more discharges."""
-    keys = [key for key in REMEDIES[0].keys if not key.endswith("_range")]
-    yield "remedy, worse bearing", *remedy_heads(keys)
-    drives = [("as it is", summary), *((one["title"], one) for one in summary["remedies"])]
-    for title, tables in drives:
-        worse = max(ENDS, key=lambda end: (tables[end]["power"], tables[end]["peak_voltage"]))
-        yield printable(title), *remedy_cells(tables, worse, keys)
+AS_IT_IS, BOTH = "as it is", "both"
 
 
-def remedy_heads(keys: Sequence[str]) -> Iterator[str]:
-    """Heads of columns of remedies, with their units."""
-    return (head_of(DRIVE_BOOK[key]) for key in keys)
+def remedied(summary: Summary) -> list[tuple[str, Summary]]:
+    """Titles and tables of the drive as it is and of its remedies."""
+    return [(AS_IT_IS, summary), *((one["title"], one) for one in summary["remedies"])]
 
 
-def remedy_cells(tables: Mapping[str, Any], end: str, keys: Sequence[str]) -> Iterator[str]:
-    """Cells of the bearing at one end of a drive or of a remedy."""
-    found = {row.key: row for row in end_rows(tables, end, REMEDIES)}
-    return (_cell(found.get(key)) for key in keys)
+def remedy_cells(
+    drives: Sequence[tuple[str, Summary]], *, intervals: bool = True
+) -> Iterator[tuple[str, ...]]:
+    """Heads of the table of remedies, then the cells of both bearings of each drive, and of their sums.
+
+    ``drives``, titles and tables, as ``remedied`` returns them. Quantities that no drive has are omitted.
+    """
+    places = {**NAMES_OF_ENDS, BOTH: BOTH}
+    found = [
+        (title, place, _remedy_rows(tables, end)) for title, tables in drives for end, place in places.items()
+    ]
+    keys = [
+        key
+        for key in REMEDIES[0].keys
+        if (intervals or not key.endswith("_range")) and any(key in rows for _, _, rows in found)
+    ]
+    yield "remedy", "bearing", *(head_of(DRIVE_BOOK[key]) for key in keys)
+    for title, place, rows in found:
+        yield printable(title), place, *(_cell(rows.get(key)) for key in keys)
+
+
+def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Heads of the short table of remedies, then a row for each drive: discharges of both bearings."""
+    (*_, rate), places = REMEDIES[0].keys[:1], (*NAMES_OF_ENDS.values(), BOTH)
+    yield "remedy", *(f"{head_of(DRIVE_BOOK[rate])}, {place}" for place in places)
+    for title, tables in remedied(summary):
+        cells = (_remedy_rows(tables, end).get(rate) for end in (*ENDS, BOTH))
+        yield printable(title), *map(_cell, cells)
+
+
+def _remedy_rows(tables: Summary, end: str) -> dict[str, Row]:
+    """Rows of one bearing, or of the sums of both, by key."""
+    own = {**tables, BOTH: _sums(tables)}
+    return {row.key: row for row in end_rows(own, end, REMEDIES)}
+
+
+def _sums(tables: Summary) -> dict[str, Any]:
+    """Sums of both bearings, by the keys of one bearing."""
+    cycle = tables.get("duty") or {}
+    return {**tables["drive"], **{f"duty_{key}": cycle.get(key) for key in ("discharges", "energy")}}
 
 
 def _range(summary: Summary) -> tuple[str, str]:

@@ -209,10 +209,14 @@ def test_remedies_stand_beside_the_drive_with_what_they_change(report, drive):
     )
     sides = found["Remedies side by side"].rows
     assert [row[:2] for row in sides] == [
-        (name, end) for name in ("as it is", "Grounding ring") for end in ("drive end", "non-drive end")
+        (name, place)
+        for name in ("as it is", "Grounding ring")
+        for place in ("drive end", "non-drive end", "both")
     ]
     high = drive.summary()["remedies"][0]["drive_end"]["events_per_second_high"]
-    assert sides[2][2:5] == ("0", f"at most {high:.3g}", "–")
+    assert sides[3][2:5] == ("0", f"at most {high:.3g}", "–")
+    both = drive.summary()["drive"]["events_per_second"]
+    assert float(sides[2][2]) == pytest.approx(both, rel=5e-3)
     verdicts = rows(found["Verdict on each remedy"])
     assert verdicts["as it is"] == ("Discharges expected", "none")
     assert verdicts["Grounding ring"][0].endswith("in an ideal film (upper bound)")

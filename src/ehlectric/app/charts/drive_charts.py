@@ -24,6 +24,7 @@ from ehlectric.figures.drive_figures import (
     COLOURS,
     NAMES,
     QUANTITIES,
+    RATES,
     bins_of,
     breakdown_of,
     events_of,
@@ -66,8 +67,8 @@ _FIGURES = {
 # Letters on a line of the name of a remedy, and lines after which it is cut.
 _LETTERS, _MOST_LINES = 16, 3
 
-# Distances of both bearings from the middle of their row.
-_OFFSETS = (-0.14, 0.14)
+# Distances of both bearings, and of their sum, from the middle of their row; and their marks.
+_OFFSETS, _SYMBOLS = (-0.22, 0.22, 0.0), ("circle", "square", "diamond")
 
 
 def drive_figures(result: DriveResult) -> dict[str, Figure]:
@@ -273,7 +274,7 @@ def remedies_figure(result: DriveResult) -> Figure:
     ends = [end for _, pair in rows for end in pair]
     known = [end[f"events_per_second{bound}"] for end in ends for bound in ("", "_low", "_high")]
     positive = [value for value in known if value > 0.0]
-    data = [trace for b in range(2) for trace in _traces(rows, b)]
+    data = [trace for b in range(len(RATES)) for trace in _traces(rows, b)]
     finding = findings.remedies(result)
     return Figure(
         "Remedies side by side",
@@ -293,7 +294,7 @@ def remedies_figure(result: DriveResult) -> Figure:
         ),
         Table(
             "Discharges per second with bounds of 95 %",
-            ("", *(f"{name} [1/s]" for name in NAMES)),
+            ("", *(f"{name} [1/s]" for _, _, name in RATES)),
             tuple((name, *map(_rate_with_bounds, pair)) for name, pair in rows),
         ),
         f"{finding}. Bars are bounds of 95 %; an open triangle is an upper bound without any discharge.",
@@ -301,7 +302,7 @@ def remedies_figure(result: DriveResult) -> Figure:
 
 
 def _traces(rows: Sequence[tuple[str, Sequence[Mapping[str, Any]]]], b: int) -> list[Plot]:
-    """Rates of one bearing with their bounds, and upper bounds where nothing discharged."""
+    """Rates of one bearing, or of both, with their bounds, and upper bounds where nothing discharged."""
     known = [(row, name, pair[b]) for row, (name, pair) in enumerate(rows) if pair[b]["events"]]
     without = [(row, name, pair[b]) for row, (name, pair) in enumerate(rows) if not pair[b]["events"]]
     traces = []
@@ -312,7 +313,7 @@ def _traces(rows: Sequence[tuple[str, Sequence[Mapping[str, Any]]]], b: int) -> 
         )
         bars = {"type": "data", "symmetric": False}
         bars |= {"array": (high - rate).tolist(), "arrayminus": (rate - low).tolist()}
-        marker = {"symbol": ("circle", "square")[b], "size": 9}
+        marker = {"symbol": _SYMBOLS[b], "size": 9}
         traces.append(_marks(known, "events_per_second", b, marker) | {"error_x": bars})
     if without:
         marker = {"symbol": "triangle-left-open", "size": 10}
@@ -322,15 +323,16 @@ def _traces(rows: Sequence[tuple[str, Sequence[Mapping[str, Any]]]], b: int) -> 
 
 
 def _marks(rows: Sequence[tuple[int, str, Mapping[str, Any]]], key: str, b: int, marker: Plot) -> Plot:
-    """Marks of a rate [1/s] of one bearing in the rows of the drive and its remedies."""
+    """Marks of a rate [1/s] of one bearing, or of both, in the rows of the drive and its remedies."""
+    colour, _, place = RATES[b]
     return {
         "type": "scatter",
         "mode": "markers",
         "x": [end[key] for _, _, end in rows],
         "y": [row + _OFFSETS[b] for row, _, _ in rows],
-        "name": NAMES[b],
-        "marker": {"color": COLOURS[b], **marker},
-        "text": [f"{name}, {NAMES[b]}: {_rate_with_bounds(end)} per second" for _, name, end in rows],
+        "name": place,
+        "marker": {"color": colour, **marker},
+        "text": [f"{name}, {place}: {_rate_with_bounds(end)} per second" for _, name, end in rows],
         "hovertemplate": "%{text}<extra></extra>",
     }
 

@@ -49,9 +49,10 @@ from ehlectric.tables.drive_tables import (
     drive_rows,
     end_cells,
     prepared_rows,
+    remedied,
+    remedy_cells,
     side_by_side,
     whole_rows,
-    worse_cells,
 )
 
 
@@ -89,8 +90,8 @@ def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     """The drive and its remedies side by side; None without remedies."""
     if not summary["remedies"]:
         return None
-    (_, *heads), *rows = worse_cells(summary)
-    return Table("Worse bearing of each", ("", *heads), tuple(rows))
+    (_, *heads), *rows = remedy_cells(remedied(summary), intervals=False)
+    return Table("Each bearing, and both together", ("", *heads), tuple(rows))
 
 
 def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
