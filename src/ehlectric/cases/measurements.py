@@ -89,11 +89,14 @@ class Column:
     book: ColumnBook = field(default=MEASURED, repr=False)
 
     def factor(self) -> float:
-        """Factor from the unit of the column to the SI unit; 0.01 for per cent. Raises ValueError if the unit
-        is not one of the quantity; the message says why.
+        """Factor from the unit of the column to the SI unit; 0.01 for a relative uncertainty in per cent.
+
+        Raises ValueError if the unit is not one of the quantity; the message says why.
         """
         if self.unit == "%":
-            return 0.01
+            if self.uncertainty:
+                return 0.01
+            raise ValueError("the value of 100 % is unknown")
         return _factor(_plain(self.unit), self.book.columns[self.name].unit)
 
     def value(self, number: float) -> float:
@@ -179,7 +182,7 @@ def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
     raise InputError(
         f"column {shown(head)}",
         f"has the unit {shown(unit)} ({short(reasons[0])})",
-        takes=book.columns[name].usual,
+        takes=f"values in {book.columns[name].usual} or another unit of this quantity",
     )
 
 

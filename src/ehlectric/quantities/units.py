@@ -225,7 +225,8 @@ def factor(written: str, unit: str) -> float:
     expression = f"1{named}" if named.startswith("/") else named
     known_units = registry()
     try:
-        return float(known_units.Quantity(1.0, known_units.parse_units(expression)).to(unit).magnitude)
+        one = known_units.Quantity(1.0, known_units.parse_units(expression))
+        value = float(one.to(unit).magnitude)
     except pint.DimensionalityError:
         other, hint = _HINTS.get(unit, ("", ""))
         mistaken = other and known_units.Quantity(1.0, expression).check(other)
@@ -235,6 +236,15 @@ def factor(written: str, unit: str) -> float:
         raise ValueError(f"{shown(written)} is not a unit; units are case-sensitive") from None
     except pint.PintError:
         raise ValueError(f"{shown(written)} is not a unit") from None
+    if unit == "rad":
+        _check_angle(one)
+    return value
+
+
+def _check_angle(quantity: pint.Quantity[float]) -> None:
+    """Refuse a percentage as an angle, because pint converts 25 percent to 0.25 rad."""
+    if "radian" not in str(quantity.to_root_units().units):
+        raise ValueError(f"{quantity.units} is not a unit of an angle")
 
 
 def _rotation(written: str) -> str:
@@ -311,6 +321,8 @@ def from_pint(entry: pint.Quantity[float], unit: str) -> float:
         raise ValueError("it is not a single number") from None
     if unit == ROTATION and _ANGLE.search(written) is None:
         raise ValueError(f"{written} is a frequency, which may count turns or radians: use rpm or rad/s")
+    if unit == "rad":
+        _check_angle(entry)
     return float(f"{value:.15g}")
 
 

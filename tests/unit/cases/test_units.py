@@ -21,6 +21,7 @@ from tests.helpers.each import each
 
 UNITS = pint.UnitRegistry()
 SPEED = Amount("rad/s", above=0.0, most=1e5)
+ANGLE = Amount("rad", above=0.0, below=1.0)
 TEMPERATURE = Amount("K", least=200.0, most=600.0)
 LENGTH = Amount("m", least=0.0, most=10.0)
 NUMBER = Amount("", least=0.0, most=5.0)
@@ -146,6 +147,8 @@ def test_quantities_of_pint_and_arrays_without_dimensions(quantity, entry, value
         (SPEED, UNITS.Quantity(50.0, "m"), "meter is not a unit of this quantity"),
         (TEMPERATURE, UNITS.Quantity(70.0, "delta_degC"), "is a difference of temperatures"),
         (NUMBER, UNITS.Quantity(1.0, "rad"), "radian is a unit, and this number has none"),
+        (ANGLE, UNITS.Quantity(25.0, "percent"), "percent is not a unit of an angle"),
+        (ANGLE, "25 percent", "percent is not a unit of an angle"),
         (LENGTH, np.array([1.0]), "is not a number"),
         (LENGTH, np.array(True), "is not a number"),
     ],

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from ehlectric.cases.measurements import MOST_ROWS, column_of, read_measurement
+from ehlectric.cases.measurements import CYCLE, MEASURED, MOST_ROWS, column_of, read_measurement
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -104,6 +104,9 @@ def test_a_table_of_pandas_is_read_by_its_heads():
         ("speed [rpm];capacitance [pF]\n1000;1,5\n2000;1.5\n", "mixes decimal points and decimal commas"),
         ("speed;capacitance [pF]\n1000;1,5\n", "column 'speed': has no unit; expected a unit in brackets"),
         ("speed [kg],capacitance [pF]\n1,2\n", "column 'speed [kg]': has the unit 'kg'"),
+        ("speed [%],capacitance [pF]\n1,2\n", "column 'speed [%]': has the unit '%'"),
+        ("speed [rpm],capacitance [%]\n1,2\n", "the value of 100 % is unknown); expected values in pF"),
+        ("phase [percent],film [nm]\n1,2\n", "percent is not a unit of an angle"),
         ("a,b\n1,2\n", "has no heads of known columns; expected heads such as 'speed [rpm]'"),
         ("speed [rpm],capacitance [pF]\n", "has no rows below its heads"),
         ("speed [rpm],shaft speed [rpm]\n1,2\n", "has the columns 'speed [rpm]' and 'shaft speed [rpm]'"),
@@ -115,6 +118,16 @@ def test_a_table_of_pandas_is_read_by_its_heads():
 )
 def test_what_is_wrong_is_one_line_with_its_place(tmp_path, text, line):
     assert line in refused(tmp_path, text)
+
+
+@each("book", [MEASURED, CYCLE])
+def test_no_quantity_of_a_column_is_a_percentage(book):
+    for name, quantity in book.columns.items():
+        for unit in ("%", "percent", "ppm"):
+            with pytest.raises(InputError, match=quantity.usual) as caught:
+                column_of(f"{name} [{unit}]", book)
+            assert name in str(caught.value)
+        assert column_of(f"uncertainty of {name} [%]", book).factor() == 0.01
 
 
 def test_files_without_end_or_measure_are_refused_soon(tmp_path):
