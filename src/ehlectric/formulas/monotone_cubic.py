@@ -31,6 +31,9 @@ class MonotoneCubic:
         if self._size == 1:
             self._only = y
             return
+        # A point whose only node is the last one is read in the interval before it.
+        unused = np.arange(self._size) < self._first[..., np.newaxis]
+        y = np.where(unused, _at(y, self._first)[..., np.newaxis], y)
         step, rise = np.diff(x), np.diff(y)
         step = np.where(step > 0.0, step, 1.0)
         slopes = self._slopes(step, rise / step)

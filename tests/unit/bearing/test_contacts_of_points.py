@@ -228,7 +228,7 @@ def test_curves_are_those_of_scipy_without_the_nodes_that_are_not_in_use():
         first = rng.integers(0, size, 20)
         for point, place in enumerate(first):
             x[point, :place] = x[point, place]
-            y[:, point, :place] = y[:, point, place : place + 1]
+            y[:, point, :place] = rng.uniform(-9.0, 9.0, (3, place))
         at = rng.uniform(-1.0, 1.0 + x.max(), (20, 9))
         curves = MonotoneCubic(x, y, first)(at)
         left = left_out(x, y, first) if size > 2 else None
