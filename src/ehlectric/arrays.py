@@ -32,6 +32,20 @@ def where(known: Any, values: Numbers) -> Numbers | None:
     return np.where(known, values, np.nan)
 
 
+def any_of(*conditions: Any) -> Any:
+    """Return whether any of some conditions, of shape () or (...), holds at each point; False without one.
+
+    Examples
+    --------
+    >>> any_of(False, np.array([True, False])).tolist(), any_of()
+    ([True, False], False)
+    """
+    found: Any = False
+    for condition in conditions:
+        found = found | condition
+    return found
+
+
 def as_float(values: Numbers) -> Numbers:
     """Values of one point as a float of Python, of many points as they are.
 

@@ -155,6 +155,20 @@ def test_a_bearing(ehlectric, bearing_file, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_peak_current_next_to_a_motor(ehlectric, bearing_file, tmp_path):
+    """The published limits of the current density are a list, which the curves over the speed contain."""
+    bearing_file.write_text(by_formula(ROLLERS.replace("[discharge]", '[discharge]\npeak_current = "1 A"')))
+    for command in (("bearing", bearing_file, "-o", "out"), ("plot", "out"), ("report", "out")):
+        done = ehlectric(*command)
+        assert done.returncode == 0, done.stderr
+        assert "Traceback" not in done.stderr
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())["bearing"]
+    assert found["current_density_limits"] == [1e5, 3e5, 8e5]
+    for name in ("capacitance_over_speed.png", "breakdown_over_speed.png", "report.html"):
+        assert (tmp_path / "out" / name).exists()
+
+
+@pytest.mark.slow
 def test_json_on_request(ehlectric, bearing_file, tmp_path):
     done = ehlectric("bearing", bearing_file, "-o", "out", "--json", "-q")
     assert done.returncode == 0, done.stderr

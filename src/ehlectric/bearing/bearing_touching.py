@@ -18,7 +18,6 @@ from ehlectric.bearing.solution import (
 from ehlectric.formulas.asperities import (
     LOWEST_SEPARATION,
     AsperityContact,
-    SpectralMoments,
     Summits,
     area_while_touching,
     bearing_time_share,
@@ -29,6 +28,7 @@ from ehlectric.formulas.asperities import (
     johnson_end,
     load_shares,
     separation_of_gap,
+    summit_deviation,
     summit_separation,
 )
 
@@ -211,7 +211,7 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: fl
     spots, real, time_share = None, None, probability
     if bearing.summits is not None:
         area = dry_areas(solution, ring)[loaded]
-        touching = _touching(solution, film, rq)
+        touching = _touching(solution, film, loaded)
         number = expected_spots(touching.spots_per_area, area)
         time_share = contact_time_share(number)
         spots, real = whole(number), whole(area_while_touching(touching, area))
@@ -227,26 +227,33 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: fl
     )
 
 
-def _of_contacts(values: Numbers, loaded: Mask) -> Numbers:
-    """Values of the points for each of their loaded contacts, shape (k,); a float stays one."""
-    if np.ndim(values) == 0:
+def _of_contacts(values: Numbers | None, loaded: Mask) -> Numbers:
+    """Values of the points for each of their loaded contacts, shape (k,); a float or None stays one."""
+    if values is None or np.ndim(values) == 0:
         return values
     return np.broadcast_to(values[..., np.newaxis], loaded.shape)[loaded]
 
 
-def _touching(solution: BearingSolution, film: Array, rq: Numbers) -> AsperityContact:
-    """Asperities of contacts with a central film and a roughness [m], after Greenwood and Williamson."""
-    given = solution.case.bearing.summits
-    assert given is not None
-    deviation, separation = given.height_deviation or rq, separation_of_gap(film, rq)
-    if given.bandwidth is not None:
-        # Of the moments only m0 and the bandwidth m0 m4/m2^2 count for the heights of the summits.
-        deviation = SpectralMoments(rq**2, 1.0, given.bandwidth / rq**2).summits().height_deviation
-        separation = summit_separation(separation, rq, given.bandwidth)
-    highest = np.inf if given.highest is None else given.highest
-    summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation, highest=highest)
+def _touching(solution: BearingSolution, film: Array, loaded: Mask) -> AsperityContact:
+    """Asperities of loaded contacts with a central film [m], after Greenwood and Williamson."""
+    bearing = solution.case.bearing
+    assert bearing.summits is not None
+    given = {name: _of_contacts(value, loaded) for name, value in vars(bearing.summits).items()}
+    rq, bandwidth = _of_contacts(bearing.composite_rq, loaded), given["bandwidth"]
+    deviation, separation = given["height_deviation"], separation_of_gap(film, rq)
+    if bandwidth is not None:
+        deviation, separation = (
+            summit_deviation(rq, bandwidth),
+            summit_separation(separation, rq, bandwidth),
+        )
+    summits = Summits(
+        density=given["density"],
+        radius=given["radius"],
+        height_deviation=rq if deviation is None else deviation,
+        highest=np.inf if given["highest"] is None else given["highest"],
+    )
     # Summits of nearly one height all touch from a separation on that is below the range of the integrals.
-    level = np.maximum(separation, LOWEST_SEPARATION * deviation)
+    level = np.maximum(separation, LOWEST_SEPARATION * summits.height_deviation)
     return greenwood_williamson(level, summits, solution.conditions.modulus)
 
 

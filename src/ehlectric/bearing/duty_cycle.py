@@ -26,6 +26,7 @@ from ehlectric.bearing.cycle_rows import (
 from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, spread_places, values_at
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
+from ehlectric.bearing.physical_bounds import MOST_MARGIN
 from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.bearing.solution import PARTIAL, touches, touching_ratio
 from ehlectric.bearing.uncertainty import SEED, MarginSpread
@@ -292,7 +293,8 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
 
 def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     """Quantities of rows from their inputs by column. Shaft voltage and margin follow the voltage of the
-    motor, on which films do not depend.
+    motor, on which films do not depend. A row has no margin if its voltage is so small that the margin is
+    above ``MOST_MARGIN``, as with an inverter that is off.
     """
     found = values_at(case, _inputs_of_films(case, given))
     if case.motor is None:
@@ -300,7 +302,8 @@ def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     factor = given[_VOLTAGE] / case.motor.common_mode_voltage
     values = dict(found.values)
     values["shaft_voltage"] = values["shaft_voltage"] * factor
-    values["margin"] = np.where(factor > 0.0, values["margin"] / np.where(factor > 0.0, factor, 1.0), np.nan)
+    on = values["margin"] <= MOST_MARGIN * factor
+    values["margin"] = np.where(on, values["margin"] / np.where(on, factor, 1.0), np.nan)
     return replace(found, values=values)
 
 

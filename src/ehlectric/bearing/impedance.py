@@ -28,7 +28,7 @@ def shaft_path(solution: BearingSolution) -> Path:
     coating = bearing.coating
     return Path(
         coating=bearing.coating_capacitance(),
-        parallel=bearing.parallel_capacitance or 0.0,
+        parallel=0.0 if bearing.parallel_capacitance is None else bearing.parallel_capacitance,
         resistance=math.inf if coating is None or coating.resistance is None else coating.resistance,
         coating_breakdown=None if coating is None else coating.voltage,
     )

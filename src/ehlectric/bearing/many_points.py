@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.bearing.physical_bounds import outside_bounds
 from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving import POSITIONS, Detail, solution_of, solution_of_prepared
@@ -68,7 +69,7 @@ class Columns:
     def add(self, part: SolvedPart) -> None:
         """Take the numbers and codes of solved points."""
         for key, value in flattened(tables_of(part.solution)).items():
-            if key in TEXTS_OF_POINTS or is_number(value) or np.ndim(value):
+            if key in TEXTS_OF_POINTS or is_number(value) or isinstance(value, np.ndarray):
                 self._column(key)[part.points] = value
         for code, where in codes_of(part.solution):
             if np.any(where):
@@ -158,7 +159,7 @@ def _rows(table: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
 
 def _column(value: Any, count: int) -> list[Any]:
     """Values of so many points as Python has them: None for NaN and an empty text."""
-    if not np.ndim(value):
+    if not isinstance(value, np.ndarray):
         return [plain(value)] * count
     if value.dtype.kind == "f":
         numbers = value.astype(object)
@@ -187,7 +188,8 @@ def _solved(case: BearingCase, points: IntArray, positions: int, detail: Detail)
             # Contacts beyond the model, whose points are then left out, have numbers without a logarithm.
             with np.errstate(invalid="ignore"):
                 solution = solution_of_prepared(some, prepared, detail=detail)
-            refused = np.broadcast_to(solution.refused, points.shape)
+            outside = outside_bounds(solution) if detail == "whole" else False
+            refused = np.broadcast_to(solution.refused | outside, points.shape)
             if not refused.any():
                 return SolvedPart(points, solution)
         points = points[~refused]
@@ -200,4 +202,7 @@ def _reason(case: BearingCase) -> str:
         solution_of(case, positions=1)
     except (InputError, ConvergenceError) as error:
         return str(error)
-    return "the bearing is beyond the model at one of the positions of its cage"
+    return (
+        "the bearing is beyond the model, or a number is outside of its physical bounds, at one of the "
+        "positions of its cage"
+    )

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Numbers, as_float
+from ehlectric.arrays import Numbers, any_of, as_float
 from ehlectric.bearing.loads.life import (
     LOWEST_RATIO,
     ElementRatings,
@@ -354,4 +354,4 @@ def life_flags(solution: BearingSolution) -> Iterator[Flag]:
         for groove, most in zip(grooves, _RULES[bearing.kind].grooves, strict=False)
         if groove is not None
     ]
-    yield Flag.of(np.any(wide, axis=0) & (life.dynamic_rating is None), "life-outside", "grooves")
+    yield Flag.of(any_of(*wide) & (life.dynamic_rating is None), "life-outside", "grooves")

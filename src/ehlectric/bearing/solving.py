@@ -12,6 +12,7 @@ import numpy as np
 
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.physical_bounds import check_bounds
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
 from ehlectric.bearing.quick_contacts import QUICK_METHODS, is_quick, quick_curve
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactValues, RingContacts, solve
@@ -58,15 +59,17 @@ def solution_of_prepared(
     workers: int | None = None,
     detail: Detail = "whole",
 ) -> BearingSolution:
-    """Solve the contacts of a prepared bearing, and join them to its circuit; errors are those of
-    ``solution_of``. ``detail`` is that of quick contacts.
+    """Solve the contacts of a prepared bearing, and join them to its circuit.
+
+    ``detail`` is the detail of quick contacts. Raises the errors of ``solution_of``, and for a single bearing
+    the errors of ``check_bounds``.
     """
     started = time.perf_counter()
     if is_quick(case):
         curves = _quick_curves(case, prepared, progress or silent, detail)
     else:
         curves = _solved_curves(case, prepared, progress or silent, workers or cores())
-    return BearingSolution(
+    solution = BearingSolution(
         case=case,
         conditions=prepared.conditions,
         inner=prepared.rings[0],
@@ -76,6 +79,9 @@ def solution_of_prepared(
         positions=_positions(prepared, curves),
         seconds=time.perf_counter() - started,
     )
+    if not case.shape:
+        check_bounds(solution)
+    return solution
 
 
 def _quick_curves(

@@ -9,7 +9,7 @@ from operator import mul, truediv
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask, Numbers
+from ehlectric.arrays import Array, Mask, Numbers, where
 from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     current_flags,
@@ -123,41 +123,45 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield from film_note(solution)
     yield conductivity_flag(solution)
     yield from supply_flags(solution)
-    base = library_viscosity(case.lubricant)
+    base, follows = library_viscosity(case.lubricant), viscosity_over_temperature(case.lubricant) is not None
+    own = base is None or np.isnan(base)
     yield Flag.of(
-        base is not None,
+        np.logical_not(own),
         "viscosity-of-base",
-        viscosity=1e3 * (base or 0.0),
+        viscosity=known(mul, 1e3, base),
         base=case.lubricant.base,
         temperature=lambda: f"{case.bearing.oil_temperature - 273.15:.4g} °C",
     )
-    constant = base is None and viscosity_over_temperature(case.lubricant) is None
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
     yield Flag.of(
-        constant,
+        np.logical_and(own, not follows),
         "temperature-unused",
         "bearing",
         temperatures=" and ".join(given),
         are="is" if len(given) == 1 else "are",
     )
-    if base is None and not constant and case.lubricant.temperature_range is None:
+    if follows and case.lubricant.temperature_range is None:
         for key, temperature in case.bearing.temperatures().items():
             # The viscosity is extrapolated far.
-            yield Flag.of(temperature < _COLD, "temperature-low", key=key, celsius=temperature - 273.15)
+            cold = np.logical_and(own, temperature < _COLD)
+            yield Flag.of(cold, "temperature-low", key=key, celsius=temperature - 273.15)
     yield from fit_flags(solution.conditions.clearance)
     geometry = solution.conditions.geometry
     if not geometry.follows_films:
         yield clearance_flag(geometry.room, solution.positions[0])
 
 
-def library_viscosity(oil: Lubricant) -> float | None:
-    """Viscosity of a lubricant [Pa s] if it is the one that its base has in the library, else None."""
+def library_viscosity(oil: Lubricant) -> Numbers | None:
+    """Viscosity of a lubricant [Pa s] if it is the one that its base has in the library, shape (...).
+
+    Otherwise it is None, and NaN at one of many points.
+    """
     if oil.temperature is not None or oil.base is None:
         return None
     if "viscosity" not in library.lubricant(oil.base):
         return None
     of_base = Lubricant.from_dict(library.lubricant(oil.base)).viscosity
-    return of_base if oil.viscosity == of_base else None
+    return where(oil.viscosity == of_base, of_base)
 
 
 def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
@@ -224,7 +228,7 @@ def _index_of(oil: OilTemperature) -> str:
 def _static_rating(bearing: Bearing) -> Numbers:
     """Static load rating of all rows of elements by ISO 76 [N], for typical ratios of diameters."""
     kind, diameter = KINDS_OF_BEARINGS[bearing.kind], 1e3 * bearing.element_diameter
-    across = 1e3 * bearing.roller_length if kind.rollers and bearing.roller_length else diameter
+    across = 1e3 * bearing.roller_length if bearing.roller_length is not None else diameter
     return kind.static * bearing.rows * bearing.elements * diameter * across
 
 
@@ -261,7 +265,7 @@ def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator
     coating = solution.case.bearing.coating
     if coating is not None:
         values = partial(_assumed_text, coating)
-        yield Flag.of(bool(coating.assumed), "coating-assumed", coating=coating.base, values=values)
+        yield Flag.of(coating.any_assumed, "coating-assumed", coating=coating.base, values=values)
     withstands = shaft_path(solution).coating_breakdown
     if withstands is not None and shaft is not None:
         yield Flag.of(withstands < shaft, "coating-breakdown", withstands=withstands, shaft=shaft)

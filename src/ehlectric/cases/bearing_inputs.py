@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, Self, TypedDict
 
 from pydantic import BeforeValidator, model_validator
 
+from ehlectric.arrays import Numbers
 from ehlectric.cases import library
 from ehlectric.cases.amounts import amount_at
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS
@@ -403,7 +404,7 @@ class Bearing(Table, book="bearing"):
                 takes=f"at least composite_rq, {1e6 * self.composite_rq:.4g} µm",
             )
 
-    def coating_capacitance(self) -> float:
+    def coating_capacitance(self) -> Numbers:
         """Capacitance of the coating [F]; infinite without a coating. Raises InputError where a coating is
         given, and neither its area nor the dimensions of its ring.
         """

@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any, Literal, Self
 
+import numpy as np
 from pydantic import model_validator
 from scipy.constants import epsilon_0
 
+from ehlectric.arrays import Numbers, any_of, as_float
 from ehlectric.cases import library
 from ehlectric.cases.oil_inputs import library_name
 from ehlectric.cases.table import Table
@@ -70,11 +72,20 @@ class Coating(Table, book="bearing.coating"):
     @property
     def assumed(self) -> dict[str, float]:
         """Values by key, SI units, that the base in the library assumes and the file does not replace."""
+        return {name: getattr(self, name) for name, assumed in self._of_base().items() if assumed}
+
+    @property
+    def any_assumed(self) -> Any:
+        """Whether any value of the coating is ``assumed``, shape (...)."""
+        return any_of(*self._of_base().values())
+
+    def _of_base(self) -> dict[str, Any]:
+        """Whether each value that the base in the library assumes is the value of this coating, by key."""
         if self.base is None:
             return {}
         names = library.tables("coating", self.base)["source"].get("assumed", ())
         base = type(self).from_dict({"base": self.base}) if names else self
-        return {name: getattr(self, name) for name in names if getattr(self, name) == getattr(base, name)}
+        return {name: getattr(self, name) == getattr(base, name) for name in names}
 
     @property
     def voltage(self) -> float | None:
@@ -83,7 +94,7 @@ class Coating(Table, book="bearing.coating"):
             return self.strength * self.thickness
         return self.breakdown_voltage
 
-    def capacitance(self, area: float) -> float:
+    def capacitance(self, area: Numbers) -> Numbers:
         """Capacitance of the coating between ring and seat, eps0 eps_r A/d [F].
 
         The coating is thin compared with the diameter of the ring, so that it is a plate capacitor.
@@ -100,7 +111,7 @@ class Coating(Table, book="bearing.coating"):
         """
         return epsilon_0 * self.relative_permittivity * area / self.thickness
 
-    def capacitance_on(self, diameters: Mapping[str, float | None], width: float | None) -> float:
+    def capacitance_on(self, diameters: Mapping[str, Numbers | None], width: Numbers | None) -> Numbers:
         """Capacitance of the coating [F], by ``area_on`` its ring.
 
         A layer that is moulded over an outer ring with the diameter D and the width B is the cylinder
@@ -120,9 +131,9 @@ class Coating(Table, book="bearing.coating"):
         if not self.over_moulded or diameter is None:
             return plate
         part = 2.0 * self.thickness / diameter
-        return plate * part / math.log1p(part)
+        return as_float(plate * part / np.log1p(part))
 
-    def area_on(self, diameters: Mapping[str, float | None], width: float | None) -> float:
+    def area_on(self, diameters: Mapping[str, Numbers | None], width: Numbers | None) -> Numbers:
         """Area of the coating on its seat [m^2]: ``area``, or that of the cylinder of the ring.
         ``diameters``, bore of the bearing under "inner", and its outside diameter under "outer" [m];
         ``width`` [m]. Raises InputError where neither the area nor diameter and width are known.

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import optimize, special
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Numbers
 
 # Step and ends of the trapezoidal rule in u, where the height above the separation is
 # t = scale exp(u - exp(-u)). The integrand falls off double exponentially at both ends.
@@ -44,7 +44,7 @@ _NODES, _FARTHEST = 96, 24.0
 _AT_ONCE = 4096
 
 
-def greenwood_integral(order: float, separation: ArrayLike, highest: float = np.inf) -> Array:
+def greenwood_integral(order: float, separation: ArrayLike, highest: ArrayLike = np.inf) -> Array:
     """Integral F_n(l) = (2 pi)^(-1/2) Int_l^inf (s - l)^n exp(-s^2/2) ds over Gaussian heights.
 
     F_0 is the share of the summits that are higher than the separation, F_1 their mean overlap, F_3/2 and
@@ -52,7 +52,8 @@ def greenwood_integral(order: float, separation: ArrayLike, highest: float = np.
 
     ``order``, order n >= 0, dimensionless; any real number; ``separation``, separation l in standard
     deviations of the heights, >= -12, shape (...); ``highest``, height in standard deviations, >= -12, to
-    which all higher summits are worn down: s is the smaller of the Gaussian height and this one. Returns
+    which all higher summits are worn down: s is the smaller of the Gaussian height and this one; infinite
+    without wear, or finite numbers of shape (...). Returns
     value of the integral, dimensionless; its relative error is below 1e-11, with worn summits 1e-9,
     shape (...); it is zero where no summit reaches the separation. Raises ValueError if the order is
     negative, or a separation or the highest summit below -12 or not a number.
@@ -72,12 +73,12 @@ def greenwood_integral(order: float, separation: ArrayLike, highest: float = np.
         raise ValueError(f"the order of a Greenwood integral is at least 0, got {order:g}")
     if not np.all(at >= LOWEST_SEPARATION):
         raise ValueError(f"separations are at least {LOWEST_SEPARATION:g} standard deviations")
-    if not highest >= LOWEST_SEPARATION:
+    if not np.all(np.greater_equal(highest, LOWEST_SEPARATION)):
         raise ValueError(f"the highest summit is at least at {LOWEST_SEPARATION:g} standard deviations")
     if order == 0.0:
         return np.where(at < highest, special.ndtr(-at), 0.0)
-    if np.isfinite(highest):
-        return _worn(order, at, highest)
+    if np.all(np.isfinite(highest)):
+        return _worn(order, at, np.asarray(highest, dtype=float))
     flat = at.ravel()
     pieces = [_integrals(order, flat[k : k + _AT_ONCE]) for k in range(0, flat.size, _AT_ONCE)]
     return np.concatenate(pieces or [flat]).reshape(at.shape)
@@ -93,7 +94,7 @@ def _integrals(order: float, at: Array) -> Array:
     return integrals
 
 
-def _worn(order: float, at: Array, highest: float) -> Array:
+def _worn(order: float, at: Array, highest: Array) -> Array:
     """Integrals where higher summits lie at ``highest``: those below it by Gauss and Jacobi, and the rest."""
     width = np.maximum(np.minimum(highest, at + _FARTHEST) - at, 0.0)
     nodes, weights = _jacobi(order)
@@ -119,7 +120,7 @@ def _positive_root(at: Array, order: float) -> Array:
     return np.where(half > 0.0, order / (far + np.abs(half)), far - half)
 
 
-def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
+def separation_of_gap(gap: ArrayLike, deviation: Numbers) -> Array:
     """Separation of the mean planes at which two rough surfaces have a mean gap.
 
     Overlapping peaks are pressed flat: a separation d has the mean gap d + sigma F_1(d/sigma). A film formula
@@ -143,7 +144,7 @@ def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
         at = at - step
         if np.all(np.abs(step) <= 1e-14 * np.maximum(1.0, np.abs(at))):
             break
-    return deviation * at
+    return np.asarray(deviation * at)
 
 
 # The variance of the summit heights is (1 - 0.8968/alpha) m0, with the printed constant.
@@ -212,7 +213,7 @@ class SpectralMoments:
         return Summits(
             density=self.m4 / (6.0 * float(np.sqrt(3.0)) * np.pi * self.m2),
             radius=0.375 * float(np.sqrt(np.pi / self.m4)),
-            height_deviation=float(np.sqrt((1.0 - _SUMMIT_VARIANCE / self.bandwidth) * self.m0)),
+            height_deviation=float(summit_deviation(self.rq, self.bandwidth)),
         )
 
 
@@ -304,19 +305,22 @@ def _line_moments(lines: Array, spacing: float, interval: float | None) -> Spect
 
 @dataclass(frozen=True, kw_only=True)
 class Summits:
-    """Summits of a rough surface: spherical caps of one radius with Gaussian heights."""
+    """Summits of a rough surface: spherical caps of one radius with Gaussian heights.
 
-    density: float  # number of summits per area n [1/m^2], > 0
-    radius: float  # radius of the caps beta [m], > 0
+    Numbers are floats, or have the shape (...) of the separations.
+    """
+
+    density: Numbers  # number of summits per area n [1/m^2], > 0
+    radius: Numbers  # radius of the caps beta [m], > 0
     # Standard deviation of the summit heights [m], > 0. Of two rough surfaces it is that of the sum of both
     # heights, sqrt(sigma_s1^2 + sigma_s2^2).
-    height_deviation: float
+    height_deviation: Numbers
     # Height above the mean of the summits, in standard deviations, to which all higher summits are worn down;
     # by default none is.
-    highest: float = np.inf
+    highest: Numbers = np.inf
 
     @property
-    def roughness_parameter(self) -> float:
+    def roughness_parameter(self) -> Numbers:
         """Product n beta sigma_s, dimensionless; 0.03 to 0.05 for many surfaces."""
         return self.density * self.radius * self.height_deviation
 
@@ -362,7 +366,23 @@ def greenwood_williamson(separation: ArrayLike, summits: Summits, reduced_modulu
     )
 
 
-def summit_separation(separation: ArrayLike, rq: float, bandwidth: float) -> Array:
+def summit_deviation(rq: Numbers, bandwidth: Numbers) -> Numbers:
+    """Return the standard deviation of the summit heights [m] of an isotropic Gaussian surface.
+
+    It is Rq sqrt(1 - 0.8968/alpha). ``rq``, Rq of the surface, or of the sum of two surfaces [m], shape
+    (...); ``bandwidth``, Nayak's bandwidth alpha, dimensionless, >= 1.5, shape (...).
+
+    J. I. McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60.
+
+    Examples
+    --------
+    >>> round(float(summit_deviation(100e-9, 10.0)) * 1e9, 1)
+    95.4
+    """
+    return rq * np.sqrt(1.0 - _SUMMIT_VARIANCE / bandwidth)
+
+
+def summit_separation(separation: ArrayLike, rq: Numbers, bandwidth: Numbers) -> Array:
     """Distance of the mean plane of the summits for a distance of the mean plane of the surface.
 
     Summits lie higher than the surface. For an isotropic Gaussian surface their mean height above the mean

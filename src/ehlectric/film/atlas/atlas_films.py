@@ -80,6 +80,8 @@ def film_coefficient(
     """
     if alpha_star is None:
         alpha_star = reciprocal_asymptotic_alpha(viscosity)
+    # Only one of both laws may have parameters of many oils.
+    alpha_star = alpha_star + np.zeros_like(density(np.zeros(()))[0])
     middle, half = 0.5 * (_ENDS[1:] + _ENDS[:-1]), 0.5 * np.diff(_ENDS)
     ratio = (middle + half * _NODES[:, np.newaxis]).ravel()
     weights = (half * _WEIGHTS[:, np.newaxis]).ravel()

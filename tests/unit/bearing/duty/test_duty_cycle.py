@@ -149,6 +149,29 @@ def test_an_inverter_that_is_off_leaves_no_voltage(duty):
     assert duty.rows.lambda_ratio[5] == pytest.approx(duty.rows.lambda_ratio[4], rel=1e-12)
 
 
+def test_an_inverter_of_almost_no_voltage_is_off(tmp_path):
+    """The second voltage would give a margin of 1e8."""
+    rows, heads = "0,3000,300\n1,3000,1e-6\n", "time [s],speed [rpm],common-mode voltage [V]"
+    duty = run_duty(case_of(tmp_path, rows, heads))
+    assert duty.rows.margin[0] < 10.0
+    assert np.isnan(duty.rows.margin[1])
+    assert duty.rows.lambda_ratio[1] == duty.rows.lambda_ratio[0]
+
+
+@pytest.mark.slow
+def test_a_load_along_the_axis_beside_others_across_it(tmp_path):
+    """All balls carry one load in one of the rows, and in the other each carries its own."""
+    rows, heads = "0,1000,300\n1,0,300\n2,0.2,300\n", "time [s],radial load [N],axial load [N]"
+    case = case_of(tmp_path, rows, heads)
+    rows = run_duty(case).rows
+    for k in range(3):
+        changes = {f"bearing.{name}": float(getattr(rows, name)[k]) for name in ("radial_load", "axial_load")}
+        alone = solve_bearing(case.replace(changes))
+        assert rows.capacitance[k] == pytest.approx(alone.capacitance(), rel=1e-8)
+        assert rows.margin[k] == pytest.approx(alone.margin, rel=1e-8)
+        assert rows.lambda_ratio[k] == pytest.approx(lambda_ratio(alone.solution), rel=1e-8)
+
+
 @pytest.mark.slow
 def test_rings_keep_their_difference_from_the_oil(tmp_path):
     rows = "0,70\n1,90\n"
@@ -226,6 +249,8 @@ REFUSED = [
     ("0,3000\n1,-3e9\n", "time [s],speed [rpm]", "line 3"),
     ("0,3000\n1,3000\n", "time [s],speed", "has no unit"),
     ("0,3000\n1,3000\n", "time [s],speed [m/s]", "rpm"),
+    ("0,100\n1,80\n", "time [s],speed [%]", "column 'speed [%]': has the unit '%'"),
+    ("0,100\n1,80\n", "time [s],radial load [%]", "values in N"),
 ]
 
 
