@@ -181,19 +181,25 @@ def some_points(case: BearingCase, points: IntArray) -> BearingCase:
 def _solved(case: BearingCase, points: IntArray, positions: int, detail: Detail) -> SolvedPart | None:
     """Solution of those of some points that have one; None where none has."""
     while points.size:
-        some = some_points(case, points)
-        prepared = prepare_bearing(some, positions)
-        refused = np.broadcast_to(prepared.refused, points.shape)
-        if not refused.any():
-            # Contacts beyond the model, whose points are then left out, have numbers without a logarithm.
-            with np.errstate(invalid="ignore"):
-                solution = solution_of_prepared(some, prepared, detail=detail)
-            outside = outside_bounds(solution) if detail == "whole" else False
-            refused = np.broadcast_to(solution.refused | outside, points.shape)
-            if not refused.any():
-                return SolvedPart(points, solution)
-        points = points[~refused]
+        solution, refused = _attempt(some_points(case, points), positions, detail)
+        if solution is not None:
+            return SolvedPart(points, solution)
+        points = points[~np.broadcast_to(refused, points.shape)]
     return None
+
+
+def _attempt(case: BearingCase, positions: int, detail: Detail) -> tuple[BearingSolution | None, Mask | bool]:
+    """Solution of all points of a case, or None and which points are refused, shape (...)."""
+    prepared = prepare_bearing(case, positions)
+    if np.any(prepared.refused):
+        return None, prepared.refused
+    # Numbers of contacts beyond the model, whose points are refused then, have no logarithm.
+    with np.errstate(invalid="ignore"):
+        solution = solution_of_prepared(case, prepared, detail=detail)
+    if np.any(solution.refused):
+        return None, solution.refused
+    outside = outside_bounds(solution) if detail == "whole" else False
+    return None if np.any(outside) else solution, outside
 
 
 def _reason(case: BearingCase) -> str:
