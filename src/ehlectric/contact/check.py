@@ -164,7 +164,7 @@ def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact
     surfaces are rough, and where oil is supplied at the inlet.
     """
     case, grid, loss = contact.case, contact.case.grid, film.domain_loss
-    if not film.converged or loss is None or grid.target is None or loss <= grid.target:
+    if loss is None or grid.target is None or not loss > grid.target:
         return None
     if contact.rough or case.inlet is not None:
         return None

@@ -256,7 +256,7 @@ def _on_large_domain(
             break
         larger = refined(Setup.of(wider.case), geometry, partial(_posed, wider, default), solved, on_grid)
         seconds += larger.seconds
-        if not larger.film.converged:
+        if films.film.converged and not larger.film.converged:
             break
         contact, films = wider, larger
     return contact, replace(films, seconds=seconds)

@@ -39,6 +39,39 @@ def test_the_error_asked_for_has_the_domain_in_it(load, speed):
     assert 0.9 * lost < default.domain_loss < 2.0 * lost + 0.01
 
 
+INCOMPRESSIBLE = {
+    "viscosity": 0.315,
+    "ambient_pressure": 0.0,
+    "density_law": "incompressible",
+    "base": "paper",
+}
+ROELANDS = {"viscosity_law": "roelands", "roelands_z": 0.443, "roelands_pressure": "203 MPa"}
+BARUS = {"viscosity_law": "barus", "pressure_viscosity_coefficient": "18.6 1/GPa"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("load", "speed", "law"),
+    [(1.149e6, 86.3, ROELANDS), (8.6e5, 161.0, ROELANDS), (2.4e6, 94.0, ROELANDS), (1.0e6, 100.0, BARUS)],
+)
+def test_a_film_that_converges_on_a_large_domain_only(load, speed, law):
+    """Light contacts with an incompressible oil of high L: M of 0.6 to 2, L of 29 to 35.
+
+    The inlet of the reference, 240 half-widths, costs 0.1 % of the film at most.
+    """
+    oil = INCOMPRESSIBLE | law
+    contact = {"reduced_radius": "100 mm", "load_per_length": load, "entrainment_speed": speed}
+    case = line(load, speed, oil, error=0.002).replace({"contact": BODIES | contact})
+    result = solve(case)
+    assert result.converged
+    assert result.film.domain_loss <= 0.002
+    assert not [warning.code for warning in result.warnings if warning.code.startswith("inlet")]
+    far_away = case.replace({"grid": {"inlet": -240.0, "outlet": 20.0, "nodes": 16641}})
+    reference = solve(far_away, require_convergence=True).film
+    assert result.film.central_thickness == pytest.approx(reference.central_thickness, rel=0.005)
+    assert result.film.minimum_thickness == pytest.approx(reference.minimum_thickness, rel=0.005)
+
+
 def test_a_given_inlet_stays_and_is_warned_of():
     result = solve(line(1e4, 4.0, inlet=-4.0))
     assert far(result.film) == pytest.approx(-4.0)
