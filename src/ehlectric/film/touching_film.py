@@ -582,8 +582,10 @@ def _length(level: Level, now: Touching, step: _Step, boundary_film: float) -> f
     """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
     length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(step.pressure))), 1e-300))
     dh = level.deflection(step.pressure) + step.h00
-    closing = (dh < 0.0) & ~now.contact
+    # The nodes of the mirror image count, so that a contact and half of it take the same step.
+    dh, room = (level.mesh.mirrored(values) for values in (dh, now.thickness - boundary_film))
+    closing = (dh < 0.0) & ~level.mesh.mirrored(now.contact)
     if closing.any():
-        room = _CLOSING * (now.thickness - boundary_film) + 0.5 * boundary_film
-        length = min(length, float(np.quantile(room[closing] / -dh[closing], _FURTHER)))
+        room = _CLOSING * room[closing] + 0.5 * boundary_film
+        length = min(length, float(np.quantile(room / -dh[closing], _FURTHER)))
     return max(length, _LEAST_STEP)
