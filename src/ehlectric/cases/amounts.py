@@ -13,6 +13,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.grouped_digits import doubt
 from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.quantity import Bounds
 
@@ -117,7 +118,7 @@ class Amount(Bounds):
         if self.difference and units.on_scale(entry):
             raise ValueError("it is a difference of temperatures, not a temperature")
         if isinstance(entry, str) and self.unit:
-            return units.to_si(entry, self.unit)
+            return self._of_text(entry)
         if isinstance(entry, str) and self.fraction:
             return units.to_fraction(entry)
         if isinstance(entry, str) and len(entry) <= units.LONGEST and (advice := units.comma_advice(entry)):
@@ -130,6 +131,20 @@ class Amount(Bounds):
             return float(entry)
         except OverflowError:
             raise ValueError("it is too large") from None
+
+    def _of_text(self, text: str) -> float:
+        """Value in SI units of a number with its unit. Raises ValueError also for a number that may be meant
+        with a separator of thousands.
+        """
+        value = units.to_si(text, self.unit)
+        advice = None if self.unit == "K" else doubt(text, self, self.factor)
+        if advice is not None:
+            raise ValueError(advice)
+        return value
+
+    def factor(self, unit: str) -> float:
+        """Factor from a unit, as a person writes it, to the SI unit. Raises ValueError for another unit."""
+        return units.factor(units.plain(unit), self.unit)
 
     @property
     def takes(self) -> str:

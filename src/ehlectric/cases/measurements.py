@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import codecs
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -19,6 +20,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
 from ehlectric.runtime.reading import read_bytes
 
@@ -48,7 +50,13 @@ class ColumnBook:
         """Book of a table of measured_columns.toml."""
         entries = data_file("ehlectric.quantities", "measured_columns.toml")[table].items()
         columns = {
-            name: Measurable(**{**column, "names": tuple(column.get("names", ()))})
+            name: Measurable(
+                **{
+                    **column,
+                    "names": tuple(column.get("names", ())),
+                    "typical": tuple(column["typical"]) if "typical" in column else None,
+                }
+            )
             for name, column in entries
         }
         return cls(MappingProxyType(columns), examples, most_rows)
@@ -467,6 +475,7 @@ def _key(column: Column) -> tuple[str, bool]:
 
 def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     """Values of a column in SI units, shape (n,)."""
+    _refuse_grouped(source, [row[place] for row in rows.cells], column)
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
         cell = row[place]
@@ -480,6 +489,23 @@ def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
                 source, f"line {line}, {column.head}: got {shown(cell)}", takes=str(error)
             ) from None
     return values
+
+
+def _refuse_grouped(source: str, cells: Sequence[str], column: Column) -> None:
+    """Refuse a column whose separators may be separators of thousands."""
+    bounds = None if column.uncertainty else column.book.columns[column.name]
+    if bounds is None or bounds.unit == "K":
+        return
+    cell = doubt_of_column(cells, bounds, column.factor())
+    if cell is not None:
+        whole, part = re.split("[.,]", cell)
+        decimal, thousands = readings(whole, part, "")
+        raise InputError(
+            source,
+            f"{column.head}: all numbers have three digits after the separator, so that {shown(cell)} may be "
+            f"{decimal} or {thousands}",
+            takes="numbers without separators of thousands, or with another number of decimals",
+        )
 
 
 def _number(cell: str, decimal: str) -> float:

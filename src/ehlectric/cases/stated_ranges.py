@@ -9,6 +9,8 @@ from typing import Any
 from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.grouped_digits import certain, doubt
+from ehlectric.quantities.quantity import Bounds
 
 # A value and what it may be off either way, and two ends of a range.
 _AROUND = re.compile(r"(?P<value>.+?)\s*(?:\+-|\+/-|±)\s*(?P<part>.+)", re.DOTALL)
@@ -72,7 +74,7 @@ def _changed(tables: Mapping[str, Any], values: Mapping[str, Any], prefix: str =
 
 def _written(value: float, quantity: Amount) -> float | str:
     """Value in SI units with its unit, which a speed has to have."""
-    return f"{value!r} {quantity.unit}" if quantity.unit else value
+    return certain(f"{value!r} {quantity.unit}") if quantity.unit else value
 
 
 def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
@@ -88,7 +90,7 @@ def _range(key: str, text: str, quantity: Amount) -> tuple[float, float, float]:
     part = _difference(key, text, value, around["part"].strip(), quantity)
     ends = value - part, value + part
     for end in ends:
-        _parsed(key, quantity, f"{end:.9g} {quantity.unit}" if quantity.unit else end)
+        _parsed(key, quantity, certain(f"{end:.9g} {quantity.unit}") if quantity.unit else end)
     return ends[0], value, ends[1]
 
 
@@ -110,6 +112,8 @@ def _difference(key: str, text: str, value: float, part: str, quantity: Amount) 
             found = units.to_si(part, quantity.unit)
         except ValueError:
             found = None
+        if found is not None and (advice := doubt(part, Bounds(), quantity.factor)) is not None:
+            raise InputError(key, got=f"{shown(text)} ({advice})", takes=takes)
     if found is None or not found > 0.0:
         raise InputError(key, got=shown(text), takes=takes)
     return found

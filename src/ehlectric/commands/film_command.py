@@ -12,7 +12,7 @@ import typer
 
 from ehlectric.commands.options import command
 from ehlectric.commands.terminal import print_rows, user_errors
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
     from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
@@ -100,18 +100,15 @@ def _by_numbers(
 
 def _number(name: str, text: str | None, unit: str) -> float:
     """Number above zero in an SI unit."""
-    from ehlectric.quantities.units import to_si
+    from ehlectric.cases.amounts import Amount
 
     flag = f"--{name.replace('_', '-')}"
     if text is None:
         raise InputError(flag, got="nothing", takes=f"a number in {unit}")
     try:
-        value = to_si(text, unit)
-    except ValueError as error:
-        raise InputError(flag, got=shown(text), takes=f"a number in {unit}: {error}") from None
-    if not 0.0 < value < math.inf:
-        raise InputError(flag, got=shown(text), takes="a number above 0")
-    return value
+        return Amount(unit=unit, above=0.0).parse(text, written=True)
+    except InputError as error:
+        raise error.retold(flag, error.text) from None
 
 
 def _rows(groups: Groups, film: AtlasFilm, found: ContactFilm | None) -> Iterator[Row]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal
 
+from ehlectric.quantities import units
 from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 
 # Tables of the bearings of a drive file, and the name that stands for both.
@@ -71,10 +72,27 @@ def inputs() -> Mapping[str, Mapping[str, Input]]:
     }
 
 
+# Values typical in machines reach that far below and above the slider.
+_BELOW, _ABOVE = 1.0 / 30.0, 10.0
+
+
 def _input(key: str, **entry: Any) -> Input:
+    entry["typical"] = _typical(entry)
     for name in ("slider", "choices"):
         entry[name] = tuple(entry[name]) if name in entry else getattr(Input, name)
     return Input(**{"label": key.replace("_", " "), **entry})
+
+
+def _typical(entry: Mapping[str, Any]) -> tuple[float, float] | None:
+    """Typical values of an input in its SI unit: its own, or those of its slider and somewhat beyond."""
+    factor = units.known_factor(entry.get("shown", ""), entry.get("unit", "").replace("**", "^"))
+    if factor is None or ("typical" not in entry and "slider" not in entry):
+        return None
+    if "typical" in entry:
+        low, high = entry["typical"]
+    else:
+        low, high = max(0.0, _BELOW * entry["slider"][0]), _ABOVE * max(map(abs, entry["slider"]))
+    return factor * low, factor * high
 
 
 def form(name: str) -> Mapping[str, tuple[str, ...]]:

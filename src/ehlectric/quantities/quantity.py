@@ -72,6 +72,8 @@ class Bounds:
     fraction: bool = False  # whether the value may be a string in percent
     # Whether the value is a difference of temperatures, which has no zero of a scale.
     difference: bool = False
+    # Smallest and largest value that is typical in machines; None if unknown. Values beyond are allowed.
+    typical: tuple[float, float] | None = None
 
     def allow(self, value: float) -> bool:
         """Whether a value [SI unit] lies within the bounds.

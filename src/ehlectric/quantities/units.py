@@ -8,6 +8,7 @@ from functools import cache
 from typing import TYPE_CHECKING, TypeGuard
 
 from ehlectric.errors import InputError, short, shown
+from ehlectric.quantities.grouped_digits import is_grouped, readings
 
 if TYPE_CHECKING:
     import pint
@@ -142,15 +143,18 @@ def comma_advice(text: str) -> str | None:
     >>> comma_advice("14,1 mm")
     'decimal comma: write 14.1 mm'
     >>> comma_advice("1,000 mm")
-    'decimal comma: write 1.000 mm, or 1000 mm if the comma separates thousands'
+    'decimal comma: write 1 mm, or 1000 mm if the comma separates thousands'
     """
     found = _COMMA.fullmatch(text)
     if found is None:
         return None
     whole, part, rest = found.groups()
     rest = rest.rstrip()
-    thousand = f", or {short(whole + part + rest)} if the comma separates thousands" if len(part) == 3 else ""
-    return f"decimal comma: write {short(f'{whole}.{part}{rest}')}{thousand}"
+    if not is_grouped(f"{whole},{part}"):
+        return f"decimal comma: write {short(f'{whole}.{part}{rest}')}"
+    decimal, thousands = readings(whole, part, "")
+    or_thousands = f", or {short(thousands + rest)} if the comma separates thousands"
+    return f"decimal comma: write {short(decimal + rest)}{or_thousands}"
 
 
 def known_factor(written: str, unit: str) -> float | None:

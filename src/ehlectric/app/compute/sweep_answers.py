@@ -46,6 +46,7 @@ from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
+from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
@@ -605,10 +606,10 @@ def _text(key: str, value: Any, unit: str = "") -> Any:
         # The server reads units without the registry; an unknown one stays with the SI unit.
         number = in_unit(f"{value!r} {si.replace('**', '^')}", unit)
         for digits in () if number is None else (6, 9, 12):
-            text = f"{repr(float(f'{number:.{digits}g}')).removesuffix('.0')} {unit}"
+            text = certain(f"{repr(float(f'{number:.{digits}g}')).removesuffix('.0')} {unit}")
             if kind.parse(text, written=True) == value:
                 return text
-    return f"{value!r} {si}"
+    return certain(f"{value!r} {si}")
 
 
 def files(folder: str) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from ehlectric.app.catalogue import bearing
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
 from ehlectric.quantities.field_help import help_text
+from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
@@ -220,7 +221,7 @@ class Field:
         if isinstance(value, int | float) and not isinstance(value, bool) and self.unit:
             if self.unit == "%":
                 return f"{rounded(100.0 * value)} %"
-            return f"{value!r} {si_unit(self.unit)}"
+            return certain(f"{value!r} {si_unit(self.unit)}")
         return str(value)
 
     def number(self, value: Any) -> float | None:
@@ -347,7 +348,7 @@ def shown_text(field: Field, text: str) -> str:
     written = text.strip().removesuffix(found[1]).strip()
     number = in_unit(text, field.unit)
     if number is not None and sum(letter.isdigit() for letter in written.split("e")[0]) > _MOST_DIGITS + 2:
-        return f"{rounded(number, _MOST_DIGITS)} {printed(field.unit)}"
+        return certain(f"{rounded(number, _MOST_DIGITS)} {printed(field.unit)}")
     return f"{written} {printed(found[1])}"
 
 

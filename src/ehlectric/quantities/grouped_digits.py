@@ -1,0 +1,115 @@
+"""Numbers whose point or comma may separate thousands: "3.000 rpm" is 3 rpm here, and 3000 rpm elsewhere.
+
+A number is in doubt if exactly three digits follow its only separator, and one to three digits without a
+leading zero precede it. The quantity decides. Both readings are refused as one text if the reading with
+thousands is plausible, and the decimal reading is implausible or its unit usually has whole numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+
+from ehlectric.quantities.quantity import Bounds
+
+_GROUPED = re.compile(r"([-+]?[1-9]\d{0,2})[.,](\d{3})(?:\s*+((?:1\s*/|[^\d.,\s]).*))?", re.DOTALL)
+
+# Units of quantities that people give in whole numbers, in small letters and without spaces.
+_WHOLE = frozenset(
+    (*("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1"), "n", "n/m", "h")
+)
+
+# Units in which both readings of a load occur, so that a note tells which of them is taken.
+_BOTH = frozenset({"kn"})
+
+
+def readings(whole: str, part: str, unit: str) -> tuple[str, str]:
+    """Texts of both readings of a number, neither of which is in doubt.
+
+    Examples
+    --------
+    >>> readings("3", "000", "rpm"), readings("1", "125", "rpm")
+    (('3 rpm', '3000 rpm'), ('1.1250 rpm', '1125 rpm'))
+    """
+    decimal = f"{whole}.{part}".rstrip("0").rstrip(".")
+    kept = f"{decimal}0" if _GROUPED.fullmatch(decimal) else decimal
+    return f"{kept} {unit}".rstrip(), f"{whole}{part} {unit}".rstrip()
+
+
+def certain(text: str) -> str:
+    """Text of a number with its unit that no rule of this module doubts: a zero follows three decimals.
+
+    Examples
+    --------
+    >>> certain("123.456 N"), certain("1234.567 N"), certain("0.125 N")
+    ('123.4560 N', '1234.567 N', '0.125 N')
+    """
+    found = _GROUPED.fullmatch(text)
+    return text if found is None else f"{found[1]}.{found[2]}0 {found[3] or ''}".rstrip()
+
+
+def is_grouped(text: str) -> bool:
+    """Whether the separator of a number may separate thousands."""
+    return _GROUPED.fullmatch(text.strip()) is not None
+
+
+def _is_whole(unit: str) -> bool:
+    return unit.replace(" ", "").lower() in _WHOLE
+
+
+def doubt(text: str, bounds: Bounds, factor: Callable[[str], float]) -> str | None:
+    """Advice about a number with its unit, whose two readings are both possible.
+
+    Parameters
+    ----------
+    text : str
+        Number with its unit, as a person wrote it.
+    bounds : Bounds
+        Bounds of the quantity and, if they are known, its typical values, in its SI unit.
+    factor : callable
+        Factor from a unit to the SI unit.
+
+    Returns
+    -------
+    str or None
+        Both readings, for an error; None if the number is certain.
+
+    Warns
+    -----
+    UserWarning
+        If both readings of a load in kN are possible.
+    """
+    found = _GROUPED.fullmatch(text.strip())
+    if found is None:
+        return None
+    whole, part, unit = found[1], found[2], (found[3] or "").strip()
+    ratio = factor(unit)
+    decimal, thousands = ratio * float(f"{whole}.{part}"), ratio * float(whole + part)
+    low, high = bounds.typical or (0.0, float("inf"))
+    if not bounds.allow(thousands) or abs(thousands) > high:
+        return None
+    first, second = readings(whole, part, unit)
+    if _is_whole(unit) or abs(decimal) < low or not bounds.allow(decimal):
+        return f"the separator may be that of thousands: write '{first}' or '{second}'"
+    if unit.lower() in _BOTH:
+        import warnings
+
+        warnings.warn(f"'{text.strip()}' is read as {first}, not as {second}", stacklevel=2)
+    return None
+
+
+def doubt_of_column(cells: Sequence[str], bounds: Bounds, factor: float) -> str | None:
+    """First cell of a column in doubt: all its numbers with a separator have three digits after it, and all
+    decimal readings are lower than typical values. Instruments write three decimals too.
+
+    A leading zero, another number of decimals or four digits before the separator prove that it is decimal.
+    ``factor`` converts numbers in the unit of the column to the SI unit of the bounds.
+    """
+    separated = [cell.strip() for cell in cells if "." in cell or "," in cell]
+    if not separated or not all(map(is_grouped, separated)):
+        return None
+    low, high = bounds.typical or (0.0, float("inf"))
+    thousands = factor * max(abs(float(re.sub("[.,]", "", cell))) for cell in separated)
+    decimal = factor * max(abs(float(cell.replace(",", "."))) for cell in separated)
+    doubtful = decimal < low and bounds.allow(thousands) and thousands <= high
+    return separated[0] if doubtful else None
