@@ -47,6 +47,7 @@ from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.oil_inputs import OilTemperature
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, unusual
 from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
@@ -59,15 +60,12 @@ from ehlectric.quantities.units import rpm
 # [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.
 _MOST_SPEED = 1e6
 
-# Temperatures that bearing steel, stabilised for 200 degC at most, and ordinary oils stand [degC].
-_COLDEST, _HOTTEST = -40.0, 200.0
-
 # Load, as a part of the static load rating, below which a unit is probably wrong: makers state minimum loads
 # of about a hundredth of the rating.
 _LEAST_LOAD = 1e-3
 
 # Viscosity above which an oil is near its pour point [Pa s].
-_MOST_VISCOUS = 10.0
+_MOST_VISCOUS = PLAUSIBLE["viscosity"].high
 
 # Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [K].
 _COLD = 273.15
@@ -86,7 +84,13 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 
 def flags_of(solution: BearingSolution) -> Iterator[Flag]:
     """Conditions of the warnings of a whole bearing, at one or many points; without those of its contacts."""
-    yield from input_flags(solution.case, solution.conditions.oil.viscosity)
+    oil = solution.conditions.oil
+    yield from input_flags(solution.case, oil.viscosity)
+    yield from (flag for flag in oil_doubts(oil) if flag.values["name"] != PLAUSIBLE["viscosity"].name)
+    yield from unusual("viscosity", np.minimum(oil.viscosity, _MOST_VISCOUS))
+    mounted = solution.conditions.clearance
+    given = solution.case.bearing.radial_clearance
+    yield from unusual("clearance", given if mounted is None else mounted.running.clearance)
     yield from film_flags(solution)
     yield from voltage_flags(solution)
     yield from edge_flags(solution)
@@ -181,18 +185,12 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     load, rating = np.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
     yield Flag.of(load < _LEAST_LOAD * rating, "load-low", load=load, rating=rating)
     for key, temperature in bearing.temperatures().items():
-        own = temperature - 273.15
-        yield Flag.of(
-            (own < _COLDEST) | (own > _HOTTEST),
-            "temperature-extreme",
-            key=key,
-            celsius=own,
-            coldest=_COLDEST,
-            hottest=_HOTTEST,
-        )
+        yield extreme(f"bearing.{key}", temperature)
     yield Flag.of(
         viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
     )
+    yield from unusual("roughness", bearing.composite_rq)
+    yield from unusual("strength", case.discharge.dielectric_strength)
     yield from class_flags(bearing)
     yield from _geometry_flags(bearing)
     oil = case.lubricant.temperature

@@ -13,16 +13,10 @@ from ehlectric.cases import library
 from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.oil_inputs import library_choice
+from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, raised
 from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
-
-# Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
-_LARGEST = 1.0
-
-# Reduced modulus below which a unit is probably wrong [Pa]: plastics have 1 to 20 GPa, and rubber, which is
-# softer, does not carry a bearing or a gear.
-_SOFTEST = 1e9
 
 
 def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
@@ -33,20 +27,25 @@ def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:
     >>> print(*radius_doubt("reduced_radius", 14.1))
     reduced_radius is 14.1 m, more than machine parts have: is the unit of the radii right?
     """
-    if radius > _LARGEST:
+    if radius > PLAUSIBLE["radius"].high:
         yield ResultWarning.of("radius-large", key=key, radius=radius)
+    else:
+        yield from raised(unusual("radius", radius))
 
 
 def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
-    """Warning about a reduced modulus [Pa] of rubber.
+    """Warning about a reduced modulus [Pa] of rubber, above that of diamond, or without the factor 2.
 
     Examples
     --------
     >>> print(*modulus_doubt(226e6))
     the reduced modulus is 226 MPa, that of rubber; steel has 226 GPa: is the unit of the moduli right?
     """
-    if modulus < _SOFTEST:
+    if modulus < PLAUSIBLE["modulus"].low:
         yield ResultWarning.of("modulus-low", modulus=modulus / 1e6)
+    else:
+        yield from raised(unusual("modulus", modulus))
+    yield from raised(modulus_of_steel(modulus))
 
 
 def warn_of(contact: Contact, *, level: int) -> None:

@@ -15,10 +15,11 @@ from ehlectric.cases.case_oil import CELSIUS, viscosity_over_temperature
 from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, unusual
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
@@ -40,7 +41,10 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     """Warnings about the operating conditions of a contact, known before it is solved."""
     key = "radius_x" if isinstance(conditions, PointConditions) else "reduced_radius"
     yield from radius_doubt(key, conditions.radius_along)
-    yield from modulus_doubt(conditions.reduced_modulus)
+    given = setup.contact.reduced_modulus if isinstance(setup, Case) else conditions.reduced_modulus
+    # The moduli of two bodies, such as glass and steel, contain no factor 2.
+    yield from () if given is None else modulus_doubt(given)
+    yield from raised(_doubts(setup, conditions))
     yield from own_law_warnings(setup, conditions)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
@@ -53,6 +57,19 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
         domain = setup.grid.length / (0.5 * np.pi)
     yield from pressure_warnings(setup.oil, conditions, domain)
     yield from hardness_warnings(conditions)
+
+
+def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> Iterator[Flag]:
+    """Conditions of warnings about values that no machine has."""
+    yield from unusual("speed", conditions.entrainment_speed)
+    if isinstance(setup, Case) and setup.contact.temperature is not None:
+        yield extreme("contact.temperature", setup.contact.temperature)
+    if conditions.reduced_modulus > PLAUSIBLE["modulus"].low:
+        yield from unusual("pressure", conditions.max_pressure)
+    yield from oil_doubts(setup.oil)
+    yield from () if setup.discharge is None else unusual("strength", setup.discharge.dielectric_strength)
+    for surface in setup.roughness:
+        yield from unusual("roughness", surface.rq if surface.rescale_rq is None else surface.rescale_rq)
 
 
 def own_law_warnings(
@@ -121,18 +138,18 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     """Warning about a line contact in a regime for which the film formulas were not made."""
     regime = film_formulas.regime(conditions.contact)
     if regime == "isoviscous-rigid":
-        yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
+        yield rigid_warning("Moes", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
     elif regime != "piezoviscous-elastic":
         yield ResultWarning.of("regime", "line", regime=regime)
 
 
-def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
+def rigid_warning(formula: str, lengths: str, reach: float) -> ResultWarning:
     """Warning about a contact in the isoviscous-rigid regime.
 
-    The film builds up over ``reach`` half-widths or semi-axes; ``length`` and ``lengths`` are the name of
-    this unit in singular and plural.
+    The film builds up over ``reach`` half-widths or semi-axes, whose name is ``lengths``. ``formula`` is the
+    only one that holds.
     """
-    return ResultWarning.of("regime", "rigid", length=length, reach=reach, lengths=lengths, inlet=-reach)
+    return ResultWarning.of("regime", "rigid", formula=formula, reach=reach, lengths=lengths, inlet=-reach)
 
 
 def pressure_warnings(
@@ -163,7 +180,7 @@ def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning
         film = point_formulas.nijenbanning_venner_moes(contact).central_thickness
         # The film between rigid bodies builds up over about 10 sqrt(2 R h).
         reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
-        yield rigid_warning("semi-axis", "semi-axes", reach)
+        yield rigid_warning("Nijenbanning, Venner and Moes", "semi-axes", reach)
     elif regime == "isoviscous-elastic":
         yield ResultWarning.of("regime", "point", regime=regime)
 

@@ -1,0 +1,151 @@
+"""Values that no machine has, of contacts and bearings alike: mistaken units, and factors of 2 and 1000.
+
+Each quantity has a range in its SI unit. A value outside is allowed, and a warning asks about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from ehlectric.arrays import Numbers
+from ehlectric.errors import Flag
+from ehlectric.lubricant.oil import Oil
+
+_CELSIUS = 273.15
+
+
+@dataclass(frozen=True)
+class Plausible:
+    """Range of a quantity in machines, in its SI unit, and the question about a value outside."""
+
+    name: str
+    low: float
+    high: float
+    unit: str  # unit in which a text shows the value
+    factor: float  # from the SI unit to this unit
+    question: str
+
+    def shown(self, value: float) -> str:
+        """Value [SI unit] with its unit."""
+        return f"{self.factor * value:.4g} {self.unit}".rstrip()
+
+
+PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
+    {
+        # Tips of force microscopes have smaller radii, and the largest rolls and gears are near 1 m.
+        "radius": Plausible("the reduced radius", 2e-5, 1.0, "m", 1.0, "is the unit of the radii right?"),
+        # Plastics have 1 to 20 GPa; rubber carries no bearing and no gear; two diamonds have 1.2 TPa.
+        "modulus": Plausible(
+            "the reduced modulus", 1e9, 1.3e12, "GPa", 1e-9, "is the unit of the moduli right?"
+        ),
+        # Steel on steel at 5 MPa carries less than a millionth of the load of a bearing.
+        "pressure": Plausible("the Hertz pressure", 5e6, 2e10, "MPa", 1e-6, "is the unit of the load right?"),
+        "speed": Plausible(
+            "the entrainment speed", 1e-6, 300.0, "m/s", 1.0, "is it in m/s, and no rotational speed?"
+        ),
+        # Petrol and liquid refrigerants have 0.2 to 0.6 mPa s, and no oil flows at 10 Pa s.
+        "viscosity": Plausible(
+            "the viscosity of the oil", 2e-4, 10.0, "Pa s", 1.0, "is it in Pa s, and not in mPa s?"
+        ),
+        # Water has 0.5 1/GPa, and traction fluids in the cold have 60 1/GPa.
+        "alpha": Plausible(
+            "the pressure-viscosity coefficient", 4e-10, 1e-7, "1/GPa", 1e9, "is it in 1/GPa, mm²/N or 1/Pa?"
+        ),
+        # Glycols have 40, and water has 80.
+        "permittivity": Plausible(
+            "the relative permittivity of the oil", 1.0, 90.0, "", 1.0, "is it the one of the oil?"
+        ),
+        # Ionic liquids have 1 S/m.
+        "conductivity": Plausible(
+            "the conductivity of the oil", 1e-17, 1.0, "S/m", 1.0, "is it in S/m, and not in pS/m?"
+        ),
+        "strength": Plausible(
+            "the dielectric strength", 1e6, 1e9, "V/µm", 1e-6, "is it in V/µm, and not in V/mm or kV/m?"
+        ),
+        # Ground gears have 1 µm, and polished balls have 3 nm.
+        "roughness": Plausible("the roughness Rq", 5e-10, 1e-5, "µm", 1e6, "is it in µm, and not in nm?"),
+        # Bearings of 300 mm bore have 0.5 mm in class C5.
+        "clearance": Plausible(
+            "the radial clearance", -2e-4, 6e-4, "µm", 1e6, "is it in µm, and the full diametral play?"
+        ),
+    }
+)
+
+# Reduced modulus of steel on steel, 2/E' = 2 (1 - 0.3^2)/E with E from 190 to 215 GPa, without the factor 2
+# and with it twice [Pa].
+_STEEL = (208e9, 237e9)
+
+
+def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:
+    """Condition of the warning about a value, or about many, outside the range of ``PLAUSIBLE``.
+
+    Examples
+    --------
+    >>> from ehlectric.errors import raised
+    >>> print(*raised(unusual("speed", 3000.0)))
+    the entrainment speed is 3000 m/s, above the 300 m/s of machines: is it in m/s, and no rotational speed?
+    """
+    if value is None:
+        return
+    entry = PLAUSIBLE[key]
+    for side, limit, where in (
+        ("below", entry.low, np.less(value, entry.low)),
+        ("above", entry.high, np.greater(value, entry.high)),
+    ):
+        yield Flag.of(
+            where,
+            "value-unusual",
+            name=entry.name,
+            value=lambda: entry.shown(float(np.ravel(value)[0])),
+            side=side,
+            limit=entry.shown(limit),
+            question=entry.question,
+        )
+
+
+# Temperatures that bearing steel, stabilised for 200 degC at most, and ordinary oils stand [degC].
+_COLDEST, _HOTTEST = -40.0, 200.0
+
+
+def extreme(key: str, temperature: Numbers) -> Flag:
+    """Condition of the warning about a temperature [K], with its key, that steel and oil do not stand.
+
+    A temperature in kelvin that is given in degrees Celsius has it too.
+    """
+    own = temperature - _CELSIUS
+    return Flag.of(
+        (own < _COLDEST) | (own > _HOTTEST),
+        "temperature-extreme",
+        key=key,
+        celsius=own,
+        coldest=_COLDEST,
+        hottest=_HOTTEST,
+    )
+
+
+def modulus_of_steel(modulus: float) -> Iterator[Flag]:
+    """Note about a reduced modulus [Pa] that is half or twice the modulus of steel on steel.
+
+    Examples
+    --------
+    >>> from ehlectric.errors import raised
+    >>> [flag.situation for flag in modulus_of_steel(115.4e9) if flag.where]
+    ['half']
+    """
+    low, high = _STEEL
+    for name, factor in (("half", 0.5), ("twice", 2.0)):
+        where = factor * low <= modulus <= factor * high
+        yield Flag.of(where, "modulus-factor", name, modulus=modulus / 1e9)
+
+
+def oil_doubts(oil: Oil) -> Iterator[Flag]:
+    """Conditions of the warnings about numbers of an oil at its temperature, at one or at many points."""
+    yield from unusual("viscosity", oil.viscosity)
+    # An oil whose viscosity does not change with pressure has the coefficient 0.
+    yield from unusual("alpha", np.where(np.equal(oil.alpha, 0.0), PLAUSIBLE["alpha"].low, oil.alpha))
+    yield from unusual("permittivity", oil.relative_permittivity)
+    yield from unusual("conductivity", oil.conductivity)
