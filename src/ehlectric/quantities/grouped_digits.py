@@ -12,7 +12,9 @@ from collections.abc import Callable, Sequence
 
 from ehlectric.quantities.quantity import Bounds
 
-_GROUPED = re.compile(r"([-+]?[1-9]\d{0,2})[.,](\d{3})(?:\s*+((?:1\s*/|[^\d.,\s]).*))?", re.DOTALL)
+_GROUPED = re.compile(
+    r"([-+]?[1-9]\d{0,2})[.,](\d{3})(?![eE][-+]?\d)(?:\s*+((?:1\s*/|[^\d.,\s]).*))?", re.DOTALL
+)
 
 # Units of quantities that people give in whole numbers, in small letters and without spaces.
 _WHOLE = frozenset(

@@ -39,6 +39,7 @@ from tests.helpers.each import each
         ("contact.body_1.thermal_conductivity", "0.137 W/m/K", "", ""),
         ("source.fundamental_frequency", "50.000 Hz", "", ""),
         ("bearing.temperature", "70.000 degC", "", ""),
+        ("bearing.radial_load", "1.800e3 N", "", ""),
         ("lubricant.temperature.kinematic_viscosity_40", "46.125 mm^2/s", "", ""),
         ("bearing.inner_speed", "3000.000 rpm", "", ""),
         ("bearing.inner_speed", "3.0000 rpm", "", ""),
