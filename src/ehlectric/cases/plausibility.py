@@ -114,7 +114,7 @@ _COLDEST, _HOTTEST = -40.0, 200.0
 def extreme(key: str, temperature: Numbers) -> Flag:
     """Condition of the warning about a temperature [K], with its key, that steel and oil do not stand.
 
-    A temperature in kelvin that is given in degrees Celsius has it too.
+    A temperature in kelvin that is given in degrees Celsius also has it.
     """
     own = temperature - _CELSIUS
     return Flag.of(

@@ -35,7 +35,7 @@ from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.isothermal_film import Film, PointFilm, solve_film, solve_point_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas import film_line, film_point
-from ehlectric.formulas.film_line import LineContact, Thickness
+from ehlectric.formulas.film_line import Formula, LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
@@ -64,7 +64,7 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
     # formulas and regime: published film-thickness formulas by name, and the function that names the
     # lubrication regime.
-    formulas: Mapping[str, Callable[[ContactT], Thickness]]
+    formulas: Mapping[str, Formula[Any]]
     regime: Callable[[ContactT], str]
     # contact_keys, grid_keys and hertz_keys: attributes of the operating conditions that a summary lists
     # under ``inputs.contact``, ``inputs.grid`` and ``hertz``

@@ -37,6 +37,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "film": _film(solution) | kind.film_summary(solution),
         "field": _field(solution),
         "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
+        "film_formula_ranges": ranges_of(conditions),
         "seconds": {"film": solution.film_seconds, "field": solution.field_seconds},
     }
     if solution.discharge is not None:
@@ -100,6 +101,7 @@ def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -
         "velocity_parameter": conditions.velocity_parameter,
         "regime": KINDS[conditions.geometry].regime(conditions.contact),
         "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
+        "film_formula_ranges": ranges_of(conditions),
     }
 
 
@@ -137,6 +139,12 @@ def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickn
     """Film thickness from each published formula [m], keyed by the name of the formula."""
     formulas = KINDS[conditions.geometry].formulas
     return {name: formula(conditions.contact) for name, formula in formulas.items()}
+
+
+def ranges_of(conditions: Conditions | PointConditions) -> dict[str, dict[str, str | None]]:
+    """Reason why a contact is outside the range of each published formula, for each film."""
+    formulas = KINDS[conditions.geometry].formulas
+    return {name: formula.ranges(conditions.contact) for name, formula in formulas.items()}
 
 
 def _supply(starvation: Starvation | None) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """Film-thickness formulas, Moes groups and lubrication regimes of line contacts.
 
-The published formulas are fits to numerical solutions of their time. They differ from each other, and from
-the film that ehlectric computes, by up to 40 %. Results show them for comparison only.
+The published formulas are fits to numerical solutions of their time. Within their ranges they differ from
+each other, and from the film that ehlectric computes, by up to 40 %. Results show them for comparison only.
 """
 
 from __future__ import annotations
@@ -68,12 +68,31 @@ class Formula(Generic[_Contact]):
     # Whether the formula holds for piezoviscous lubricants only. It then gives no film thickness for an
     # isoviscous lubricant.
     piezoviscous: bool = False
+    # Functions of a contact that return why it is outside the range of the formula, or "" if it is within:
+    # range of both films, and further range of the minimum film.
+    outside: Callable[[_Contact], str] = lambda _: ""
+    outside_minimum: Callable[[_Contact], str] = lambda _: ""
 
     def __call__(self, contact: _Contact) -> Thickness:
         """Film thicknesses of a contact [m]; all None where the formula does not hold."""
         if self.piezoviscous and not np.any(contact.pressure_viscosity_coefficient):
             return Thickness()
         return self.function(contact)
+
+    def ranges(self, contact: _Contact) -> dict[str, str | None]:
+        """Reason why a contact is outside the range of each film thickness, by its key; None within it.
+
+        Examples
+        --------
+        >>> light = LineContact(14.1e-3, 226e9, 1e3, 4.0, 0.04, 22e-9)
+        >>> FORMULAS["pan_hamrock"].ranges(light)["central_thickness"]
+        'isoviscous-rigid regime'
+        """
+        both = self.outside(contact)
+        return {
+            "minimum_thickness": both or self.outside_minimum(contact) or None,
+            "central_thickness": both or None,
+        }
 
 
 @dataclass(frozen=True)
@@ -250,14 +269,6 @@ def below_both(first: Numbers, second: Numbers, power: float) -> Numbers:
     return thinner * (1.0 + ratio**power) ** (-1.0 / power)
 
 
-FORMULAS = {
-    "dowson_higginson": Formula("Dowson-Higginson", dowson_higginson, piezoviscous=True),
-    "dowson_toyoda": Formula("Dowson-Toyoda", dowson_toyoda, piezoviscous=True),
-    "pan_hamrock": Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True),
-    "moes": Formula("Moes", moes),
-}
-
-
 def regime(contact: LineContact) -> str:
     """Lubrication regime of a line contact: the limiting regime that dominates the Moes formula.
 
@@ -290,3 +301,19 @@ def dominant(films: Mapping[str, float]) -> str:
     isoviscous = max(("isoviscous-rigid", "isoviscous-elastic"), key=films.__getitem__)
     piezoviscous = min(("piezoviscous-rigid", "piezoviscous-elastic"), key=films.__getitem__)
     return max((isoviscous, piezoviscous), key=films.__getitem__)
+
+
+def _of_hard_contacts(contact: LineContact) -> str:
+    found = regime(contact)
+    return "" if found == "piezoviscous-elastic" else f"{found} regime"
+
+
+# The solutions behind all formulas except the formula of Moes are for hard contacts with piezoviscous oils.
+FORMULAS = {
+    "dowson_higginson": Formula(
+        "Dowson-Higginson", dowson_higginson, piezoviscous=True, outside=_of_hard_contacts
+    ),
+    "dowson_toyoda": Formula("Dowson-Toyoda", dowson_toyoda, piezoviscous=True, outside=_of_hard_contacts),
+    "pan_hamrock": Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True, outside=_of_hard_contacts),
+    "moes": Formula("Moes", moes),
+}

@@ -21,7 +21,7 @@ _WHOLE = frozenset(
     (*("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1"), "n", "n/m", "h")
 )
 
-# Units in which both readings of a load occur, so that a note tells which of them is taken.
+# Units in which both readings of a load occur, so that a warning states the chosen reading.
 _BOTH = frozenset({"kn"})
 
 
@@ -102,7 +102,7 @@ def doubt(text: str, bounds: Bounds, factor: Callable[[str], float]) -> str | No
 
 def doubt_of_column(cells: Sequence[str], bounds: Bounds, factor: float) -> str | None:
     """First cell of a column in doubt: all its numbers with a separator have three digits after it, and all
-    decimal readings are lower than typical values. Instruments write three decimals too.
+    decimal readings are lower than typical values. Instruments also write three decimals.
 
     A leading zero, another number of decimals or four digits before the separator prove that it is decimal.
     ``factor`` converts numbers in the unit of the column to the SI unit of the bounds.

@@ -92,14 +92,18 @@ def _check_contact(case: Case) -> Meaning:
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
-def _film_by_formula(conditions: Conditions | PointConditions, *, line: str, point: str) -> tuple[str, Any]:
-    """Name and film thicknesses of a formula, chosen by its key for line and for point contacts."""
+def _film_by_formula(
+    conditions: Conditions | PointConditions, *, line: str, point: str
+) -> tuple[str, Any, Mapping[str, str | None]]:
+    """Name and film thicknesses of a formula, chosen by its key for line and for point contacts, and why the
+    contact is outside its ranges.
+    """
     from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
     from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
 
     formulas: Mapping[str, Any] = LINE_FORMULAS if conditions.geometry == "line" else POINT_FORMULAS
     formula = formulas[line if conditions.geometry == "line" else point]
-    return formula.name, formula(conditions.contact)
+    return formula.name, formula(conditions.contact), formula.ranges(conditions.contact)
 
 
 def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
@@ -109,7 +113,7 @@ def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | Non
     rq = contact.composite_roughness()
     if rq is None or rq < FLAT:
         return None
-    name, thickness = _film_by_formula(contact.conditions, line="moes", point="nijenbanning_venner_moes")
+    name, thickness, _ = _film_by_formula(contact.conditions, line="moes", point="nijenbanning_venner_moes")
     film = thickness.central_thickness
     return {"formula": name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
 
@@ -136,12 +140,13 @@ def _breakdown_by_formula(
         return None
     if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
         return None
-    name, thickness = _film_by_formula(conditions, **BREAKDOWN_FORMULAS)
+    name, thickness, ranges = _film_by_formula(conditions, **BREAKDOWN_FORMULAS)
     film = thickness.minimum_thickness
     strength = float(dielectric_strength(discharge, np.zeros(())))
     applied = abs(case.electric.voltage)
     return {
         "formula": name,
+        "outside_range": ranges["minimum_thickness"],
         "minimum_thickness": film,
         "dielectric_strength": strength,
         "breakdown_voltage": strength * film,
@@ -151,10 +156,12 @@ def _breakdown_by_formula(
 
 
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
-    about = f", by formula: {estimate['formula']}, up to 40 % off; isothermal, fully flooded film"
+    reason = estimate["outside_range"]
+    error = f"outside its range: {reason}" if reason else "up to 40 % off"
+    about = f", by formula: {estimate['formula']}, {error}; isothermal, fully flooded film"
     yield _row("breakdown_by_formula.breakdown_voltage", estimate["breakdown_voltage"], about)
     if estimate["margin"] is not None:
-        yield _row("breakdown_by_formula.margin", estimate["margin"], "by formula: up to 40 % off")
+        yield _row("breakdown_by_formula.margin", estimate["margin"], f"by formula: {error}")
 
 
 def _row(key: str, value: float, note: str) -> Row:

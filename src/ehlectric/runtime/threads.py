@@ -56,8 +56,8 @@ _turn, _filters = Turn(), Turn()
 def own_filters() -> Iterator[None]:
     """Context whose changes of the filters of warnings end with it.
 
-    The filters belong to the process. Threads take turns: the end of overlapping contexts would leave the
-    filters of one of them.
+    The filters belong to the process. One thread at a time is in such a context: the end of overlapping
+    contexts would leave the filters of one of them.
     """
     with _filters.taken(), warnings.catch_warnings():
         yield

@@ -355,11 +355,17 @@ def _formula_rows(key: str) -> Callable[[Summary], Iterator[Row]]:
         formulas: Mapping[str, Any] = KINDS[_geometry(summary)].formulas
         for name, film in summary["film_formulas"].items():
             if film[key] is not None:
-                note = _beside(summary, key, film[key])
+                note = _range_note(summary, name, key) + _beside(summary, key, film[key])
                 row = row_of(f"film_formulas.{name}.{key}", about, film[key], note)
                 yield replace(row, name=f"{key.replace('_thickness', ' film')} ({formulas[name].name})")
 
     return rows
+
+
+def _range_note(summary: Summary, name: str, key: str) -> str:
+    """Note of a formula outside its range; empty within it, and for results of earlier versions."""
+    reason = value_at(summary, f"film_formula_ranges.{name}.{key}")
+    return f", outside its range: {reason}" if reason else ""
 
 
 def _beside(summary: Summary, key: str, value: float) -> str:
@@ -380,6 +386,16 @@ def _beside(summary: Summary, key: str, value: float) -> str:
 def _formula_error(summary: Summary) -> Any:
     if _touches(summary):
         return Noted("none: surfaces touch", ", formulas are of smooth ones")
+    given = [
+        value_at(summary, f"film_formula_ranges.{name}.{key}")
+        for name, film in summary["film_formulas"].items()
+        for key in film
+        if film[key] is not None
+    ]
+    if all(given):
+        return Noted("unknown", ", the contact is outside the range of all formulas")
+    if any(given):
+        return Noted("up to 40 %", ", of formulas within their range")
     return "up to 40", "%"
 
 

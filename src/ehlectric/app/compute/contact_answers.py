@@ -110,6 +110,9 @@ def _is_quick(case: Case) -> bool:
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
 _NOT_BY_FORMULA = "No verdict before solving: a dielectric strength over the pressure needs the solved film."
+_OUTSIDE = (
+    "No verdict before solving: the contact is outside the range of the formula ({formula}): {outside_range}."
+)
 _NO_VOLTAGE = "No verdict: give a voltage (group Voltage and breakdown) for a margin."
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["contact"]
@@ -125,6 +128,8 @@ def verdict_by_formula(
     margin = estimate["margin"]
     if margin is None:
         return Verdict("grey", _NO_VOLTAGE)
+    if estimate["outside_range"]:
+        return Verdict("grey", _OUTSIDE.format(**estimate))
     # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
     high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
