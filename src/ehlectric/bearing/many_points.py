@@ -69,7 +69,8 @@ class Columns:
     def add(self, part: SolvedPart) -> None:
         """Take the numbers and codes of solved points."""
         for key, value in flattened(tables_of(part.solution)).items():
-            if key in TEXTS_OF_POINTS or is_number(value) or isinstance(value, np.ndarray):
+            array = isinstance(value, np.ndarray) and value.dtype.kind in "fiub"
+            if key in TEXTS_OF_POINTS or is_number(value) or array:
                 self._column(key)[part.points] = value
         for code, where in codes_of(part.solution):
             if np.any(where):

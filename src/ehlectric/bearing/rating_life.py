@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Numbers, any_of, as_float
+from ehlectric.arrays import Numbers, any_of, as_float, labels
 from ehlectric.bearing.loads.life import (
     LOWEST_RATIO,
     ElementRatings,
@@ -33,6 +33,7 @@ from ehlectric.bearing.loads.life import (
 )
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
 from ehlectric.cases.bearing_inputs import Bearing, Life
+from ehlectric.cases.library.printed_ratings import PrintedRatings, printed_ratings
 from ehlectric.errors import Flag
 from ehlectric.formulas.load_ratings import (
     RATED_GROOVES,
@@ -48,6 +49,7 @@ from ehlectric.formulas.load_ratings import (
     thrust_roller_static_rating,
 )
 from ehlectric.quantities.units import rpm
+from ehlectric.runtime.values import is_number
 
 _TURN = 2.0 * math.pi
 
@@ -74,13 +76,17 @@ _basic_life, _load_of_life = _at_points(basic_life), _at_points(load_of_life)
 _life_factor, _film_ratio = _at_points(life_factor), _at_points(viscosity_ratio_of_film)
 
 
+# Bearing whose sizes give a rating by ISO 281 and ISO 76: of a file, or with printed ratings.
+Sized: TypeAlias = Bearing | PrintedRatings
+
+
 @dataclass(frozen=True)
 class _Rules:
     """Rules of the standards that differ between kinds of bearings; ratings are those of one track."""
 
     factor: str  # name of the life modification factor
-    dynamic: Callable[[Bearing], Numbers]  # basic dynamic rating [N]
-    static: Callable[[Bearing], Numbers]  # basic static rating [N]
+    dynamic: Callable[[Sized], Numbers]  # basic dynamic rating [N]
+    static: Callable[[Sized], Numbers]  # basic static rating [N]
     # Equivalent load [N], from the static rating [N] and the number of tracks.
     equivalent: Callable[[Bearing, Numbers, int], Numbers]
     ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
@@ -103,7 +109,7 @@ class _Rules:
         return 7.0 / 9.0 if self.rollers else 0.7
 
 
-def _angle(bearing: Bearing) -> Numbers:
+def _angle(bearing: Sized) -> Numbers:
     """Nominal contact angle of a radial bearing [rad]; 0 where it has none."""
     return 0.0 if bearing.contact_angle is None else bearing.contact_angle
 
@@ -113,13 +119,13 @@ def _ratio(bearing: Bearing) -> Numbers:
     return bearing.element_diameter * np.cos(_angle(bearing)) / bearing.pitch_diameter
 
 
-def _sizes(bearing: Bearing) -> tuple[Numbers, ...]:
+def _sizes(bearing: Sized) -> tuple[Numbers, ...]:
     """Number, diameter and pitch diameter of the elements, and the length of rollers."""
     length = () if bearing.roller_length is None else (bearing.roller_length,)
     return bearing.elements, bearing.element_diameter, bearing.pitch_diameter, *length
 
 
-def _inclined(law: Callable[..., float]) -> Callable[[Bearing], Numbers]:
+def _inclined(law: Callable[..., float]) -> Callable[[Sized], Numbers]:
     """Rating of a radial bearing, whose law takes its sizes and its contact angle."""
     at_points = _at_points(law)
     return lambda bearing: at_points(*_sizes(bearing), _angle(bearing))
@@ -199,8 +205,11 @@ _RULES: dict[str, _Rules] = {
 class RatedLoads:
     """Ratings of a bearing, or of both bearings of a pair, and their load, of shape (...) [N]."""
 
-    dynamic_rating: Numbers  # given, or of the geometry by ISO 281
-    static_rating: Numbers  # given, or of the geometry by ISO 76
+    dynamic_rating: Numbers
+    static_rating: Numbers
+    # dynamic_rating_source and static_rating_source: words for the origin of both ratings.
+    dynamic_rating_source: Any
+    static_rating_source: Any
     fatigue_load_limit: Numbers
     equivalent_load: Numbers  # NaN for a contact angle that the tables do not have
 
@@ -313,17 +322,44 @@ def rated_loads(bearing: Bearing, life: Life) -> RatedLoads:
     The two tracks of a four-point contact bearing also count as rows.
     """
     rules = _RULES[bearing.kind]
-    one: Numbers | None = life.dynamic_rating
-    if one is None:
-        one = rules.tracks**rules.slope * rules.dynamic(bearing)
-    still: Numbers | None = life.static_rating
-    if still is None:
-        still = rules.tracks * rules.static(bearing)
+    (one, dynamic_source), (still, static_source) = (
+        _rating(bearing, life, name) for name in ("dynamic", "static")
+    )
     dynamic, static = bearing.rows**rules.slope * one, bearing.rows * still
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
-    return RatedLoads(dynamic, static, limit, rules.equivalent(bearing, static, rules.tracks * bearing.rows))
+    load = rules.equivalent(bearing, static, rules.tracks * bearing.rows)
+    return RatedLoads(dynamic, static, dynamic_source, static_source, limit, load)
+
+
+def _rating(bearing: Bearing, life: Life, name: str) -> tuple[Numbers, Any]:
+    """Rating of one bearing, "dynamic" or "static" [N], with words for its origin: the rating of the file,
+    otherwise the printed rating of the designation, otherwise a rating computed from the elements.
+
+    A printed rating follows ISO 281 or ISO 76 if a file has other elements than its designation.
+    """
+    given: Numbers | None = getattr(life, f"{name}_rating")
+    if given is not None:
+        return given, "given"
+    rules = _RULES[bearing.kind]
+    law, factor, standard = {
+        "dynamic": (rules.dynamic, rules.tracks**rules.slope, "ISO 281"),
+        "static": (rules.static, rules.tracks, "ISO 76"),
+    }[name]
+    own, printed = law(bearing), _printed(bearing, life)
+    if printed is None:
+        return factor * own, f"computed from the elements by {standard}"
+    scale, words = own / law(printed), printed.source
+    alike = np.abs(scale - 1.0) < _ROUNDING
+    return scale * getattr(printed, name), labels((alike, words), f"{words}, scaled to these elements")
+
+
+def _printed(bearing: Bearing, life: Life) -> PrintedRatings | None:
+    """Printed ratings of the designation of a bearing; None without a designation."""
+    given = (value if is_number(value) else None for value in (life.dynamic_rating, life.static_rating))
+    found = printed_ratings(bearing.base, *given)
+    return found if found is not None and found.kind == bearing.kind else None
 
 
 def _required_viscosity(bearing: Bearing) -> Numbers:

@@ -284,6 +284,11 @@ def _meter(summary: Summary) -> Noted:
     return Noted(totals["meter_capacitance"], "" if totals["roughness_factor"] is None else ", rough films")
 
 
+def _fatigue_limit_note(summary: Summary) -> str:
+    given = value_at(summary, "inputs.bearing.life.fatigue_load_limit") is not None
+    return ", given" if given else ", computed from C0 by ISO 281"
+
+
 def _viscosity_ratio(summary: Summary) -> Noted:
     """Viscosity ratio with the viscosity of the oil, or the reason why it is unknown."""
     life = summary["life"]
@@ -449,6 +454,9 @@ _WORDS = Words(
         "bearing.shaft_time_constant": _period,
         "bearing.film_time_constant": _period,
         "bearing.current_density": _limits,
+        "life.dynamic_rating": lambda s: f", {s['life']['dynamic_rating_source']}",
+        "life.static_rating": lambda s: f", {s['life']['static_rating_source']}",
+        "life.fatigue_load_limit": _fatigue_limit_note,
         "uncertainty.breakdown_probability": lambda s: (
             f", sampling error {100.0 * s['uncertainty']['breakdown_probability_error']:.2g} %"
         ),

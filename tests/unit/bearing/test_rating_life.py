@@ -1,5 +1,6 @@
 """Rating life in the results of a bearing, against numbers by hand and printed ratings."""
 
+import csv
 import math
 
 import numpy as np
@@ -8,11 +9,14 @@ import pytest
 from ehlectric.bearing.loads.life import equivalent_load, life_factor
 from ehlectric.bearing.rating_life import KEYS
 from ehlectric.bearing.result import solve_bearing
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
+from ehlectric.formulas.load_ratings import ball_dynamic_rating
 from ehlectric.sweep.evaluation import evaluate
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.each import each
+from tests.helpers.places import ROOT
 
 CLEAN = {"bearing__life": {"contamination_factor": 0.5}}
 # NSK's catalogue of the 6208.
@@ -89,6 +93,97 @@ def test_the_table_shows_what_the_lives_follow_from():
     assert found["equivalent_load"].startswith("1800 N")
     assert found["rated_viscosity"].startswith("10.6 mm²/s")
     assert "viscosity_ratio" in found
+
+
+def printed():
+    """Printed ratings [N] and kinds by the name of a bearing of the usual series."""
+    with (ROOT / "src/ehlectric/cases/library/series.csv").open(encoding="utf-8") as file:
+        return {row["designation"]: row for row in csv.DictReader(line for line in file if line[0] != "#")}
+
+
+OF_SERIES = {
+    "nk-19/20": {"radial_load": "1 kN", "radial_clearance": "10 um"},
+    "6809": {"radial_load": "500 N", "radial_clearance": "10 um"},
+    "6314": {"radial_load": "2 kN", "radial_clearance": "10 um"},
+    "6214": {"radial_load": "2 kN", "radial_clearance": "10 um"},
+    "7210-b": {"radial_load": "1 kN", "axial_load": "500 N"},
+    "32208": {"radial_load": "2 kN", "axial_load": "800 N"},
+    "nu-310": {"radial_load": "2 kN", "radial_clearance": "20 um"},
+    "51208": {"axial_load": "2 kN"},
+    "axk-2542": {"axial_load": "1 kN"},
+    "na-4904": {"radial_load": "1 kN", "radial_clearance": "20 um"},
+}
+
+
+def of_base(base, life=None, **keys):
+    case = BearingCase.of(
+        base=base,
+        lubricant={"base": "iso-vg-46"},
+        contacts="formula",
+        inner_speed="1000 rpm",
+        temperature="60 degC",
+        composite_rq="0.05 um",
+        life={"contamination_factor": 0.5} | (life or {}),
+        **keys,
+    )
+    return case, solve_bearing(case, workers=1).summary(probable=False)["life"]
+
+
+@pytest.mark.slow
+@each("base", list(OF_SERIES))
+def test_printed_ratings_of_the_series_are_those_of_the_life(base):
+    """L_10 follows from the printed C in the table of the series and from P of the summary."""
+    _, found = of_base(base, **OF_SERIES[base])
+    row = printed()[base]
+    assert found["dynamic_rating"] == pytest.approx(float(row["dynamic"]), rel=1e-9)
+    assert found["static_rating"] == pytest.approx(float(row["static"]), rel=1e-9)
+    assert found["dynamic_rating_source"].startswith("printed by")
+    power = 10.0 / 3.0 if "roller" in row["kind"] else 3.0
+    hours = 1e6 / 6e4 * (float(row["dynamic"]) / found["equivalent_load"]) ** power
+    assert found["basic_life"] / 3600.0 == pytest.approx(hours, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_ratings_come_from_the_file_then_the_designation_then_the_elements():
+    keys = OF_SERIES["6809"]
+    case, found = of_base("6809", {"dynamic_rating": "7 kN"}, **keys)
+    assert (found["dynamic_rating"], found["dynamic_rating_source"]) == (7000.0, "given")
+    assert (found["static_rating"], found["static_rating_source"]) == (6150.0, "printed by NSK for the 6809")
+    table = case.bearing.model_dump(exclude_none=True) | {"life": {"contamination_factor": 0.5}}
+    del table["base"]
+    own = {key: table[key] for key in table if key not in ("summit_height",)}
+    alone = BearingCase.from_dict({"bearing": own, "lubricant": {"base": "iso-vg-46"}, "contacts": "formula"})
+    found = solve_bearing(alone, workers=1).summary(probable=False)["life"]
+    sizes = (own["elements"], own["element_diameter"], own["pitch_diameter"])
+    assert found["dynamic_rating"] == pytest.approx(ball_dynamic_rating(*sizes), rel=1e-12)
+    assert found["dynamic_rating_source"] == "computed from the elements by ISO 281"
+
+
+@pytest.mark.slow
+def test_printed_ratings_follow_the_elements_of_a_file_without_a_step():
+    """One ball less changes the printed rating by the ratio of both ratings of ISO 281; equal values of the
+    file change nothing."""
+    case, usual = of_base("6214", **OF_SERIES["6214"])
+    bearing = case.bearing
+    sizes = bearing.element_diameter, bearing.pitch_diameter
+    _, same = of_base(
+        "6214", **OF_SERIES["6214"], elements=bearing.elements, element_diameter=bearing.element_diameter
+    )
+    assert same["dynamic_rating"] == usual["dynamic_rating"]
+    _, less = of_base("6214", **OF_SERIES["6214"], elements=bearing.elements - 1)
+    ratio = ball_dynamic_rating(bearing.elements - 1, *sizes) / ball_dynamic_rating(bearing.elements, *sizes)
+    assert less["dynamic_rating"] == pytest.approx(usual["dynamic_rating"] * ratio, rel=1e-9)
+    assert less["dynamic_rating_source"].endswith("scaled to these elements")
+    found = evaluate(case, {"bearing.element_diameter": sizes[0] * np.array([1.0 - 1e-6, 1.0, 1.0 + 1e-6])})
+    assert np.ptp(found["life.basic_life"].values) < 2e-5 * usual["basic_life"]
+
+
+@pytest.mark.slow
+def test_reference_lives_scale_with_the_printed_rating():
+    """The rating of an element is proportional to C: the reference life of rollers follows C^4."""
+    _, usual = of_base("nu-310", **OF_SERIES["nu-310"])
+    _, less = of_base("nu-310", {"dynamic_rating": 0.9 * usual["dynamic_rating"]}, **OF_SERIES["nu-310"])
+    assert less["reference_life"] == pytest.approx(0.9**4 * usual["reference_life"], rel=1e-6)
 
 
 @pytest.mark.slow

@@ -63,6 +63,10 @@ _IN_CUP = 0.73
 # angle of 35 degrees, 1/Y = 1/0.66 of ISO 281 and 1/Y_0 = 1/0.29 of ISO 76.
 _FOUR_POINT = 0.66, 0.29
 
+# Radial ratings of a four-point contact bearing with its two rows, as ``bearing.life`` takes them, over its
+# printed axial ratings.
+_FOUR_POINT_RADIAL = 2.0**0.7 * _FOUR_POINT[0], 2.0 * _FOUR_POINT[1]
+
 # Height of a shoulder over the ball diameter, by the largest contact angle [deg] for which it is usual.
 _SHOULDERS = ((20.0, 0.19), (27.0, 0.25), (32.0, 0.27), (90.0, 0.31))
 _THRUST_SHOULDER = 0.19
@@ -163,7 +167,8 @@ def estimated_geometry(
 ) -> EstimatedGeometry:
     """Elements of a bearing from its dimensions and load ratings.
 
-    ``dynamic`` and ``static``, ratings of another maker that replace those of the series [N]. Raises
+    ``dynamic`` and ``static``, ratings of another maker that replace those of the series [N]; radial ratings
+    with two rows of a four-point contact bearing. Raises
     InputError where no elements that fit between the rings have both ratings.
 
     Dynamic ratings of other makers have factors of their own, by which the ratio of both ratings would give
@@ -178,12 +183,18 @@ def estimated_geometry(
     usual = _ESTIMATES[bearing.kind](bearing, Target(bearing.dynamic, bearing.static), rules)
     if dynamic is None and static is None:
         return usual
+    factors = rating_factors(bearing.kind)
     target = Target(
-        bearing.dynamic if dynamic is None else dynamic,
-        bearing.static if static is None else static,
+        bearing.dynamic if dynamic is None else dynamic / factors[0],
+        bearing.static if static is None else static / factors[1],
         usual.element_diameter,
     )
     return _ESTIMATES[bearing.kind](bearing, target, rules)
+
+
+def rating_factors(kind: str) -> tuple[float, float]:
+    """Dynamic and static load rating of a kind as ``bearing.life`` takes them, over those of its series."""
+    return _FOUR_POINT_RADIAL if kind == "four-point contact ball" else (1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -252,11 +263,13 @@ def _best_balls(
 
 
 def _no_elements(bearing: SeriesBearing) -> InputError:
+    factors = rating_factors(bearing.kind)
+    dynamic, static = factors[0] * bearing.dynamic, factors[1] * bearing.static
     return InputError.worded(
         "life.static_rating",
         f"no elements that fit into a {bearing.name.upper()} have these load ratings, "
         f"for which ISO 76 and ISO 281 are solved",
-        takes=f"ratings near those of the series, {bearing.dynamic:g} N and {bearing.static:g} N",
+        takes=f"ratings near those of the series, {dynamic:.4g} N and {static:.4g} N",
     )
 
 
