@@ -24,10 +24,7 @@ NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
 )
 
 # Results of bearings that are texts and may differ between the points of a sweep.
-TEXTS_OF_POINTS = (
-    "bearing.lubrication", "bearing.regime", "bearing.first_break_at", "life.dynamic_rating_source",
-    "life.static_rating_source",
-)  # fmt: skip
+TEXTS_OF_POINTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
 
 # Statistics of the discharges of a bearing, by the ends of their keys.
 STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}

@@ -5,6 +5,7 @@ import pytest
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.designations import known_bearings, read_designation, suffixes
+from ehlectric.cases.library.estimated_bearings import series
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -80,8 +81,54 @@ def test_suffixes_that_may_change_the_bearing_are_refused(text, message):
         read_designation(text, NAMES)
 
 
+@each(
+    ("text", "words"),
+    [
+        *((f"6308 {suffix}", "reinforced set") for suffix in ("E", "EC", "ECP", "EM", "ETN9", "ECJ", "EW")),
+        ("6308-2RS1 E", "reinforced set"),
+        ("QJ 208 E", "reinforced set"),
+        ("NU 208 2RS", "two rubbing seals"),
+        ("NA 4904 2RS", "two rubbing seals"),
+        ("6208 X", "other boundary dimensions"),
+        ("6208 Q", "surfaces for sliding on bearings of kind tapered roller"),
+        ("32208 TN9", "polymer cage"),
+        ("HK 2020 ECP", "reinforced design"),
+        ("NU 1010 ECP", "NU-10"),
+    ],
+)
+def test_suffixes_are_harmless_for_some_kinds_only(text, words):
+    """SKF's general catalogue: E is a reinforced ball set of deep-groove bearings and the reinforced roller
+    set of cylindrical ones; needle roller bearings with seals have shorter needles.
+    """
+    with pytest.raises(InputError) as error:
+        read_designation(text, known_bearings())
+    assert words in str(error.value)
+
+
+def test_the_same_suffixes_are_taken_where_they_are_harmless():
+    for text in (
+        "NU 208 ECP",
+        "NU 208 E",
+        "NU 310 EW",
+        "7210 BEP",
+        "32008 X",
+        "32208 J2/Q",
+        "6308 TN9",
+        "6308 M",
+    ):
+        assert read_designation(text, known_bearings()) is not None, text
+
+
+def test_every_suffix_names_kinds_of_bearings():
+    kinds = {"any", *(one.kind for one in series().values())}
+    for one in suffixes().values():
+        assert set(one.kinds) <= kinds, one.text
+        assert one.kinds or one.elsewhere, one.text
+        assert set(one.not_series) <= {bearing.series for bearing in series().values()}, one.text
+
+
 def test_every_suffix_has_a_meaning():
-    assert all(suffixes().values())
+    assert all(one.meaning for one in suffixes().values())
     assert {"2RS", "ECP", "TN9"} <= set(suffixes())
 
 

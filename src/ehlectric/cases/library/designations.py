@@ -1,8 +1,8 @@
 """Designations of makers, such as "NU 208 ECP" or "6208-2RS1/C3": the bearing and its class of clearance.
 
-Bearings are those of the library, and those of the usual series, whose geometry is estimated. Suffixes of
-seals, shields, cages, tolerances and fillings say nothing of the internal geometry, and are read over;
-``suffixes.csv`` has them. Others are refused, as they may change the geometry or the insulation.
+The bearings are in the library or in the usual series, whose geometry is estimated. ``suffixes.csv`` lists
+the suffixes that do not change the elements, such as suffixes of seals, cages and tolerances, and the kinds
+of bearings for which this is known. Other suffixes are refused: they may change geometry or insulation.
 """
 
 from __future__ import annotations
@@ -49,17 +49,54 @@ def known_bearings() -> Mapping[str, None]:
     return dict.fromkeys((*library.bearing_names(), *series()))
 
 
+# Kinds of bearings that a word in ``suffixes.csv`` stands for.
+_BALL_KINDS = ("deep-groove ball", "angular-contact ball", "four-point contact ball")
+_ANY = "any"
+
+
+@dataclass(frozen=True)
+class Suffix:
+    """Suffix of designations, with the kinds of bearings whose elements it does not change."""
+
+    text: str
+    meaning: str  # meaning for these kinds
+    kinds: tuple[str, ...]
+    not_series: tuple[str, ...]  # series of these kinds whose elements it changes
+    elsewhere: str  # meaning for other kinds; empty if it is unknown
+
+    def harmless(self, kind: str, of_series: str) -> bool:
+        """Whether the suffix does not change the elements of a bearing of a kind and a series."""
+        return (_ANY in self.kinds or kind in self.kinds) and of_series not in self.not_series
+
+    def meaning_for(self, kind: str) -> str:
+        """Meaning for a bearing whose elements the suffix may change."""
+        if not self.kinds or (self.elsewhere and kind.endswith("ball")):
+            return f"it means {self.elsewhere or self.meaning}"
+        of = "any other kind" if _ANY in self.kinds else f"bearings of kind {' or '.join(self.kinds)}"
+        return f"it means {self.meaning} on {of}, and may change the elements here"
+
+
 @cache
-def suffixes() -> dict[str, str]:
-    """Suffixes that say nothing of the internal geometry, with their meaning."""
-    return {row["suffix"]: row["meaning"] for row in library.rows("suffixes.csv")}
+def suffixes() -> dict[str, Suffix]:
+    """Suffixes whose meaning is known, by their text."""
+    found = {}
+    for row in library.rows("suffixes.csv"):
+        kinds = [kind for kind in row["kinds"].split("|") if kind]
+        found[row["suffix"]] = Suffix(
+            text=row["suffix"],
+            meaning=row["meaning"],
+            kinds=tuple(one for kind in kinds for one in (_BALL_KINDS if kind == "ball" else (kind,))),
+            not_series=tuple(part for part in row["not_series"].split("|") if part),
+            elsewhere=row["elsewhere"],
+        )
+    return found
 
 
 def read_designation(text: str, names: Collection[str]) -> Designation | None:
     """Bearing with a maker's designation; None where there is no such bearing.
 
-    ``names``, names of bearings, as "nu-208" or "7208-b". Raises InputError for a suffix that is not known,
-    and for one of an insulated ring or ceramic elements.
+    ``names``, names of bearings, as "nu-208" or "7208-b". Raises InputError for a suffix that is not known or
+    may change the elements of the bearing, and for a suffix of an insulated ring or of ceramic elements.
 
     Examples
     --------
@@ -80,7 +117,7 @@ def read_designation(text: str, names: Collection[str]) -> Designation | None:
         return None
     classes = [own for part in parts for own in CLASSES if own == part]
     for part in parts:
-        _check_suffix(text, part)
+        _check_suffix(text, part, name)
     if len(classes) > 1:
         raise InputError("base", got=shown(text), takes="one class of clearance, C2, CN, C3, C4 or C5")
     return Designation(name, classes[0] if classes else None)
@@ -97,14 +134,32 @@ def _with_angle(stem: str, parts: list[str], names: Collection[str]) -> tuple[st
     return (letter, [*([more] if more else []), *parts[1:]]) if letter in names else (None, parts)
 
 
-def _check_suffix(text: str, part: str) -> None:
-    """Refuse a suffix that may change the geometry or the insulation."""
+def _check_suffix(text: str, part: str, name: str) -> None:
+    """Refuse a suffix that may change the geometry or the insulation of a bearing."""
     if part in _INSULATED:
         given = {"element_material": "'silicon-nitride'", "coating": "that of the ring, such as 'alumina'"}
         takes = f"the designation without {part}, and bearing.{_INSULATED[part]}: {given[_INSULATED[part]]}"
         raise InputError("base", got=shown(text), takes=takes)
-    if part not in suffixes() and part not in CLASSES:
-        takes = (
-            f"a designation without {part!r}, which is no suffix that is known: it may change the geometry"
+    if part in CLASSES:
+        return
+    known = suffixes().get(part)
+    if known is None:
+        reason = "which is no suffix that is known: it may change the geometry"
+        raise InputError("base", got=shown(text), takes=f"a designation without {part!r}, {reason}")
+    kind, of_series = _kind_and_series(name)
+    if not known.harmless(kind, of_series):
+        if of_series in known.not_series:
+            meaning = f"the load ratings of the series {of_series.upper()} here belong to another design"
+        else:
+            meaning = known.meaning_for(kind)
+        takes = f"a designation without {part!r}: on this {kind} bearing {meaning}"
+        raise InputError(
+            "base", got=shown(text), takes=f"{takes}; or the elements of the bearing without base"
         )
-        raise InputError("base", got=shown(text), takes=takes)
+
+
+def _kind_and_series(name: str) -> tuple[str, str]:
+    """Kind and series of a bearing by its name; the series of a bearing of the library may be unknown."""
+    if name in series():
+        return series()[name].kind, series()[name].series
+    return str(library.bearing(name)["kind"]), ""

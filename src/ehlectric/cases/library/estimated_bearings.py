@@ -193,7 +193,7 @@ def estimated_geometry(
 
 
 def rating_factors(kind: str) -> tuple[float, float]:
-    """Dynamic and static load rating of a kind as ``bearing.life`` takes them, over those of its series."""
+    """Factors of the dynamic and the static load ratings of a series for ratings of ``bearing.life``."""
     return _FOUR_POINT_RADIAL if kind == "four-point contact ball" else (1.0, 1.0)
 
 
