@@ -207,6 +207,63 @@ def test_ratings_of_another_maker_replace_those_of_the_series():
         case_of("6314", radial_load="1 kN", clearance_class="CN", life=life | {"static_rating": "680 kN"})
 
 
+@each(
+    ("name", "elements", "ball", "pitch"),
+    [
+        # Case Western Reserve University, Bearing Data Center, bearing information (SKF).
+        ("6205", 9, 7.940, 39.04),
+        ("6203", 8, 6.746, 28.50),
+        # GMN, catalogue 4000 0813 EN, as transcribed in ArtemFilin1990/Mar.
+        ("6004", 9, 6.35, 31.0),
+        ("6006", 11, 7.144, 42.5),
+        ("6204", 8, 7.938, 33.5),
+        ("6206", 9, 9.525, 46.0),
+        ("6207", 9, 11.112, 53.5),
+        ("6208", 9, 11.906, 60.0),
+    ],
+)
+def test_balls_of_published_bearings(name, elements, ball, pitch):
+    """From the ratings of the series; balls have standard sizes of 1/64 in."""
+    found = estimated_geometry(series()[name])
+    assert found.elements == elements
+    assert 1e3 * found.element_diameter == pytest.approx(ball, rel=1e-3)
+    assert 1e3 * found.pitch_diameter == pytest.approx(pitch, rel=0.015)
+
+
+@each(
+    ("name", "dynamic", "static", "elements", "ball"),
+    [
+        # 11 balls of 5/16 in have 15.98 and 10.28 kN by ISO 281 and ISO 76. The ratings here are remembered
+        # ones of SKF (unverified source).
+        ("6007", 16.8e3, 10.2e3, 11, 7.938),
+        ("6007", 16.0e3, 10.2e3, 11, 7.938),
+        ("6205", 14.8e3, 7.8e3, 9, 7.938),
+        ("6203", 9.95e3, 4.75e3, 8, 6.747),
+        ("6207", 27.0e3, 15.3e3, 9, 11.112),
+        ("6314", 111e3, 68e3, 8, 25.4),
+    ],
+)
+def test_ratings_of_other_makers_keep_the_balls(name, dynamic, static, elements, ball):
+    found = estimated_geometry(series()[name], dynamic, static)
+    assert found.elements == elements
+    assert 1e3 * found.element_diameter == pytest.approx(ball, rel=1e-3)
+
+
+def test_higher_dynamic_ratings_and_rounding_change_no_balls():
+    """Other makers print dynamic ratings up to 15 % higher, and static ones with another rounding."""
+    for bearing in (one for one in ALL if one.kind in ("deep-groove ball", "angular-contact ball")):
+        usual = estimated_geometry(bearing)
+        for more, other in ((1.05, 0.99), (1.15, 1.0), (1.1, 1.01)):
+            found = estimated_geometry(bearing, more * bearing.dynamic, other * bearing.static)
+            assert found == usual, bearing.name
+
+
+def test_radial_ratings_of_four_point_bearings_keep_their_balls():
+    """The axial 77.5 kN of the series times 2 0.29 are 44.95 kN."""
+    bearing = series()["qj-208"]
+    assert estimated_geometry(bearing, 56e3, 45e3) == estimated_geometry(bearing)
+
+
 def test_the_estimate_is_in_the_range_of_the_margin():
     """Values that the file gives have no range, and the ball does not overlap its neighbour at any end."""
     case = case_of("6314-C3", radial_load="1 kN")

@@ -44,6 +44,10 @@ _BALL_PARTS = 0.2, 0.4
 # Part of the pitch circle that balls fill at most.
 _MOST_FILLED = 0.95
 
+# Relative difference of the static ratings of two makers with the same balls: rounding to three
+# digits, and the rounded factors f_0 of ISO 76. One ball more or less changes the rating by 3 % or more.
+_SAME_STATIC = 0.025
+
 # Units of the deviation of dynamic ratings of other makers, and of their balls from those of the series, in
 # those of their static ratings; and the largest deviation of balls that is taken, in per cent.
 _OTHER_MAKER, _MOST_MISSED = 5.0, 6.0
@@ -171,8 +175,9 @@ def estimated_geometry(
     with two rows of a four-point contact bearing. Raises
     InputError where no elements that fit between the rings have both ratings.
 
-    Dynamic ratings of other makers have factors of their own, by which the ratio of both ratings would give
-    wrong diameters. With them balls stay near those of the series, and rollers have their diameter.
+    Dynamic ratings of other makers contain factors of their own, so that the ratio of both ratings would give
+    wrong diameters. Therefore balls remain the balls of the series, unless the static rating differs by more
+    than 2.5 %; then they remain near them. Rollers keep their diameter.
 
     Examples
     --------
@@ -189,6 +194,8 @@ def estimated_geometry(
         bearing.static if static is None else static / factors[1],
         usual.element_diameter,
     )
+    if usual.roller_length is None and abs(target.static / bearing.static - 1.0) < _SAME_STATIC:
+        return usual
     return _ESTIMATES[bearing.kind](bearing, target, rules)
 
 
