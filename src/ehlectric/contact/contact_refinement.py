@@ -15,7 +15,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.film.film_error import MINIMUM_ORDER, expected_error, expected_nodes
 from ehlectric.film.film_solver import UNKNOWN
-from ehlectric.film.hot_oil import Physics
+from ehlectric.film.heated_solution import is_too_fine
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem, OnGrid
@@ -60,7 +60,7 @@ def refined(
     problem = problem_of(first)
     if target is None:
         return Refined(solved(problem), first, first, time.perf_counter() - started, ())
-    grids, refusal = finer_grids(setup, geometry, problem.physics)
+    grids, refusal = finer_grids(setup, geometry, problem)
     film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along, on_grid=on_grid))
     closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
     grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
@@ -78,18 +78,23 @@ def refined(
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
-def finer_grids(setup: Setup, geometry: str, physics: Physics | None) -> tuple[list[Grid], str]:
+def finer_grids(setup: Setup, geometry: str, problem: FilmProblem) -> tuple[list[Grid], str]:
     """Grids of a refinement from the first one up to the last one that is allowed, and why it is the last.
     Returns grids, each with twice as many intervals as the grid before, and the reason why there is no finer
-    one.
+    one. ``problem``, film problem on the first grid.
     """
+    physics = problem.physics
     heat = None if physics is None else "sheared" if physics.thermal is None else "thermal"
+    if heat is not None and geometry == "point" and setup.inlet is None:
+        heat = "patch"
     grids, rough = [_fixed(setup.first_grid)], bool(setup.roughness)
     most = (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
     while True:
         if len(grids) > most:
             kind = "rough" if rough else "smooth"
             return grids, f"a {kind} contact is refined {most} times at the most; begin with more grid.nodes"
+        if is_too_fine(problem, 2 ** len(grids)):
+            return grids, "a film with heat or shear takes minutes on the next grid"
         try:
             finer = _doubled(grids[-1])
             check_grid(geometry, finer, rough=rough, heat=heat)
@@ -203,7 +208,7 @@ class Reach:
 def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
     """Expected errors and times of the grids of a refinement."""
     assert setup.grid.target is not None
-    grids, _ = finer_grids(setup, geometry, problem.physics)
+    grids, _ = finer_grids(setup, geometry, problem)
     return Reach(
         _target_key(setup),
         setup.grid.target,

@@ -674,6 +674,12 @@ class FrozenTemperature:
         change = self.pressure_scale * (pressure - self.pressure)
         return replace(self.heat, temperature=self.heat.temperature + self.heat.by_pressure * change)
 
+    def heat_on(self, mesh: Mesh, pressure: Array) -> Heat:
+        """Heat with the temperature at a pressure P (nx, ny) on another mesh, not below ambient."""
+        heat = Heat(*(on_mesh(values, self.mesh, mesh) for values in vars(self.heat).values()))
+        change = self.pressure_scale * (pressure - on_mesh(self.pressure, self.mesh, mesh))
+        return replace(heat, temperature=heat.temperature + heat.by_pressure * change)
+
     @cached_property
     def properties(self) -> Properties:
         """Properties at the pressure P0, on the mesh of the temperature."""

@@ -54,11 +54,11 @@ def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: i
 def _grid_differences(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> Array:
     """Richardson estimates of the relative errors of the minimum and the central film thickness, (2,)."""
     gains = (coarse[0].dx / fine[0].dx) ** np.array([min(order, MINIMUM_ORDER), order]) - 1.0
-    on_fine, on_coarse = (_key_thicknesses(*film) for film in (fine, coarse))
+    on_fine, on_coarse = (key_thicknesses(*film) for film in (fine, coarse))
     return np.abs(on_fine - on_coarse) / (gains * on_fine)
 
 
-def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
+def key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
     """Minimum and central film thickness, shape (2,), in the unit of ``thickness`` (nx, ny)."""
     return np.array([np.min(thickness), at_centre(mesh, thickness)])
 
@@ -143,7 +143,7 @@ def film_error(
     if any(solution.status != "converged" for solution in better):
         return None
     accurate = [(solution.level.mesh, solution.state.thickness) for solution in better]
-    first_order, third_order = (_key_thicknesses(*film) for film in (films[0], accurate[0]))
+    first_order, third_order = (key_thicknesses(*film) for film in (films[0], accurate[0]))
     of_wedge = np.abs(first_order - third_order) / third_order
     return float(np.max(of_wedge + _grid_differences(accurate[0], accurate[1], order=2)))
 

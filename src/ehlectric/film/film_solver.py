@@ -113,11 +113,11 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
         if found.last.touches and problem.added_gap is not None:
             break
-        found = _finer(found, progress)
+        found = finer_solution(found, progress)
     return found
 
 
-def _finer(found: RefinedSolution, progress: Progress | None) -> RefinedSolution:
+def finer_solution(found: RefinedSolution, progress: Progress | None) -> RefinedSolution:
     """Solution with half of the spacings, on a patch where there is one."""
     patch = found.patch
     if patch is None and found.error is not None:

@@ -1,5 +1,5 @@
-"""Films with heat and shear thinning: pressure, film thickness and temperature solved together, with their
-error.
+"""Films with heat and shear thinning on one grid after the other: pressure, film thickness and temperature
+solved together, with the error of the temperature.
 """
 
 from __future__ import annotations
@@ -7,10 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.across_film import Across
@@ -20,13 +19,11 @@ from ehlectric.film.energy_equation import (
     Mixing,
     Stream,
     Surface,
-    energy_imbalance,
     finite_heat,
     moving_surface,
     stream_of,
 )
-from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method, starved_on_grids
-from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
+from ehlectric.film.hot_oil import Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre, on_mesh
 from ehlectric.film.nested import filled_on, grid_problem, interpolated_state, levels_of, open_state
@@ -38,16 +35,13 @@ from ehlectric.film.newton import (
     NewtonStep,
     Progress,
     State,
-    Status,
     newton,
 )
 from ehlectric.film.oil_content import Carried, Supply
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
+from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part
 from ehlectric.film.shear_laws import UNBOUNDED
 from ehlectric.film.starved_solver import (
-    Solver,
-    StarvedProblem,
     flooded_inlet,
     forms_again,
     isothermal,
@@ -55,7 +49,6 @@ from ehlectric.film.starved_solver import (
 )
 from ehlectric.film.touching_film import touching_newton
 from ehlectric.film.touching_solver import NEAR_DAMPING
-from ehlectric.runtime.threads import quiet_solution
 
 # Degree of the polynomial across the film.
 DEGREE = 12
@@ -65,7 +58,7 @@ _MOST_CHANGE = 40.0
 
 # Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
 # as far as this residual: its temperature is still to change.
-_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
+MOST_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # The same number of loops of a flooded film that is only a guess for one with a layer of oil.
 _GUESS_LOOPS = 25
@@ -90,10 +83,6 @@ _HELD, _HELD_TURNS = 60, 15
 
 # Least part of a gap that counts as filled in the energy equation, which has no solution without oil.
 _LEAST_FILLED = 1e-6
-
-# Part of its heat that a film may make or lose by its grid. Where it is more, film and temperature do not
-# belong together, even if both stand still.
-_MOST_IMBALANCE = 0.1
 
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
@@ -155,7 +144,9 @@ class OuterIteration:
     # Oil at the inlet edge of a film that carries its oil through cavities; None of one whose cavities count
     # as full.
     supply: Supply | None = None
-    most_loops: int = _LOOPS  # largest number of outer loops
+    most_loops: int = MOST_LOOPS  # largest number of outer loops
+    # Temperature of a coarser grid, which the film keeps; None of a film whose temperature is solved with it.
+    frozen: FrozenTemperature | None = None
 
     @property
     def level(self) -> Level:
@@ -177,7 +168,9 @@ class OuterIteration:
     def flow(self, state: State, heat: Heat | None) -> ShearedFlow:
         """Flow with the rheology, and with the temperature that a film has at the pressure of a state."""
         physics, thermal, profile = self.physics, self.physics.thermal, None
-        if thermal is not None and heat is not None:
+        if self.frozen is not None:
+            profile = self.frozen
+        elif thermal is not None and heat is not None:
             profile = FrozenTemperature(
                 Across.of(self.degree),
                 self.level.mesh,
@@ -221,7 +214,7 @@ class OuterIteration:
             solution = solver(Guess(state, carried.filled), carried.supply)
         else:
             solution = self._apart_or_touching(posed, state, spike=spike)
-        if isinstance(law.profile, FrozenTemperature):
+        if heat is not None and isinstance(law.profile, FrozenTemperature):
             heat = law.profile.at(self._clipped(solution.state))
         return solution, law, heat
 
@@ -351,7 +344,7 @@ class OuterIteration:
         """Film and temperature in turns, from an initial guess of both."""
         thermal = self.physics.thermal
         carried = None if self.supply is None or filled is None else Carried(self.supply, filled)
-        if thermal is None:
+        if thermal is None or self.frozen is not None:
             return self._without_heat(state, carried, spike=spike)
         heat = self.start(thermal) if heat is None else heat
         weight = node_weight(self.level, state)
@@ -359,14 +352,16 @@ class OuterIteration:
         return self._settled(found, thermal, weight)
 
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
-        """Film of an oil that thins under shear, at the temperature of the inlet."""
+        """Film of an oil that thins under shear, at a temperature that the film does not change."""
         most, tolerance = self.problem.max_iterations, self.posed.tolerance
         steps = most if carried is None else _CARRYING * most
         solution, law, _ = self.film(
             state, None, steps=steps, tolerance=tolerance, spike=spike, carried=carried
         )
         solution = self._closer(solution, law, full_order=True)
-        return HeatedGrid(**vars(solution), iteration=self, heat=None, law=law)
+        frozen, mesh = self.frozen, self.level.mesh
+        heat = None if frozen is None else frozen.heat_on(mesh, self._clipped(solution.state))
+        return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law)
 
     def _alternating(
         self,
@@ -645,105 +640,7 @@ _FIRST_CAREFUL = 101
 _SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
-class HeatedSolution:
-    """Film with heat or shear thinning, and the film without both."""
-
-    refined: RefinedSolution  # film with heat and shear thinning on all of its grids
-    simple: RefinedSolution  # isothermal Newtonian film on all of its grids
-    # Temperature [K] at the nodes across the film; None for an isothermal film, shape (nz, nx, ny).
-    temperature: Array | None
-    zeta: Array  # positions z/h of these nodes, shape (nz,)
-    mid_temperature: Array | None  # temperature at mid-film [K], shape (nx, ny)
-    # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature over that of
-    # the oil that enters [K], and the estimate of its error (``rise_error``).
-    max_temperature_rise: float | None
-    temperature_rise_error: float | None
-    shear_stress: Array  # shear stress along x at mid-film [Pa], shape (nx, ny)
-    traction_coefficient: float
-    rolling_coefficient: float
-    power_loss: float  # friction power, [W/m] in a line and [W] in a point contact
-    # Heat of the film that the bodies and the oil do not take up, over all heat.
-    energy_imbalance: float | None
-    outer_iterations: int  # number of outer loops on all grids
-    status: Status  # "converged", "stalled" or "diverged"
-
-
-def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
-    """Solve the film with the physics of its problem, after the isothermal Newtonian film. Returns both
-    films, the temperature, and the friction.
-
-    The grid is that on which the isothermal film reaches the ``target_error`` of the problem. The film with
-    heat is then solved on all grids from coarse to fine. In a point contact, the lines along x do not heat
-    one another through the bodies, so that a body with a Peclet number below about five gets too hot.
-    """
-    with quiet_solution():
-        return _solved(problem, progress)
-
-
-def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
-    """Both films, with heat on all grids from coarse to fine."""
-    simple, refined = heated_solution(problem, progress, order=3)
-    return _solution(simple, refined)
-
-
-def heated_solution(
-    problem: FilmProblem, progress: Progress | None, *, order: int
-) -> tuple[RefinedSolution, RefinedSolution]:
-    """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
-
-    The film is flooded first, and then has its supply of oil. Where this is a layer, the flooded film is only
-    a guess, and may be missed. ``order`` is that of the wedge term.
-    """
-    cold = replace(problem, physics=None)
-    simple = film_method(cold)(cold, progress)
-    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem, order)
-    starts = simple.solutions if simple.patch is None else [simple.whole]
-    if isinstance(simple, StarvedSolution) and simple.flooded is not None:
-        starts = [simple.flooded]
-    layered = problem.supply is not None and problem.supply.layer is not None
-    found = _on_grids(finest, starts, progress, careful=False, every=layered)
-    if not (layered or all(grid.status == "converged" for grid in found)):
-        # Very hot films take more grids and more exact loops.
-        found = _on_grids(finest, starts, progress, careful=True)
-    if problem.supply is None:
-        return simple, RefinedSolution(finest, list(found))
-    cold_films = {film.level.mesh.shape: film for film in simple.solutions}
-    grids = [_with_supply(grid, cold_films.get(grid.level.mesh.shape)) for grid in found]
-    return simple, starved_on_grids(grids, problem.supply)
-
-
-def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProblem:
-    """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
-    heat on this grid: guesses that are further away may take minutes to fail.
-    """
-    iteration = replace(flooded.iteration, most_loops=_LOOPS)
-    hot = iteration.physics.thermal is not None
-    return StarvedProblem(
-        iteration.problem,
-        iteration.posed,
-        flooded,
-        _solver(iteration),
-        cold=cold,
-        with_heat=True,
-        careful=_solver(replace(iteration, careful=True)) if hot else None,
-    )
-
-
-def _solver(iteration: OuterIteration) -> Solver:
-    """Solver of starved films with heat on the grid of an iteration."""
-
-    def film(guess: Guess, supply: Supply) -> HeatedGrid:
-        before, heat = guess.of, None
-        # A film without heat has the temperature of the oil that enters, and its pressure belongs to it.
-        if isinstance(before, HeatedGrid) and before.status == "converged" and before.heat is not None:
-            heat = _finer(before.heat, before.level, iteration.level)
-        return replace(iteration, supply=supply)(guess.state, heat, spike=False, filled=guess.filled)
-
-    return film
-
-
-def _on_grids(
+def heated_on_grids(
     finest: FilmProblem,
     starts: Sequence[GridSolution],
     progress: Progress | None,
@@ -763,14 +660,14 @@ def _on_grids(
         grids.append(grids[-1].halved())
     found: list[HeatedGrid] = []
     for finer, posed in reversed(list(enumerate(grids))):
-        most = _GUESS_LOOPS if every else _LOOPS
+        most = _GUESS_LOOPS if every else MOST_LOOPS
         iteration = replace(
-            _iteration_on(posed, finer=finer, progress=progress), careful=careful, most_loops=most
+            iteration_on(posed, finer=finer, progress=progress), careful=careful, most_loops=most
         )
         if careful:
             found.append(_careful(iteration, starts, found))
         else:
-            state, heat, filled = _start(iteration, starts, found)
+            state, heat, filled = start_of(iteration, starts, found)
             found.append(iteration(state, heat, spike=True, filled=filled))
         if not (careful or every or found[-1].status == "converged"):
             break
@@ -785,7 +682,7 @@ def _careful(
     The variant that converged on the coarser grid comes first.
     """
     variants = _variants(iteration, held=bool(found) and found[-1].iteration.held)
-    state, heat, filled = _start(iteration, starts, found)
+    state, heat, filled = start_of(iteration, starts, found)
     tried: list[HeatedGrid] = []
     for variant in variants:
         tried.append(variant(state, heat, spike=True, filled=filled))
@@ -804,16 +701,7 @@ def _variants(iteration: OuterIteration, *, held: bool) -> list[OuterIteration]:
     return [replace(iteration, held=each) for each in (held, not held)]
 
 
-def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem, order: int) -> FilmProblem:
-    """Problem with heat on the grid of the isothermal film over the whole domain."""
-    mesh, width = whole.level.mesh, posed.width
-    if width is not None:
-        across = mesh.whole_y.size if mesh.symmetric else mesh.y.size
-        width = replace(width, nodes=across)
-    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=order)
-
-
-def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
+def iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
     """Outer iteration on the grid of a problem."""
     posed = grid_problem(problem, levels_of(problem), progress, finest=finer == 0)
     return OuterIteration(problem, posed, finer)
@@ -823,7 +711,7 @@ def _by_slip(iteration: OuterIteration, starts: Sequence[GridSolution]) -> Heate
     """Film with heat on a grid from rolling to its slip in steps, which converges from farther."""
     first, second = iteration.physics.speeds
     mean = iteration.physics.mean_speed
-    (state, heat, filled), loops = _start(iteration, starts, []), 0
+    (state, heat, filled), loops = start_of(iteration, starts, []), 0
     for part in _SLIPS:
         speeds = mean + part * (first - mean), mean + part * (second - mean)
         problem = replace(iteration.problem, physics=replace(iteration.physics, speeds=speeds))
@@ -834,7 +722,7 @@ def _by_slip(iteration: OuterIteration, starts: Sequence[GridSolution]) -> Heate
     return replace(grid, loops=loops)
 
 
-def _start(
+def start_of(
     iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
 ) -> tuple[State, Heat | None, Mask | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid.
@@ -847,9 +735,9 @@ def _start(
     heat, guess = None, simple
     if found and found[-1].status == "converged":
         if found[-1].heat is not None:
-            heat = _finer(found[-1].heat, found[-1].level, level)
+            heat = finer_heat(found[-1].heat, found[-1].level, level)
         # The spots of a film on a coarser grid are others.
-        guess = simple if same and simple.touches else found[-1]
+        guess = simple if same and (simple.touches or found[-1].touches) else found[-1]
     state = guess.state
     if guess not in same:
         state = (interpolated_state if guess.touches else open_state)(level, guess)
@@ -861,91 +749,6 @@ def _filled_on(level: Level, coarse: GridSolution) -> Mask | None:
     return None if coarse.content is None else filled_on(level.mesh, coarse.level.mesh, coarse.content.filled)
 
 
-def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
+def finer_heat(heat: Heat, coarse: Level, level: Level) -> Heat:
     """Temperature and fluxes on a finer grid, interpolated linearly."""
     return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
-
-
-def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSolution:
-    """Results of the film on its finest grid."""
-    found = [grid for grid in refined.solutions if isinstance(grid, HeatedGrid)]
-    last = found[-1]
-    iteration, state = last.iteration, last.state
-    problem, physics = iteration.problem, iteration.physics
-    mesh = iteration.level.mesh
-    columns, filled = iteration.columns(last, last.law)
-    # Friction coefficients of asperities stand for the oil where these carry the load.
-    sheared = filled * state.oil_share
-    friction = traction(
-        columns,
-        state.thickness,
-        mesh,
-        load=iteration.level.load,
-        stress_ratio=iteration.stress_scale / problem.scales.pressure,
-        filled=sheared,
-    )
-    scales, level = problem.scales, iteration.level
-    load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
-    heat, status, imbalance = last.heat, last.status, None
-    if heat is not None and physics.thermal is not None:
-        stream = iteration.stream(last, heat, columns, filled)
-        imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
-        if status == "converged" and imbalance > _MOST_IMBALANCE:
-            status = "stalled"
-    return HeatedSolution(
-        refined=refined,
-        simple=simple,
-        temperature=None if heat is None else heat.temperature,
-        zeta=columns.across.zeta,
-        mid_temperature=last.middle,
-        max_temperature_rise=last.largest_rise,
-        temperature_rise_error=rise_error(found),
-        shear_stress=iteration.stress_scale * columns.middle[0] * sheared,
-        traction_coefficient=friction.sliding,
-        rolling_coefficient=friction.rolling,
-        power_loss=friction.power_loss(
-            load,
-            entrainment_speed=physics.mean_speed,
-            slide_to_roll_ratio=physics.slide_to_roll_ratio,
-        ),
-        energy_imbalance=imbalance,
-        outer_iterations=sum(grid.loops for grid in found),
-        status=status,
-    )
-
-
-def heated_result(
-    found: HeatedSolution,
-    shaped: Callable[[NDArray[Any]], NDArray[Any]],
-    *,
-    status: Status,
-    minimum_thickness: float | None,
-    central_thickness: float | None,
-) -> HeatedFilm:
-    """Heat and shear of a solution, at the nodes of the whole domain. ``minimum_thickness`` and
-    ``central_thickness``, film thicknesses without heat and shear [m]; None if the film without them did not
-    converge. Returns nodal values and totals, SI units.
-    """
-    physics = found.refined.problem.physics
-    assert physics is not None
-    converged = status == "converged"
-    rows, bodies = found.temperature, () if physics.thermal is None else physics.thermal.bodies
-    # Equal surfaces drag none of each other. The iteration leaves a stress of its tolerance.
-    alike = physics.slide_to_roll_ratio == 0.0 and len(set(bodies)) <= 1
-    return HeatedFilm(
-        rheology=physics.rheology.name,
-        # A slide-to-roll ratio is positive where surface 1 is the faster one.
-        shear_stress=-shaped(found.shear_stress),
-        traction_coefficient=(0.0 if alike else -found.traction_coefficient) if converged else None,
-        rolling_coefficient=found.rolling_coefficient if converged else None,
-        power_loss=found.power_loss if converged else None,
-        isothermal_minimum_thickness=minimum_thickness,
-        isothermal_central_thickness=central_thickness,
-        outer_iterations=found.outer_iterations,
-        zeta=None if rows is None else found.zeta,
-        temperature=None if rows is None else np.stack([shaped(row) for row in rows]),
-        mid_temperature=None if found.mid_temperature is None else shaped(found.mid_temperature),
-        max_temperature_rise=found.max_temperature_rise,
-        temperature_rise_error=found.temperature_rise_error,
-        energy_imbalance=found.energy_imbalance,
-    )

@@ -277,6 +277,11 @@ class Physics:
     boundary_friction: float | None = None
 
     @property
+    def plain(self) -> bool:
+        """Whether the oil is Newtonian and the film isothermal: shear does not change such a film."""
+        return self.thermal is None and self.rheology.name == "newtonian"
+
+    @property
     def mean_speed(self) -> float:
         """Entrainment speed (u_a + u_b)/2 [m/s]."""
         return 0.5 * (self.speeds[0] + self.speeds[1])

@@ -15,7 +15,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.far_field import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
-from ehlectric.film.heated_film import heated_result, solve_heated_film
+from ehlectric.film.heated_solution import heated_result, solve_heated_film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem

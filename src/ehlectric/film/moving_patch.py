@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.film_solver import StarvedSolution, film_method
-from ehlectric.film.heated_film import HeatedGrid, heated_solution
+from ehlectric.film.heated_film import HeatedGrid
+from ehlectric.film.heated_solution import heated_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import Patch

@@ -108,17 +108,20 @@ class Patch:
         The cells of the nodes on the edges of the patch reach half a spacing beyond it. That half of a fine
         cell is taken off the coarse cells that are outside.
         """
-        return self._spline(self.coarse.level.deflection(self._outside(0.5 + 0.5 / times)))
+        return self._spline(self.coarse.level.deflection(self._outer_pressure(0.5 + 0.5 / times)))
 
     def _outer_load(self) -> float:
-        return float(np.vdot(self.coarse.level.weights, self._outside(0.5)))
+        return float(np.vdot(self.coarse.level.weights, self._outer_pressure(0.5)))
 
-    def _outside(self, at_edge: float) -> Array:
-        """Coarse pressure less that of the patch, to which the part ``at_edge`` of its edges belongs."""
+    def _outer_pressure(self, at_edge: float) -> Array:
+        return self.coarse.state.pressure * self.outside(at_edge)
+
+    def outside(self, at_edge: float) -> Array:
+        """Part of each coarse node outside the patch, to which the part ``at_edge`` of its edges belongs."""
         mesh = self.coarse.level.mesh
         along = _part(mesh.x.size, self.rows, (at_edge, at_edge))
         across = _part(mesh.y.size, self.lines, (1.0 if mesh.symmetric else at_edge, at_edge))
-        return self.coarse.state.pressure * (1.0 - along[:, np.newaxis] * across)
+        return np.asarray(1.0 - along[:, np.newaxis] * across)
 
     def _spline(self, values: Array) -> OnGrid:
         mesh = self.coarse.level.mesh

@@ -475,6 +475,10 @@ class Traction:
     sliding: float
     rolling: float  # rolling coefficient: integral of h/2 dp/dx over the load, the resistance on each surface
 
+    def __add__(self, other: Traction) -> Traction:
+        """Friction of two parts of a contact together."""
+        return Traction(self.sliding + other.sliding, self.rolling + other.rolling)
+
     def power_loss(self, load: float, *, entrainment_speed: float, slide_to_roll_ratio: float) -> float:
         """Power [W], or [W/m] of a line contact, that the motion of the surfaces takes: stress times speed.
 
@@ -499,13 +503,15 @@ def traction(
     load: float,
     stress_ratio: float,
     filled: Array | float = 1.0,
+    part: Array | float = 1.0,
 ) -> Traction:
-    """Traction and rolling coefficients of a contact with the film thickness H (nx, ny).
+    """Traction and rolling coefficients of a contact with the film thickness H (nx, ny), or of a ``part``
+    of each node (nx, ny).
 
     ``filled`` (nx, ny) is the part of the gap that the oil fills. The stress of a cavitated film is this part
     of that of a full film.
     """
-    weights = stress_ratio / load * mesh.weights
+    weights = stress_ratio / load * mesh.weights * part
     sliding = np.sum(weights * filled * columns.middle[0])
     rolling = np.sum(weights * 0.5 * thickness * columns.gradient[0])
     return Traction(float(sliding), float(rolling))

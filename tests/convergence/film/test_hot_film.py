@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ehlectric.film.heated_film import solve_heated_film
+from ehlectric.film.heated_solution import solve_heated_film
 from ehlectric.film.mesh import Width
 from ehlectric.film.shear_laws import Rheology
 from tests.helpers.hot import ball, films, hot_contact, hot_oil, paper_line, random_contact
