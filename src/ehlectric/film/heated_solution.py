@@ -48,9 +48,9 @@ from ehlectric.runtime.threads import quiet_solution
 # belong together, even if both stand still.
 _MOST_IMBALANCE = 0.1
 
-# Largest number of nodes of a patch and of a whole domain on which a film with shear or heat is solved. Each
-# takes about a minute on one core: the temperature is solved on the whole domain only.
-_MOST_OF_PATCH, _MOST_WHOLE = 150_000.0, 40_000.0
+# Largest number of nodes for a film with shear or heat at a known temperature, and for one with its own
+# temperature: each takes about a minute on one core.
+_MOST_FROZEN, _MOST_WHOLE = 150_000.0, 40_000.0
 
 
 @dataclass(frozen=True)
@@ -150,14 +150,16 @@ def heated_solution(
     if isinstance(simple, StarvedSolution) and simple.flooded is not None:
         starts = [simple.flooded]
     layered = problem.supply is not None and problem.supply.layer is not None
+    if problem.supply is not None and problem.width is not None:
+        # The temperature is that of the first grid, as where a flooded film is refined on a patch.
+        while finest.nodes > problem.nodes:
+            finest = finest.halved()
     found = heated_on_grids(finest, starts, progress, careful=False, every=layered)
     if not (layered or all(grid.status == "converged" for grid in found)):
         # Very hot films take more grids and more exact loops.
         found = heated_on_grids(finest, starts, progress, careful=True)
-    if problem.supply is not None:
-        cold_films = {film.level.mesh.shape: film for film in simple.solutions}
-        grids = [_with_supply(grid, cold_films.get(grid.level.mesh.shape)) for grid in found]
-        return simple, starved_on_grids(grids, problem.supply)
+    if isinstance(simple, StarvedSolution):
+        return _starved(simple, finest, found, progress)
     if simple.patch is None or found[-1].status != "converged":
         return _until(simple, simple.whole), RefinedSolution(finest, list(found))
     return _refined_together(simple, finest, found, progress)
@@ -173,7 +175,8 @@ def is_too_fine(problem: FilmProblem, times: int) -> bool:
         return False
     nodes = expected_nodes(problem, times)
     whole = times**2 * (problem.nodes - 1) * (width.y.size - 1)
-    return nodes > (_MOST_WHOLE if nodes == whole else _MOST_OF_PATCH)
+    heats_all = nodes == whole and problem.supply is None
+    return nodes > (_MOST_WHOLE if heats_all else _MOST_FROZEN)
 
 
 def _most_nodes(problem: FilmProblem) -> int:
@@ -201,14 +204,14 @@ def _refined_together(
 ) -> tuple[RefinedSolution, RefinedSolution]:
     """Film without and with heat or shear on a patch, refined until the error of both is small enough.
 
-    ``whole``, films with heat or shear on the grids over the whole domain; ``problem``, problem of the last one.
+    ``whole``, films with heat or shear on grids over the whole domain; ``problem``, problem of the last one.
     """
     assert simple.patch is not None
     found, patch = list(whole), replace(simple.patch, problem=problem, coarse=whole[-1])
     frozen, of_temperature = _frozen(whole[-1]), _of_temperature(whole)
     refined, times = RefinedSolution(problem, list(whole)), 2
     while times <= simple.patch.times(simple.last.level.mesh):
-        grid = _on_patch(patch.refined(times), found, simple, frozen, progress)
+        grid = _on_grid(patch.refined(times), found, simple, frozen, progress)
         if grid.status != "converged":
             break
         found.append(grid)
@@ -224,14 +227,14 @@ def _refined_together(
     return _until(simple, refined.last), refined
 
 
-def _on_patch(
+def _on_grid(
     posed: FilmProblem,
     found: list[HeatedGrid],
     simple: RefinedSolution,
     frozen: FrozenTemperature | None,
     progress: Progress | None,
 ) -> HeatedGrid:
-    """Film with heat or shear on a grid of the patch, at the temperature of the coarser grid.
+    """Film with heat or shear on a finer grid, at the temperature of a coarser one.
 
     The initial guess is the film with heat on the next coarser grid, or else the film without heat.
     """
@@ -265,11 +268,42 @@ def _of_temperature(found: list[HeatedGrid]) -> float:
     return float(np.max(np.abs(films[1] / films[0] - 1.0)))
 
 
-def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProblem:
-    """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
-    heat on this grid: guesses that are further away may take minutes to fail.
+def _starved(
+    simple: StarvedSolution, problem: FilmProblem, found: list[HeatedGrid], progress: Progress | None
+) -> tuple[RefinedSolution, StarvedSolution]:
+    """Starved film without and with heat or shear, on the grids of the film without.
+
+    ``found`` are the flooded films with heat or shear on all grids up to that of the ``problem``. On finer
+    grids the films keep their temperatures.
     """
-    iteration = replace(flooded.iteration, most_loops=MOST_LOOPS)
+    assert problem.supply is not None
+    cold = {film.level.mesh.shape: film for film in simple.solutions}
+    grids = [_with_supply(grid, cold.get(grid.level.mesh.shape)) for grid in found]
+    refined = starved_on_grids(grids, problem.supply)
+    warm, flooded = refined.last, list(found)
+    while problem.nodes < simple.problem.nodes:
+        finer = None
+        if isinstance(warm, HeatedGrid) and refined.last.status == "converged":
+            posed = problem.doubled()
+            flooded.append(_on_grid(posed, flooded, simple, _frozen(found[-1]), progress))
+            starved = _with_supply(flooded[-1], cold.get(flooded[-1].level.mesh.shape), _frozen(warm))
+            finer = starved_on_grids([starved], problem.supply, refined.solutions, refined.layer)
+        if finer is None or finer.last.status != "converged":
+            # Both films are those of the last grid that has both.
+            coarser = replace(problem, physics=None, target_error=None)
+            return film_method(coarser)(coarser, progress), refined
+        problem, refined = posed, finer
+    return simple, refined
+
+
+def _with_supply(
+    flooded: HeatedGrid, cold: GridSolution | None, frozen: FrozenTemperature | None = None
+) -> StarvedProblem:
+    """Starved film with heat to be solved on the grid of a flooded film. ``cold`` is the starved film without
+    heat on this grid: guesses that are further away may take minutes to fail. ``frozen`` is the temperature
+    of a coarser grid that the film keeps.
+    """
+    iteration = replace(flooded.iteration, most_loops=MOST_LOOPS, frozen=frozen)
     hot = iteration.physics.thermal is not None
     return StarvedProblem(
         iteration.problem,
@@ -278,7 +312,7 @@ def _with_supply(flooded: HeatedGrid, cold: GridSolution | None) -> StarvedProbl
         _solver(iteration),
         cold=cold,
         with_heat=True,
-        careful=_solver(replace(iteration, careful=True)) if hot else None,
+        careful=_solver(replace(iteration, careful=True)) if hot and frozen is None else None,
     )
 
 
@@ -317,15 +351,17 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
         outside, further = _nodes_and_friction(whole, whole.level.load, patch.outside(0.5))
         friction += further
     load = scales.pressure * scales.length ** (1 if problem.width is None else 2) * whole.level.load
-    heat, status, imbalance, error = whole.heat, last.status, None, None
+    status, imbalance, error = last.status, None, None
+    warm = [grid for grid in found if grid.iteration.frozen is None]
+    heat, iteration = warm[-1].heat, warm[-1].iteration
     if heat is not None and physics.thermal is not None:
-        stream = whole.iteration.stream(whole, heat, *whole.iteration.columns(whole, whole.law))
+        stream = iteration.stream(warm[-1], heat, *iteration.columns(warm[-1], warm[-1].law))
         imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
         if status == "converged" and imbalance > _MOST_IMBALANCE:
             status = "stalled"
-        error = rise_error([grid for grid in found if grid.iteration.frozen is None])
-        if error is not None and last.largest_rise is not None and whole.largest_rise is not None:
-            error += abs(last.largest_rise - whole.largest_rise)
+        error = rise_error(warm)
+        if error is not None and last.largest_rise is not None and warm[-1].largest_rise is not None:
+            error += abs(last.largest_rise - warm[-1].largest_rise)
     return HeatedSolution(
         **vars(inside),
         refined=refined,
