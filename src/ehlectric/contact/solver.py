@@ -325,15 +325,20 @@ def _smooth(
 def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coarser | None:
     """Solve a contact whose surfaces touch on a grid with half the nodes along each axis.
 
-    None if this grid has fewer nodes than a case may have, or if its film does not converge.
+    A point contact that was refined on a patch is so again. None if this grid has fewer nodes than a case may
+    have, or if its film does not converge.
     """
     conditions, problem = contact.conditions, contact.film_problem(films.setup)
     nodes, width = problem.nodes // 2 + 1, problem.width
     if nodes < _LEAST_NODES:
         return None
-    if width is not None:
-        width = replace(width, nodes=width.nodes // 2 + 1)
-    film = solvers.film[conditions.geometry](replace(problem, nodes=nodes, width=width))
+    first = contact.film_problem(films.first)
+    if width is not None and nodes > first.nodes:
+        coarser = replace(first, target_error=0.0, most_nodes=nodes)
+    else:
+        width = None if width is None else replace(width, nodes=width.nodes // 2 + 1)
+        coarser = replace(problem, nodes=nodes, width=width)
+    film = solvers.film[conditions.geometry](coarser)
     if not film.converged:
         return None
     return Coarser.of(conditions, film)

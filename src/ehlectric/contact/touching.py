@@ -8,7 +8,7 @@ Reynolds equation at these nodes is that oil.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
 
@@ -34,6 +34,8 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import residual, wedge_stencil
 from ehlectric.formulas.asperities import cluster_resistance, film_resistance, greenwood_cluster
+from ehlectric.formulas.film_line import CentralThickness, moes
+from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import formatted
 from ehlectric.runtime.stored import number
@@ -741,10 +743,55 @@ def spot_warnings(
         carried=carried,
         share=about_share(share, before),
     )
-    if before is None:
-        yield unknown_share("the load share", "a coarser grid")
-    else:
-        yield from changed_share("the load share", share, before, "a grid with half the nodes")
+    changed = [unknown_share("the load share", "a coarser grid")]
+    if before is not None:
+        changed = list(changed_share("the load share", share, before, "a grid with half the nodes"))
+    yield from changed
+    if not case.roughness:
+        yield from _smooth_spots(case, conditions, film, spots.number, known=not changed)
+
+
+# Error of the mean gap of smooth surfaces that touch, above which the grid does not resolve them.
+_SMOOTH_ERROR = 0.01
+
+# Formulas of the central film by the geometry of a contact.
+_FORMULAS: Mapping[str, Callable[[Any], CentralThickness]] = {
+    "line": moes,
+    "point": nijenbanning_venner_moes,
+}
+
+# Least film over the central one, about, as in ``film.film_error.expected_error``.
+_LEAST_FILM = 0.5
+
+
+def _smooth_spots(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    number: int,
+    *,
+    known: bool,
+) -> Iterator[ResultWarning]:
+    """Warning about smooth surfaces that touch on a grid which does not resolve their film.
+
+    On coarse grids the gap of a thin film closes, and not on a finer one. Two coarse grids may agree that it
+    does, where a formula expects a film thicker than the boundary film. ``known``, whether the spots carry as
+    much as on the coarser grid.
+    """
+    error, formula = film.discretisation_error, _FORMULAS[conditions.geometry]
+    expected = _LEAST_FILM * formula(conditions.contact).central_thickness * conditions.film_factor
+    flooded = case.inlet is None
+    small = error is not None and error <= max(_SMOOTH_ERROR, case.grid.target or 0.0)
+    if known and small and not (flooded and expected > conditions.boundary_film):
+        return
+    stated = "unknown" if small or error is None else f"about {100 * error:.2g} %"
+    yield ResultWarning.of(
+        "smooth-surfaces-touch",
+        spots="1 spot" if number == 1 else f"{number} spots",
+        grid=" x ".join(str(axis.size) for axis in film.axes),
+        error=stated,
+        expected=f"{1e9 * expected:.2g} nm",
+    )
 
 
 def unknown_share(what: str, grid: str) -> ResultWarning:
