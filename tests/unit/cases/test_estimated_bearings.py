@@ -121,7 +121,7 @@ def ratings_of(bearing):
 @each(
     ("kind", "dynamic", "static"),
     [
-        ("deep-groove ball", 0.03, 0.045),
+        ("deep-groove ball", 0.03, 0.021),
         ("angular-contact ball", 0.02, 0.016),
         ("four-point contact ball", 0.01, 0.01),
         ("thrust ball", 0.014, 0.014),
@@ -213,6 +213,8 @@ def test_ratings_of_another_maker_replace_those_of_the_series():
         # Case Western Reserve University, Bearing Data Center, bearing information (SKF).
         ("6205", 9, 7.940, 39.04),
         ("6203", 8, 6.746, 28.50),
+        # NSK 6804 of the PRONOSTIA test rig, as public programs for its data of 2012 state it.
+        ("6804", 13, 3.5, 25.6),
         # GMN, catalogue 4000 0813 EN, as transcribed in ArtemFilin1990/Mar.
         ("6004", 9, 6.35, 31.0),
         ("6006", 11, 7.144, 42.5),
@@ -223,11 +225,12 @@ def test_ratings_of_another_maker_replace_those_of_the_series():
     ],
 )
 def test_balls_of_published_bearings(name, elements, ball, pitch):
-    """From the ratings of the series; balls have standard sizes of 1/64 in."""
+    """From the ratings of the series; balls have standard sizes, 1/64 in or half a millimetre."""
     found = estimated_geometry(series()[name])
     assert found.elements == elements
     assert 1e3 * found.element_diameter == pytest.approx(ball, rel=1e-3)
-    assert 1e3 * found.pitch_diameter == pytest.approx(pitch, rel=0.015)
+    # A mean of the rings is up to 1.6 % above a measured pitch circle.
+    assert 1e3 * found.pitch_diameter == pytest.approx(pitch, rel=0.016)
 
 
 @each(

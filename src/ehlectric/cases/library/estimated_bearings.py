@@ -9,7 +9,7 @@ rings, as the functions below say.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
@@ -32,8 +32,11 @@ from ehlectric.formulas.load_ratings import (
 
 _MILLIMETRE = 1e-3
 
-# Steps of the diameters of balls, 1/64 in, and of needles [m].
-BALL_STEP, NEEDLE_STEP = 25.4e-3 / 64.0, 0.5e-3
+# Steps of the diameters of balls, 1/64 in, of metric balls, and of needles [m].
+BALL_STEP, METRIC_STEP, NEEDLE_STEP = 25.4e-3 / 64.0, 0.5e-3, 0.5e-3
+
+# Series of thin bearings, which also contain metric balls: the 6804 has 13 balls of 3.5 mm.
+_METRIC = ("68", "69")
 
 # Pitch diameter of balls and of tapered rollers over the mean of bore and outside diameter.
 PITCH_RATIO = 1.0
@@ -222,7 +225,7 @@ class Target:
 
 
 def _balls(bearing: SeriesBearing, target: Target, rules: Rules) -> EstimatedGeometry:
-    """Whole number of balls of the inch series that has both ratings best."""
+    """Whole number of standard balls whose ratings are nearest to both ratings."""
     pitch, angle = rules.pitch_ratio * bearing.middle, bearing.contact_angle or 0.0
     rates = (
         lambda number, ball: ball_dynamic_rating(number, ball, pitch, angle),
@@ -252,11 +255,9 @@ def _best_balls(
     pitch: float,
     rates: tuple[Callable[[int, float], float], Callable[[int, float], float]],
 ) -> EstimatedGeometry:
-    """Number and ball of the inch series with the least distance from the ratings."""
-    space = bearing.outer_diameter - bearing.bore
+    """Number and standard ball with the least distance from the ratings."""
     best, found = _MOST_MISSED, None
-    for step in range(round(_BALL_PARTS[0] * space / BALL_STEP), int(_BALL_PARTS[1] * space / BALL_STEP) + 1):
-        ball = float(f"{step * BALL_STEP:.9g}")
+    for ball in _standard_balls(bearing):
         # The static rating is proportional to the number.
         near = target.static / rates[1](1, ball)
         for number in (math.floor(near), math.ceil(near)):
@@ -267,6 +268,14 @@ def _best_balls(
     if found is None:
         raise _no_elements(bearing)
     return found
+
+
+def _standard_balls(bearing: SeriesBearing) -> Iterator[float]:
+    """Diameters of standard balls that fit between the rings of a bearing [m]."""
+    space = bearing.outer_diameter - bearing.bore
+    for step in (BALL_STEP, *((METRIC_STEP,) if bearing.series in _METRIC else ())):
+        first, last = round(_BALL_PARTS[0] * space / step), int(_BALL_PARTS[1] * space / step)
+        yield from (float(f"{number * step:.9g}") for number in range(first, last + 1))
 
 
 def _no_elements(bearing: SeriesBearing) -> InputError:
