@@ -157,16 +157,24 @@ _LEAST = 0.02
 # Number of loads down to it whose contacts come from the atlas or by formula, and number of light loads below
 # the others. They are fewer in a coarse bearing, whose ratios of margins are within 1e-4.
 _QUICK_LOADS, _COARSE_LOADS = 16, 6
-_MOST_BETWEEN, _COARSE_BETWEEN = 6, 3
+_QUICK_LIGHT, _COARSE_LIGHT = 10, 5
 
-# Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
-# bearing.
+# Least load that is solved over the largest. Lighter contacts have the trend of a formula.
 _LIGHTEST = 0.002
 
-# Light loads that are solved below the others: about one for each of these ratios. Their distances, a power
-# of their number, are shortest at the light end. There the film of rigid bodies, which is proportional to 1/Q
-# for a roller and to 1/Q^2 for a ball, turns into the film of bodies that deform.
-_BETWEEN, _CROWDED = 1.5, 1.5
+# Light contacts that are solved: at most so many, and about one for each of these ratios of their loads.
+_SOLVED_LIGHT, _BETWEEN = 5, 1.5
+
+# Exponent of the distances of light loads, which are shortest at the light end. There the film of rigid
+# bodies, which is proportional to 1/Q for a roller and to 1/Q^2 for a ball, turns into the film of bodies
+# that deform.
+_CROWDED = 1.5
+
+# Power of the load that is the weight of an element in the contact angle and speed of a ring's contacts.
+_WEIGHT = 16
+
+# Light loads are solved if the least one is below this part of the others.
+_BELOW = 0.98
 
 # Exponents of ten between which the least load is searched [N], and their distance at which the search ends.
 _EXPONENTS, _CLOSE = (-6.0, 6.0), 1e-7
@@ -367,11 +375,16 @@ def films_too_thick(prepared: PreparedBearing) -> Mask:
 
 
 def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:
-    """Contacts with one ring, at the contact angle and speed of the most loaded element."""
-    most, ring = np.argmax(at.inner_load, axis=-1)[..., np.newaxis], at.ring(inner=inner)
+    """Contacts with one ring, at the contact angle and speed of the most loaded elements.
+
+    Both are means with a high power of the load as the weight: they have no steps if another element becomes
+    the most loaded one. Angles in a second row are negative, and its grooves are mirrored ones.
+    """
+    ring, most = at.ring(inner=inner), np.max(at.inner_load, axis=-1, keepdims=True)
+    weights = (at.inner_load / most) ** _WEIGHT
+    weights = weights / np.sum(weights, axis=-1, keepdims=True)
     angle, speed = (
-        as_float(np.take_along_axis(values, most, -1)[..., 0])
-        for values in (ring.angle, ring.entrainment_speed)
+        as_float(np.sum(weights * values, axis=-1)) for values in (np.abs(ring.angle), ring.entrainment_speed)
     )
     return RingContacts(conditions, inner, angle, speed)
 
@@ -412,22 +425,21 @@ def loads_to_solve(
     """Loads of a ring's contacts to solve [N], by increasing load, and which of them are in use.
 
     The loads of the kind, or more for quick contacts unless they are ``coarse``, are evenly spaced in their
-    logarithm. Lighter loads come before them where elements carry hardly more than their centrifugal force.
+    logarithm. Lighter loads come before them if any element carries less than 2 % of the largest load, or
+    none. All loads are continuous functions of the loads of the elements.
 
     Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with
     fewer loads than others have the least one of them in the places before, which are not in use.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria], axis=-1)
-    largest = np.max(all_loads, axis=-1)
-    is_light = all_loads < _LEAST * largest[..., np.newaxis]
-    least = np.min(np.where(is_light, np.inf, all_loads), axis=-1)
-    most, between = (_COARSE_LOADS, _COARSE_BETWEEN) if coarse else (_QUICK_LOADS, _MOST_BETWEEN)
-    number = most if quick else kind_of(ring).loads
-    alike = ~(largest / least > _ALIKE)
-    least = np.where(alike, largest, least)
+    largest, smallest = np.max(all_loads, axis=-1), np.min(all_loads, axis=-1)
+    alike = ~(largest > _ALIKE * smallest)
+    least = np.where(alike, largest, np.maximum(smallest, _LEAST * largest))
+    number = (_COARSE_LOADS if coarse else _QUICK_LOADS) if quick else kind_of(ring).loads
     loads = np.geomspace(least, largest, number, axis=-1)
     heavy = ~alike[..., np.newaxis] | (np.arange(number) == number - 1)
-    lighter, light = _lighter(_light_load(ring, all_loads, is_light, largest), least, between)
+    lightest = np.maximum(smallest, _least_light(ring, largest, least, quick=quick))
+    lighter, light = _lighter(lightest, least, (_COARSE_LIGHT if coarse else _QUICK_LIGHT) if quick else None)
     loads, used = np.concatenate([lighter, loads], axis=-1), np.concatenate([light, heavy], axis=-1)
     # Places in use last, as few as the point with the most loads has.
     most = int(np.max(np.count_nonzero(used, axis=-1)))
@@ -437,29 +449,26 @@ def loads_to_solve(
     return np.where(used, loads, first), used
 
 
-def _light_load(ring: RingContacts[Any], loads: Array, is_light: Mask, largest: Array) -> Array:
-    """Least load that is solved of elements that are hardly loaded [N], infinite without any, shape (...)."""
-    # Elements that are pressed outward only by their centrifugal force carry far less than the others.
-    light = np.min(np.where(is_light & (loads > 0.0), loads, np.inf), axis=-1)
-    some = np.isfinite(light)
-    if not np.any(some):
-        return np.asarray(light)
-    least = np.maximum(np.maximum(light, _LIGHTEST * largest), least_load(ring))
-    return np.where(some, least, np.inf)
+def _least_light(ring: RingContacts[Any], largest: Array, least: Array, *, quick: bool) -> Array:
+    """Least load at which a contact of light elements is computed [N], shape (...)."""
+    if not np.any(least > _LIGHTEST * largest):
+        return least
+    floor = least_load(ring)
+    return np.asarray(floor if quick else np.maximum(floor, _LIGHTEST * largest))
 
 
-def _lighter(own: Array, least: Array, between: int) -> tuple[Array, Mask]:
-    """Loads [N] from that of light elements, ``own``, up to below ``least``, and which of them are in use.
+def _lighter(lightest: Array, least: Array, number: int | None) -> tuple[Array, Mask]:
+    """Loads [N] from ``lightest`` up to below ``least``, and which of them are in use, shape (..., k).
 
-    At most so many are ``between`` both; none are in use where both are close. Shape (..., k), with those in
-    use last.
+    ``number``, number of the loads; None if it depends on the ratio of both loads. No load is in use if both
+    are close. The loads in use come last.
     """
-    most = 1 + between
-    some = own < 0.5 * least
-    own = np.where(some, own, least)
-    ratio = np.log(least / own)
-    number = np.where(some, 1 + np.minimum(between, np.floor(ratio / math.log(_BETWEEN))), 1.0)
-    place = np.arange(most) - (most - number[..., np.newaxis])
-    part = np.maximum(place, 0.0) / number[..., np.newaxis]
-    loads = own[..., np.newaxis] * np.exp(ratio[..., np.newaxis] * part**_CROWDED)
+    most = _SOLVED_LIGHT if number is None else number
+    some = lightest < _BELOW * least
+    ratio = np.log(least / np.where(some, lightest, least))
+    wanted = np.minimum(most, 1.0 + np.floor(ratio / math.log(_BETWEEN))) if number is None else float(most)
+    count = np.where(some, wanted, 1.0)[..., np.newaxis]
+    place = np.arange(most) - (most - count)
+    part = np.maximum(place, 0.0) / count
+    loads = np.where(some, lightest, least)[..., np.newaxis] * np.exp(ratio[..., np.newaxis] * part**_CROWDED)
     return loads, (place >= 0.0) & some[..., np.newaxis]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -89,59 +90,134 @@ def oil_part(fill: Numbers | str) -> Numbers:
     return fill if np.ndim(fill) == 0 else fill[..., np.newaxis]
 
 
-def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
+def ring_state(
+    ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array, room: Array
+) -> RingState:
     """State of the contacts of all elements with one ring, from the load [N] and the gap [m] of each, shape
-    (..., n).
+    (..., n), and from the ``room`` [m] of each element, the sum of its gaps to both rings.
 
-    Elements that are not loaded are rigid bodies at a gap.
+    A pressed element has the film of its load, as long as the film is thinner than the room. An element
+    without a load is a rigid body at its gap. Between both limits all values are continuous.
     """
     solved = load > 0.0
-    pairs = zip(
-        _loaded(ring, curve, load).columns(),
-        _unloaded(ring, curve, np.where(solved, np.nan, gap)).columns(),
-        strict=True,
-    )
-    return RingState(load, gap, solved, ContactValues(*(np.where(solved, *pair) for pair in pairs)))
+    pressed, trend = curve.at(load), _trend(ring, curve, load)
+    film = pressed.central_thickness * trend
+    within = _widened(np.where(solved, room, gap), 2.0 * curve.values.central_thickness[..., -1:])
+    # Film without a bound over the room. A thick film has no effect on an element without a load.
+    over = np.where(solved, np.minimum(film / within, _FREE), _FREE)
+    apart = within * _bounded(over)
+    free = _freedom(over)
+    ratio = apart / np.where(solved, film, apart)
+    return RingState(load, gap, solved, _values(ring, curve, load, (pressed, trend, ratio), (apart, free)))
 
 
-def _loaded(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> ContactValues[Array]:
-    """Values of contacts at loads [N], shape (..., n).
+# Film over room up to which a film has the thickness that follows from its load, and from which on it has the
+# thickness of the room.
+_PRESSED, _FREE = 0.8, 1.2
 
-    Contacts with less than the lightest solved load have the film at that load, but their own dry contact.
+
+def _widened(gap: Array, films: Array) -> Array:
+    """Room for the film of an element at a gap [m]; films widen a narrow gap, shape (..., n).
+
+    The films of the most loaded element, one with each ring, keep the rings apart, so that an element that
+    touches without a load has the room of about two such films. The room is the gap from twice ``films`` on.
     """
-    pressure, along, across, *others = curve.at(load).columns()
+    return np.where(gap < 2.0 * films, films + gap**2 / (4.0 * films), gap)
+
+
+def _bounded(over: Array) -> Array:
+    """Film over room from the film without a bound over room, dimensionless, with a continuous slope."""
+    beyond = np.clip(over, _PRESSED, _FREE) - _PRESSED
+    return np.where(over < _PRESSED, over, _PRESSED + beyond - beyond**2 / (2.0 * (_FREE - _PRESSED)))
+
+
+def _freedom(over: Array) -> Array:
+    """Part of a contact that is a gap of rigid bodies, 0 to 1, from the film without a bound over room."""
+    part = (np.clip(over, _PRESSED, _FREE) - _PRESSED) / (_FREE - _PRESSED)
+    return part**2 * (3.0 - 2.0 * part)
+
+
+# Load over the least solved load below which the film of the formulas is thicker than every gap.
+_NO_LOAD = 1e-6
+
+
+def _trend(ring: RingContacts[Any], curve: ContactCurve, load: Array) -> Array:
+    """Film at loads [N] over the film of ``curve.at``, shape (..., n): 1 from the least solved load on.
+
+    The films of lighter contacts change as the formulas that hold down to rigid bodies.
+    """
+    least = np.asarray(curve.least_load)[..., np.newaxis]
+    light = (load > 0.0) & (load < least)
+    if not np.any(light):
+        return np.ones(load.shape)
+    loads = np.where(light, np.maximum(load, _NO_LOAD * least), least)
+    films = _of_points(
+        lambda each: kind_of(ring).contact(ring, each).film, np.concatenate([loads, least], -1)
+    )
+    return np.where(light, films[..., :-1] / films[..., -1:], 1.0)
+
+
+def _of_points(law: Callable[[Array], Numbers], values: Array) -> Array:
+    """Law of many points, which takes numbers with the points last, at numbers of shape (..., n)."""
+    return np.moveaxis(np.asarray(law(np.moveaxis(values, -1, 0))), 0, -1)
+
+
+def _values(
+    ring: RingContacts[Any],
+    curve: ContactCurve,
+    load: Array,
+    pressed: tuple[ContactValues[Array], Array, Array],
+    gaps: tuple[Array, Array],
+) -> ContactValues[Array]:
+    """Values of contacts, shape (..., n).
+
+    ``pressed``, values of ``curve.at``, trend of the film from there to the load, and film over the film of
+    the load; ``gaps``, film or gap [m], and the part of the contact that is a gap of rigid bodies.
+    """
+    values, trend, ratio = pressed
+    apart, free = gaps
+    conditions, held = ring.conditions, 1.0 - free
     lighter = np.minimum(1.0, load / np.asarray(curve.least_load)[..., np.newaxis])
-    exponents = kind_of(ring).dry_exponents
-    dry = (
-        values * lighter**exponent
-        for values, exponent in zip((pressure, along, across), exponents, strict=True)
+    pressure, along, across = (
+        np.where(load > 0.0, lighter**exponent, 0.0) for exponent in kind_of(ring).dry_exponents
     )
-    return ContactValues(*dry, *others)
-
-
-def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> ContactValues[Array]:
-    """Values of rigid bodies at gaps [m], shape (..., n), NaN of the others; a gap is at least the central
-    film of the lightest solved load.
-    """
-    conditions, rigid = ring.conditions, kind_of(ring).rigid_capacitance
-    # Numbers of many points have the points last.
-    apart = np.moveaxis(np.maximum(gap, np.asarray(curve.thickest_film)[..., np.newaxis]), -1, 0)
-    vacuum, none = rigid(ring, apart), np.zeros_like(apart)
-    values = ContactValues(
-        max_pressure=none,
-        semi_axis_x=none,
-        semi_axis_y=none,
-        minimum_thickness=apart,
+    vacuum, at_least = _rigid(ring, curve, np.where((free > 0.0) | (lighter < 1.0), apart, np.nan))
+    # Capacitances of contacts that are lighter than the least solved one change as those of rigid bodies.
+    wider = held * np.where(lighter < 1.0, vacuum / at_least, 1.0)
+    vacuum = _part(free, vacuum)
+    permittivity = np.asarray(conditions.oil.relative_permittivity)[..., np.newaxis]
+    thinner = trend * ratio
+    area = along * across / thinner
+    of_gap = _of_points(lambda gaps: gap_breakdown(conditions.discharge, gaps), apart)
+    return ContactValues(
+        max_pressure=values.max_pressure * pressure,
+        semi_axis_x=values.semi_axis_x * along,
+        semi_axis_y=values.semi_axis_y * across,
+        minimum_thickness=held * values.minimum_thickness * thinner + free * apart,
         central_thickness=apart,
-        inside=none,
-        outside_oil=vacuum * conditions.oil.relative_permittivity,
-        outside_air=vacuum,
-        plate=none,
-        strength_per_volt=1.0 / apart,
-        breakdown_voltage=gap_breakdown(conditions.discharge, apart),
-        hertz=none,
+        inside=wider * values.inside,
+        outside_oil=wider * values.outside_oil + vacuum * permittivity,
+        outside_air=wider * values.outside_air + vacuum,
+        plate=values.plate * area,
+        strength_per_volt=held * values.strength_per_volt / thinner + free / apart,
+        breakdown_voltage=_part(held, values.breakdown_voltage * thinner) + _part(free, of_gap),
+        hertz=held * values.hertz * area,
     )
-    return ContactValues(*(np.moveaxis(column, 0, -1) for column in values.columns()))
+
+
+def _part(share: Array, values: Array) -> Array:
+    """Share of values, some of which are infinite or unknown; 0 where the share is 0."""
+    shape = np.broadcast_shapes(share.shape, values.shape)
+    return np.multiply(share, values, out=np.zeros(shape), where=share != 0.0)
+
+
+def _rigid(ring: RingContacts[Any], curve: ContactCurve, apart: Array) -> tuple[Array, Array]:
+    """Capacitances in vacuum [F] of rigid bodies at gaps [m], shape (..., n), NaN of the others, and at the
+    film of the least solved load, shape (..., 1).
+    """
+    gaps = np.concatenate([apart, np.asarray(curve.thickest_film)[..., np.newaxis]], axis=-1)
+    vacuum = _of_points(lambda gaps: kind_of(ring).rigid_capacitance(ring, gaps), gaps)
+    return vacuum[..., :-1], vacuum[..., -1:]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -135,7 +135,8 @@ def _states(
     """Contacts of all elements with a ring at each equilibrium, computed together."""
     loads = [at.ring(inner=ring.inner) for at in equilibria]
     load, gap = (np.concatenate([getattr(one, name) for one in loads], axis=-1) for name in ("load", "gap"))
-    whole, number = ring_state(ring, curve, load=load, gap=gap), len(equilibria)
+    room = np.concatenate([at.inner_gap + at.outer_gap for at in equilibria], axis=-1)
+    whole, number = ring_state(ring, curve, load=load, gap=gap, room=room), len(equilibria)
     split = partial(np.split, indices_or_sections=number, axis=-1)
     columns = zip(*map(split, whole.values.columns()), strict=True)
     for at, apart, solved, values in zip(split(load), split(gap), split(whole.solved), columns, strict=True):

@@ -1,0 +1,100 @@
+"""Search for jumps of the numbers of a bearing along one of its inputs.
+
+A change between neighbours is a jump if it does not become smaller as they approach each other. The intervals
+with the largest changes, compared with the changes of their neighbours, are divided again and again.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric import evaluate
+from ehlectric.cases.bearing_case import BearingCase
+
+# Numbers that must not jump.
+NUMBERS = (
+    "bearing.capacitance",
+    "bearing.capacitance_air",
+    "bearing.capacitance_plate",
+    "bearing.shaft_capacitance",
+    "bearing.lambda_ratio",
+    "bearing.inner_lambda_ratio",
+    "bearing.outer_lambda_ratio",
+    "bearing.film_factor",
+    "bearing.first_break",
+    "bearing.first_break_mean",
+    "bearing.through_breakdown",
+    "bearing.shaft_first_break",
+    "bearing.margin",
+    "bearing.max_strength",
+    "bearing.film_voltage",
+    "bearing.discharge_energy",
+)
+
+# Parts of an interval, and how often it is divided: down to 1e-7 of its length.
+_PARTS, _TIMES = 10, 7
+
+# Intervals of each number that are divided, and part of the least jump from which on they are suspicious.
+_CHOSEN, _SUSPICIOUS = 2, 0.25
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Relative change of a number within a tiny interval of an input."""
+
+    number: str
+    place: float
+    width: float  # of the interval, over its place
+    change: float
+
+
+def numbers_at(case: BearingCase, key: str, values: np.ndarray) -> dict[str, np.ndarray]:
+    """Numbers of a bearing at values of an input, those that it has, and NaN at points without a result."""
+    found = evaluate(case, {key: values})
+    return {name: np.asarray(found[name].values, dtype=float) for name in NUMBERS if name in found}
+
+
+def _changes(values: np.ndarray) -> np.ndarray:
+    """Relative changes between neighbours; 0 if one of them has no value."""
+    low, high = np.minimum(values[..., :-1], values[..., 1:]), np.maximum(values[..., :-1], values[..., 1:])
+    known = np.isfinite(low) & np.isfinite(high) & (low > 0.0)
+    return np.where(known, np.log(np.where(known, high, 1.0) / np.where(known, low, 1.0)), 0.0)
+
+
+def _suspects(changes: np.ndarray, least: float) -> list[int]:
+    """Intervals whose changes are the furthest above the changes of both neighbours."""
+    padded = np.pad(changes, 1, mode="edge")
+    excess = changes - np.maximum(padded[:-2], padded[2:])
+    return [int(k) for k in np.argsort(excess)[-_CHOSEN:] if excess[k] > _SUSPICIOUS * least]
+
+
+def jumps_along(case: BearingCase, key: str, values: Sequence[float], least: float = 1e-3) -> list[Jump]:
+    """Jumps of more than ``least`` of the numbers of a bearing along an input, at increasing values of it."""
+    x = np.asarray(values, dtype=float)
+    numbers = numbers_at(case, key, x)
+    chosen = [(name, k) for name, y in numbers.items() for k in _suspects(_changes(y), least)]
+    if not chosen:
+        return []
+    low = np.array([x[k] for _, k in chosen])
+    high = np.array([x[k + 1] for _, k in chosen])
+    rows = np.arange(len(chosen))
+    for _ in range(_TIMES):
+        at = low[:, np.newaxis] + (high - low)[:, np.newaxis] * np.linspace(0.0, 1.0, _PARTS + 1)
+        places, back = np.unique(at, return_inverse=True)
+        found = numbers_at(case, key, places)
+        y = np.array([found[name][back.reshape(at.shape)[row]] for row, (name, _) in enumerate(chosen)])
+        changes = _changes(y)
+        most = np.argmax(changes, axis=1)
+        low, high, change = at[rows, most], at[rows, most + 1], changes[rows, most]
+        going = change > least
+        rows = np.arange(np.count_nonzero(going))
+        chosen = [one for one, goes in zip(chosen, going, strict=True) if goes]
+        low, high, change = low[going], high[going], change[going]
+        if not chosen:
+            return []
+    rows_left = zip(chosen, low.tolist(), high.tolist(), change.tolist(), strict=True)
+    found_jumps = {
+        Jump(name, place, (end - place) / abs(end), size) for (name, _), place, end, size in rows_left
+    }
+    return sorted(found_jumps, key=lambda jump: -jump.change)
