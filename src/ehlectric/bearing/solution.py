@@ -101,19 +101,25 @@ def ring_state(
     """
     solved = load > 0.0
     pressed, trend = curve.at(load), _trend(ring, curve, load)
-    film = pressed.central_thickness * trend
-    within = _widened(np.where(solved, room, gap), 2.0 * curve.values.central_thickness[..., -1:])
-    # Film without a bound over the room. A thick film has no effect on an element without a load.
-    over = np.where(solved, np.minimum(film / within, _FREE), _FREE)
+    film = _positive(pressed.central_thickness * trend)
+    thinnest = _positive(curve.values.central_thickness[..., -1:])
+    within = _widened(np.where(solved, room, gap), 2.0 * thinnest)
+    # Film without a bound over the room. However light a load is, a small part of its contact has a film.
+    over = np.where(solved, np.minimum(film / within, _FREE - _SMALL), _FREE)
     apart = within * _bounded(over)
     free = _freedom(over)
     ratio = apart / np.where(solved, film, apart)
     return RingState(load, gap, solved, _values(ring, curve, load, (pressed, trend, ratio), (apart, free)))
 
 
+def _positive(films: Array) -> Array:
+    """Films [m], NaN of contacts beyond the model, which have none."""
+    return np.where((films > 0.0) & np.isfinite(films), films, np.nan)
+
+
 # Film over room up to which a film has the thickness that follows from its load, and from which on it has the
 # thickness of the room.
-_PRESSED, _FREE = 0.8, 1.2
+_PRESSED, _FREE, _SMALL = 0.8, 1.2, 1e-4
 
 
 def _widened(gap: Array, films: Array) -> Array:
@@ -198,7 +204,7 @@ def _values(
         inside=wider * values.inside,
         outside_oil=wider * values.outside_oil + vacuum * permittivity,
         outside_air=wider * values.outside_air + vacuum,
-        plate=values.plate * area,
+        plate=held * values.plate * area,
         strength_per_volt=held * values.strength_per_volt / thinner + free / apart,
         breakdown_voltage=_part(held, values.breakdown_voltage * thinner) + _part(free, of_gap),
         hertz=held * values.hertz * area,

@@ -222,6 +222,28 @@ def _moes_asymptotes(contact: LineContact) -> dict[str, Numbers]:
     }
 
 
+def martin(contact: LineContact) -> Thickness:
+    """Minimum film thickness between rigid bodies with an isoviscous lubricant, h/R = 4.896 U/W.
+
+    U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, and W = w/(E' R). The reduced modulus cancels. The
+    film is the limit for light loads, after Martin (1916), in the numbers of Moes' group: H = 2.448/M.
+
+    Returns minimum film thickness [m].
+
+    H. M. Martin, Lubrication of gear teeth, Engineering 102 (1916) 119-121.
+
+    Examples
+    --------
+    A roller of 11 mm under 3.72 N, 338 N/m:
+
+    >>> contact = LineContact(6.5e-3, 226e9, 338.0, 4.0, 0.0125, 22e-9)
+    >>> round(martin(contact).minimum_thickness * 1e6, 2)
+    4.71
+    """
+    h = 4.896 * contact._u / contact._w
+    return Thickness(minimum_thickness=as_float(h * contact.reduced_radius))
+
+
 def moes(contact: LineContact) -> CentralThickness:
     """Central film thickness after Moes, for all four lubrication regimes.
 

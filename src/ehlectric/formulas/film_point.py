@@ -16,6 +16,7 @@ from ehlectric.formulas.film_line import (
     BothThicknesses,
     CentralThickness,
     Formula,
+    Thickness,
     below_both,
     dominant,
 )
@@ -181,6 +182,29 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     s = 1.5 * (1.0 + np.exp(-1.2 * ei / np.where(ep > 0.0, ep, 1.0)))
     h = (isoviscous ** (2 * s / 3) + below_both(rp, ep, 8) ** s) ** (1.0 / s)
     return CentralThickness(central_thickness=as_float(h * contact.radius_x * np.sqrt(2.0 * contact._u)))
+
+
+def brewe_hamrock_taylor(contact: PointContact) -> Thickness:
+    """Minimum film thickness between rigid bodies with an isoviscous lubricant.
+
+    h/Rx = 128 a (phi (0.131 arctan(a/2) + 1.683) U/W)^2 with a = Ry/Rx, phi = 1/(1 + 2/(3 a)),
+    U = eta0 u/(E' Rx), the mean speed u = (u1 + u2)/2 and W = F/(E' Rx^2). The reduced modulus cancels. The
+    film is the limit for light loads.
+
+    Returns minimum film thickness [m].
+
+    D. E. Brewe, B. J. Hamrock and C. M. Taylor, J. Lubr. Technol. 101 (1979) 231-239.
+
+    Examples
+    --------
+    >>> contact = PointContact(10e-3, 10e-3, 226e9, 1.0, 2.0, 0.04, 22e-9)
+    >>> round(brewe_hamrock_taylor(contact).minimum_thickness * 1e6, 2)
+    0.9
+    """
+    ratio = contact.radius_y / contact.radius_x
+    side = 1.0 / (1.0 + 2.0 / (3.0 * ratio))
+    h = 128.0 * ratio * (side * (0.131 * np.arctan(0.5 * ratio) + 1.683) * contact._u / contact._w) ** 2
+    return Thickness(minimum_thickness=as_float(h * contact.radius_x))
 
 
 # Relative step of the load in the derivative of a formula.

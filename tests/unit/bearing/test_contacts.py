@@ -398,7 +398,7 @@ def test_elements_without_load_are_rigid_bodies_apart(inner):
     for tables in (BALLS, ROLLERS):
         ring, _ = of(tables, inner=inner)
         load, gap = np.array([100.0, 0.0, 0.0]), np.array([0.0, 5e-6, 20e-6])
-        state = ring_state(ring, powers([1.0, 1000.0]), load=load, gap=gap)
+        state = ring_state(ring, powers([1.0, 1000.0]), load=load, gap=gap, room=gap)
         if tables is BALLS:
             expected = [groove_capacitance(ring.raceway, g) for g in gap[1:]]
         else:

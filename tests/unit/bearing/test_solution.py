@@ -117,7 +117,7 @@ def test_an_element_without_a_load_has_its_gap(tables, law):
 def test_no_film_is_thicker_than_the_room_of_its_element(tables, law):
     """A ball that is pressed by 1 mN in a clearance of 20 um; thin films do not depend on the room."""
     state, _ = state_of(tables, law, [1e-3, 1e-3, 1000.0, 1000.0], np.zeros(4), room=[2e-5, 2e-6, 2e-6, 0.0])
-    assert state.values.central_thickness == pytest.approx([2e-5, 2e-6, THIN, THIN], rel=1e-9)
+    assert state.values.central_thickness == pytest.approx([2e-5, 2e-6, THIN, THIN], rel=2e-8)
 
 
 @KINDS

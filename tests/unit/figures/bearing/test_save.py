@@ -126,7 +126,7 @@ def by_hand(*, film=0.2e-6, positions=2, **changes):
     for at in equilibria_of(conditions, positions):
         of_rings = ((at.inner_load, at.inner_gap), (at.outer_load, at.outer_gap))
         both = [
-            ring_state(ring, curve, load=load, gap=gap)
+            ring_state(ring, curve, load=load, gap=gap, room=at.inner_gap + at.outer_gap)
             for ring, curve, (load, gap) in zip(rings, curves, of_rings, strict=True)
         ]
         states.append(Position(at, *both))

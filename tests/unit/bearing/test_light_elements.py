@@ -1,0 +1,123 @@
+"""Films of light and of unloaded elements: rigid limits, the room of an element, and no jump between both."""
+
+import numpy as np
+import pytest
+
+from ehlectric import BearingCase, evaluate
+from ehlectric.bearing.solution import ring_state
+from ehlectric.bearing.solving import solution_of
+from tests.helpers.each import each
+
+OIL = {
+    "base": "paper",
+    "temperature": {
+        "kinematic_viscosity_40": "46 mm^2/s",
+        "kinematic_viscosity_100": "6.8 mm^2/s",
+        "density_15": "870 kg/m^3",
+        "thermal_conductivity": "0.137 W/m/K",
+    },
+}
+MOTOR = {
+    "common_mode_voltage": "300 V",
+    "winding_rotor_capacitance": "20 pF",
+    "rotor_frame_capacitance": "1 nF",
+}
+PLAY = {"arrangement": "O", "axial_clearance": "20 um"}
+PRELOAD = {"arrangement": "O", "preload": "500 N"}
+NU = {"base": "NU 208", "radial_clearance": "30 um", "profile": "logarithmic", "radial_load": "330.4 N"}
+BALL = {"base": "6208", "radial_clearance": "10 um", "radial_load": "1800 N"}
+TAPERED = {"base": "32208", "radial_load": "4 kN", "axial_load": "1 kN"}
+
+
+def case_of(**bearing):
+    """Bearing at 3000 rpm and 70 degC with films of the atlas and its motor."""
+    table = {"inner_speed": "3000 rpm", "temperature": "70 degC", "composite_rq": "0.03 um"}
+    return BearingCase.from_dict(
+        {
+            "contacts": "atlas",
+            "bearing": table | bearing,
+            "lubricant": OIL,
+            "discharge": {"dielectric_strength": "15 V/um"},
+            "motor": MOTOR,
+        }
+    )
+
+
+def martin(ring, load):
+    """Minimum film of a rigid roller, h = 4.9 eta u R/w; its coefficient is 4.896."""
+    per_length = load / ring.conditions.geometry.roller_length
+    return 4.896 * ring.oil.viscosity * ring.entrainment_speed * ring.radii.radius_x / per_length
+
+
+def brewe_hamrock_taylor(ring, load):
+    """Minimum film of a rigid ball, 128 a (phi U (0.131 atan(a/2) + 1.683)/W)^2.
+
+    D. E. Brewe, B. J. Hamrock and C. M. Taylor, J. Lubr. Technol. 101 (1979) 231.
+    """
+    rx, ratio = ring.radii.radius_x, ring.radii.radius_y / ring.radii.radius_x
+    side = 1.0 / (1.0 + 2.0 / (3.0 * ratio))
+    speed = ring.oil.viscosity * ring.entrainment_speed * rx / load
+    return rx * 128.0 * ratio * (side * speed * (0.131 * np.arctan(0.5 * ratio) + 1.683)) ** 2
+
+
+@each(
+    "bearing, law, contacts, error",
+    [
+        (NU, martin, "atlas", 0.005),
+        (NU, martin, "formula", 0.01),
+        (BALL, brewe_hamrock_taylor, "atlas", 0.025),
+        (BALL, brewe_hamrock_taylor, "formula", 0.1),
+    ],
+)
+def test_light_films_are_those_of_rigid_bodies(bearing, law, contacts, error):
+    """Below the least load of the curve, with room for these films."""
+    solution = solution_of(case_of(**bearing, film_factor="none").replace({"contacts": contacts}))
+    load = np.array([0.05, 0.2, 1.0])
+    for ring, curve in ((solution.inner, solution.inner_curve), (solution.outer, solution.outer_curve)):
+        state = ring_state(ring, curve, load=load, gap=np.zeros(3), room=np.full(3, 1e-2))
+        films = state.values.minimum_thickness
+        assert films == pytest.approx(law(ring, load), rel=error)
+
+
+def test_rollers_that_carry_their_centrifugal_force():
+    """3.72 N at the outer ring: Martin's 4.90 um, or the gap where it is narrower, next to the load zone."""
+    solution = solution_of(case_of(**NU, film_factor="none"))
+    narrow = 0
+    for position in solution.positions:
+        at, films = position.equilibrium, position.outer.values.minimum_thickness
+        free = at.inner_load == 0.0
+        assert at.outer_load[free] == pytest.approx(3.718, rel=1e-3)
+        wide = at.inner_gap > 6.2e-6
+        assert films[wide] == pytest.approx(4.902e-6, rel=0.005)
+        close = free & (at.inner_gap < 4.0e-6) & (at.inner_gap > 1.5e-6)
+        assert films[close] == pytest.approx(at.inner_gap[close], rel=1e-3)
+        narrow += np.count_nonzero(close)
+    assert narrow > 0
+
+
+@pytest.mark.slow
+@each(
+    "bearing, key, values",
+    [
+        (NU, "radial_load", [330.465, 330.466]),
+        (TAPERED | {"pair": PLAY}, "radial_load", [2963.338, 2963.339, 2965.070, 2965.071]),
+        (TAPERED | {"pair": PLAY}, "temperature", [321.622, 321.6221]),
+        (TAPERED | {"pair": PRELOAD}, "axial_load", [64.7195, 64.7196]),
+        (BALL, "radial_load", [28.255, 28.256]),
+    ],
+)
+def test_a_thousandth_of_a_newton_changes_nothing(bearing, key, values):
+    """These inputs, which differ by up to 4e-5, had capacitances that differed by 3 to 11 %."""
+    found = evaluate(case_of(**bearing), {f"bearing.{key}": np.array(values)})
+    for name in ("capacitance", "margin", "lambda_ratio", "first_break", "through_breakdown"):
+        numbers = found[f"bearing.{name}"].values.reshape(-1, 2)
+        assert np.all(np.abs(numbers[:, 1] / numbers[:, 0] - 1.0) < 1e-4), name
+
+
+@pytest.mark.slow
+@each("bearing", [NU, BALL])
+def test_a_bearing_is_the_limit_of_its_loads(bearing):
+    """Along 400 loads, 0.4 % apart, the capacitance changes by less than 0.4 % from one to the next."""
+    loads = np.geomspace(200.0, 1000.0, 400)
+    found = evaluate(case_of(**bearing), {"bearing.radial_load": loads})
+    assert np.max(np.abs(np.diff(np.log(found["bearing.capacitance"].values)))) < 0.004
