@@ -342,6 +342,7 @@ def check_bearing(case: BearingCase) -> None:
     """
     check_duty(case)
     prepared = prepare_bearing(heat_by_formula(case), 1)
-    for ring in prepared.rings:
+    # The outer ring comes first, as when the contacts are solved, so that both give one reason.
+    for ring in reversed(prepared.rings):
         contact = kind_of(ring).contact(ring, largest_load(prepared, ring))
         check_contact(contact, contact.grid)
