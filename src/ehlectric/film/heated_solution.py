@@ -141,7 +141,7 @@ def heated_solution(
     """Isothermal Newtonian film of a problem, and its film with heat or shear on the same grids.
 
     The film is flooded first, and then has its supply of oil. Where this is a layer, the flooded film is only
-    a guess, and may be missed. ``order`` is that of the wedge term.
+    a guess, and may be missed. ``order`` is the order of the wedge term.
     """
     cold = replace(problem, physics=None, most_nodes=_most_nodes(problem))
     simple = film_method(cold)(cold, progress)
@@ -151,7 +151,7 @@ def heated_solution(
         starts = [simple.flooded]
     layered = problem.supply is not None and problem.supply.layer is not None
     if problem.supply is not None and problem.width is not None:
-        # The temperature is that of the first grid, as where a flooded film is refined on a patch.
+        # The first grid has the temperature, also if a flooded film is refined on a patch.
         while finest.nodes > problem.nodes:
             finest = finest.halved()
     found = heated_on_grids(finest, starts, progress, careful=False, every=layered)
@@ -166,9 +166,9 @@ def heated_solution(
 
 
 def is_too_fine(problem: FilmProblem, times: int) -> bool:
-    """Whether a grid whose spacings are those of a problem over ``times`` takes minutes for heat or shear.
+    """Whether a grid with the spacings of a problem divided by ``times`` takes minutes for heat or shear.
 
-    The grid of a line contact never does, and neither does that of a film that its shear does not change.
+    Grids of line contacts never do. Grids of films that their shear does not change never do either.
     """
     width, physics = problem.width, problem.physics
     if width is None or physics is None or physics.plain or times == 1:
@@ -273,8 +273,8 @@ def _starved(
 ) -> tuple[RefinedSolution, StarvedSolution]:
     """Starved film without and with heat or shear, on the grids of the film without.
 
-    ``found`` are the flooded films with heat or shear on all grids up to that of the ``problem``. On finer
-    grids the films keep their temperatures.
+    ``found``, flooded films with heat or shear on all grids up to the grid of the ``problem``. On finer grids
+    the films keep their temperatures.
     """
     assert problem.supply is not None
     cold = {film.level.mesh.shape: film for film in simple.solutions}
@@ -289,7 +289,7 @@ def _starved(
             starved = _with_supply(flooded[-1], cold.get(flooded[-1].level.mesh.shape), _frozen(warm))
             finer = starved_on_grids([starved], problem.supply, refined.solutions, refined.layer)
         if finer is None or finer.last.status != "converged":
-            # Both films are those of the last grid that has both.
+            # The last grid with both films counts.
             coarser = replace(problem, physics=None, target_error=None)
             return film_method(coarser)(coarser, progress), refined
         problem, refined = posed, finer

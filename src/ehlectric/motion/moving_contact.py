@@ -359,6 +359,8 @@ class TransientContact:
         whole = film_problem(self.travelled, self.conditions, self.roughness.surfaces)
         # The scheme in time is of second order, and the film that it starts from must agree with it.
         physics = physics_of(self.case, self.conditions)
+        if physics is not None and physics.plain:
+            physics = None
         return replace(problem, width=whole.width, wedge_order=2, physics=physics)
 
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:

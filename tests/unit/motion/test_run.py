@@ -2,15 +2,17 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run, run_motion
+from ehlectric.motion.stored_run import read_motion
 from ehlectric.runtime.result_names import MOTION
 from ehlectric.surfaces import rough_surfaces
-from tests.helpers.moving_cases import LINE, moving
+from tests.helpers.moving_cases import LINE, POINT, moving
 from tests.helpers.places import DEKTAK
 
 # Twelve steps of two grid spacings, recorded are 0, 4, 8 and 12.
@@ -103,3 +105,15 @@ def test_a_run_reads_each_surface_once(tmp_path, monkeypatch):
     rough = {"surface": 1, "file": str(DEKTAK), "form": "parabola"}
     run(moving(LINE, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2}), tmp_path)
     assert list(map(str, paths)) == [str(DEKTAK)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("table", [LINE, POINT])
+def test_a_table_film_without_heat_and_shear_changes_nothing(table, tmp_path):
+    """A Newtonian isothermal film is what a case without the table has."""
+    short = {"passes": 0.375, "steps": 12, "record": 4}
+    for name, film in (("without", {}), ("plain", {"film": {}})):
+        run_motion(moving(table, motion=short, **film), tmp_path / name)
+    without, plain = (read_motion(tmp_path / name) for name in ("without", "plain"))
+    for name in ("minimum_thickness", "thickness", "pressure", "max_strength"):
+        np.testing.assert_array_equal(plain[name].values, without[name].values)
