@@ -1,6 +1,7 @@
 """Whole bearings, solved: loads that are chosen, contacts of elements between them, laws of scale."""
 
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -137,10 +138,17 @@ def test_below_the_least_load_a_domain_is_at_its_end(tables):
 
 @pytest.mark.parametrize("contacts", ["solved", "formula"])
 def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contacts):
-    """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres."""
+    """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres.
+
+    Both rings have such contacts. The check before a command and the solver name the same one.
+    """
     case = bearing_case(BALLS, contacts=contacts, bearing__radial_load="200 kN")
-    with pytest.raises(InputError, match=r"^bearing: inner contact at .* N: .*wide"):
-        check_bearing(case)
+    reasons = []
+    for refuse in (check_bearing, partial(solve_bearing, workers=1)):
+        with pytest.raises(InputError, match=r"^bearing: (inner|outer) contact at .* N: .*wide") as caught:
+            refuse(case)
+        reasons.append(str(caught.value))
+    assert reasons[0] == reasons[1]
 
 
 @pytest.mark.parametrize(("tables", "size"), [(BALLS, "129 x 129"), (ROLLERS, "801")])
