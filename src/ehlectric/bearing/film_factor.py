@@ -29,7 +29,7 @@ from ehlectric.cases.contact_inputs import Body as BodyTable
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.contact_heat import hot_oil
+from ehlectric.contact.contact_heat import hot_oil, reached_rise
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.problems import Setup
 from ehlectric.errors import ConvergenceError, Flag, InputError
@@ -254,7 +254,9 @@ def _solved(hot: _HotContact) -> _FloodedFilm:
         grid = _with_nodes(grid, 2 * (grid.nodes_along - 1))
     if film.converged:
         raise ConvergenceError("the isothermal film did not converge; raise solver.max_iterations")
-    raise ConvergenceError(f"film with heat, {film.status} at a residual of {film.residual:.1e}")
+    assert film.heated is not None
+    reached = f"{film.status} at a residual of {film.residual:.1e}, {reached_rise(film.heated)}"
+    raise ConvergenceError(f"film with heat, {reached}")
 
 
 @lru_cache(maxsize=256)

@@ -175,9 +175,15 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
             "lubricant.eyring_stress and film.rheology 'eyring'"
         )
     return (
-        "its temperature and its pressure do not settle together, which more Newton steps do not change; "
-        "another number of grid.nodes may, and film.thermal = false has no such turns"
+        f"its temperature and its pressure do not settle together ({reached_rise(heated)}); "
+        "more Newton steps do not change this; another number of grid.nodes may, and film.thermal = false "
+        "has no such turns"
     )
+
+
+def reached_rise(heated: HeatedFilm) -> str:
+    """Temperature rise in the last iteration of a film that is not converged, in words."""
+    return f"last temperature rise {heated.max_temperature_rise or 0.0:.3g} K"
 
 
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:

@@ -273,6 +273,8 @@ def temperature_text(result: AnyContact) -> str:
     heated = result.film.heated
     assert heated is not None and heated.max_temperature_rise is not None
     rise = f"Film up to {heated.max_temperature_rise:.3g} K hotter than the oil in the inlet"
+    if not result.film.converged:
+        return f"{rise} in the last iteration: not converged"
     return f"{rise}{_thinning(result)}"
 
 

@@ -215,7 +215,14 @@ def _temperature(summary: Summary) -> str | None:
     return None if thermal is None else "computed" if thermal else "that of the inlet"
 
 
+def _reached(summary: Summary) -> str:
+    """Note of a temperature of a film that is not converged."""
+    return "" if summary["converged"] else ", not converged: last iteration"
+
+
 def _temperature_error(summary: Summary) -> str:
+    if not summary["converged"]:
+        return _reached(summary)
     error = summary["film"]["temperature_rise_error"]
     return "" if error is None else f", error {error:.1g} K"
 
@@ -411,6 +418,8 @@ _WORDS = Words(
         "film.isothermal.minimum_thickness": _change("minimum"),
         "film.isothermal.central_thickness": _change("central"),
         "film.max_temperature_rise": _temperature_error,
+        "film.surface_temperature_1": _reached,
+        "film.surface_temperature_2": _reached,
         "roughness.lambda_ratio": lambda s: (
             f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
         ),

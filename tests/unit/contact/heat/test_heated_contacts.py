@@ -15,7 +15,8 @@ from ehlectric.contact.warnings import film_warnings
 from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact_figure_files import figure
-from ehlectric.film import touching_film
+from ehlectric.figures.contact_findings import temperature_text
+from ehlectric.film import heated_film, touching_film
 from ehlectric.film.across_film import Across
 from ehlectric.paper.paper_contacts import PAPER
 from ehlectric.runtime.netcdf import read_dataset
@@ -310,6 +311,28 @@ def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
     drawn = figure(result, "shear_stress.png")
     texts = [*drawn.axes[0].get_legend().get_texts(), *drawn.texts]
     assert not any("raction coefficient" in text.get_text() for text in texts)
+
+
+@pytest.mark.slow
+def test_a_film_that_did_not_converge_shows_the_temperature_it_reached(tmp_path, monkeypatch):
+    """Command and report mark the temperatures, and warning, summary.json and file have the same rise."""
+    with monkeypatch.context() as patch:
+        patch.setattr(heated_film, "_LOOPS", 3)
+        result = solve(Case.from_dict(HOT_LINE | {"grid": {"nodes": 101}}))
+    assert result.film.status == "stalled"
+    save(result, tmp_path)
+    middle, inlet = result.film.heated.mid_temperature, result.case.contact.temperature
+    rise = float(np.max(middle)) - inlet
+    assert rise > 1.0
+    for each in (result, load(tmp_path / "result.nc")):
+        assert each.summary()["film"]["max_temperature_rise"] == pytest.approx(rise)
+        rows = {row.key: row.text for row in result_rows(each)}
+        assert f"{rise:.4g} K" in rows["film.max_temperature_rise"]
+        for key in ("max_temperature_rise", "surface_temperature_1", "surface_temperature_2"):
+            assert "not converged" in rows[f"film.{key}"], key
+    (told,) = (each.text for each in result.warnings if each.code == "not-converged")
+    assert f"{rise:.3g} K" in told
+    assert "not converged" in temperature_text(result)
 
 
 @pytest.mark.parametrize(
