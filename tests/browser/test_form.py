@@ -1,8 +1,10 @@
 """Form of the pages as a user fills it in: search, own values that come back, units, and the keyboard."""
 
+import tomllib
+
 import pytest
 
-from tests.browser.driving import complete, field, type_into, wait_for_number
+from tests.browser.driving import complete, field, type_into, wait_for_address, wait_for_number
 from tests.browser.outputs import address_of, downloaded
 from tests.browser.test_first_page import capacitance
 from tests.helpers.places import EXAMPLES
@@ -36,6 +38,38 @@ def test_a_bearing_is_found_by_the_names_of_makers(page):
     box.press("Enter")
     error.wait_for(state="detached")
     assert "6208" in box.input_value()
+
+
+@pytest.mark.slow
+def test_a_designation_keeps_its_class_and_a_kind_its_first_values(page, tmp_path):
+    """Class and roughness of the page, its address and its file are those of the designation and its kind."""
+    wait_for_number(page, "bearing.capacitance", capacitance())
+    box, note = field(page, "bearing.base"), page.get_by_test_id("form-note")
+    for name, chosen in (("6208-C3", "Enter"), ("6306 C4", "6306"), ("6208", "Enter")):
+        search(page, name)
+        if chosen == "Enter":
+            box.press("Enter")
+        else:
+            page.get_by_test_id(f"option-{chosen}").click()
+        expected = {"6208-C3": "C3", "6306 C4": "C4", "6208": "CN"}[name]
+        wait_for_address(page, f"clearance_class={expected}")
+        assert "radial_clearance" not in page.url
+    box.click()
+    box.fill("32008 X")
+    box.press("Enter")
+    wait_for_address(page, "composite_rq=0.1 um")
+    note.filter(has_text="from 0.03 µm to 0.1 µm").wait_for()
+    page.get_by_test_id("switch-pair").check()
+    assert field(page, "bearing.composite_rq").input_value() == "0.1 µm"
+    written = tomllib.loads(downloaded(page, "download-toml", tmp_path).read_text(encoding="utf-8"))
+    assert written["bearing"]["composite_rq"] == "0.1 um"
+    # The note stays until the kind changes again, and what the user has set stays for good.
+    assert note.is_visible()
+    type_into(page, "bearing.composite_rq", "0.2 um")
+    search(page, "6208")
+    box.press("Enter")
+    wait_for_address(page, "base='6208'")
+    assert field(page, "bearing.composite_rq").input_value() == "0.2 µm"
 
 
 @pytest.mark.slow

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, base_of, check_heat
+from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, base_of, check_heat, class_of
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
@@ -26,7 +26,7 @@ from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Keys, split, takes
-from ehlectric.cases.library.bearing_catalogue import with_class
+from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, with_class
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.stated_ranges import with_stated_ranges
@@ -480,7 +480,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
         """
         refuse_deep({**tables, "changes": changes})
-        changes = _with_class(_flat_changes(tables) | dict(changes or {}))
+        changes = _with_named_class(_with_class(_flat_changes(tables) | dict(changes or {})))
         table = open_tables(self)
         if "lubricant.base" in changes:
             table["lubricant"] = {}
@@ -543,10 +543,23 @@ def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
     return rest | {"bearing.clearance_class": named}
 
 
+def _with_named_class(changes: dict[str, Any]) -> dict[str, Any]:
+    """Changes with the class of clearance of a new designation, unless they contain a clearance."""
+    keys = [f"bearing.{key}" for key in ("radial_clearance", "clearance_class", "fits.unmounted_clearance")]
+    named = class_of(changes.get("bearing.base"))
+    if named is None or any(changes.get(key) is not None for key in keys):
+        return changes
+    return changes | {"bearing.clearance_class": named}
+
+
 def _drop_dimensions(bearing: dict[str, Any]) -> None:
     """Remove the dimensions of a bearing, and all else that its base in the library gives."""
     own = base_of(bearing)[1] if bearing.get("base") else {}
-    for key in {*DIMENSIONS, *own}:
+    keys = {*DIMENSIONS, *own}
+    if bearing.get("clearance_class") == NORMAL_CLASS:
+        # Both follow from the new designation.
+        keys |= {"clearance_class", "radial_clearance"}
+    for key in keys:
         bearing.pop(key, None)
 
 

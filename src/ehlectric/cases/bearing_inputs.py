@@ -23,8 +23,11 @@ from ehlectric.cases.defaults import DEFAULT_FILM, DEFAULT_SUMMITS, FILM_FACTORS
 from ehlectric.cases.film_inputs import check_thermal_oil
 from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.library.bearing_catalogue import (
+    CLASSES,
+    NORMAL_CLASS,
     ClearanceClass,
     clearance_range,
+    has_classes,
     with_class,
     with_clearance,
 )
@@ -177,16 +180,54 @@ _Material = Annotated[str, library_choice(partial(library.solid_names, rolling=T
 def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     """Table whose ``base`` is a name of the library or of a series, where it is the designation of a maker.
 
-    A class of clearance in the designation holds where the table has no clearance of its own.
+    If the table contains no clearance, the class of clearance of the designation is used. A table with
+    another class is refused.
     """
     base, names = table["base"], known_bearings()
     found = read_designation(base, names) if isinstance(base, str) and base not in names else None
     if found is None:
         return table
-    own = any(table.get(key) is not None for key in ("radial_clearance", "clearance_class", "contact_angle"))
-    if found.clearance_class is None or own:
+    named, given = found.clearance_class, table.get("clearance_class")
+    if named is not None and given in CLASSES and given != named:
+        takes = f"{named!r}, as in base, or base without its class"
+        raise InputError("clearance_class", got=f"{given!r} with base {base!r}", takes=takes)
+    if named is None or _has_clearance(table):
         return {**table, "base": found.name}
-    return {**table, "base": found.name, "clearance_class": found.clearance_class}
+    return {**table, "base": found.name, "clearance_class": named}
+
+
+def _has_clearance(table: Mapping[str, Any]) -> bool:
+    """Whether a table contains a clearance, of which ever kind, or the contact angle that replaces it."""
+    fits = table.get("fits")
+    unmounted = fits.get("unmounted_clearance") if isinstance(fits, Mapping) else None
+    keys = ("radial_clearance", "clearance_class", "contact_angle")
+    return unmounted is not None or any(table.get(key) is not None for key in keys)
+
+
+def _with_normal_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Table with the class CN if it contains no clearance, and classes exist for its kind of bearing.
+
+    A designation without a suffix stands for this class.
+    """
+    kind, bore = KINDS_OF_BEARINGS.get(str(table.get("kind"))), table.get("bore")
+    classed = kind is not None and "radial_clearance" in kind.keys and has_classes(str(table["kind"]))
+    if not classed or bore is None or table.get("inner_ring") is False or _has_clearance(table):
+        return table
+    return {**table, "clearance_class": NORMAL_CLASS}
+
+
+def class_of(base: Any) -> ClearanceClass | None:
+    """Class of clearance that a designation names; None without one, and for a name of the library.
+
+    Examples
+    --------
+    >>> class_of("6208-2RS1/C3"), class_of("6208"), class_of("own")
+    ('C3', None, None)
+    """
+    if not isinstance(base, str) or base in known_bearings():
+        return None
+    found = read_designation(base, known_bearings())
+    return None if found is None else found.clearance_class
 
 
 def _base_table(table: Mapping[str, Any]) -> dict[str, Any]:
@@ -297,7 +338,7 @@ class Bearing(Table, book="bearing"):
         table, base = base_of(table)
         if table.get("clearance_class") is not None or table.get("fits") is not None:
             base.pop("radial_clearance", None)
-        return with_clearance({**base, **table})
+        return with_clearance(_with_normal_class({**base, **table}))
 
     @property
     def oil_temperature(self) -> float:

@@ -34,6 +34,9 @@ THROUGH: Look = (OCHRE, "solid", 3.0)
 SHAFT: Look = (GREEN, "dash", 1.4)
 
 
+# Smallest voltage that is drawn, divided by the largest one: a breakdown voltage begins at 0.
+_LEAST_VOLTAGE = 0.01
+
 # Smallest margin that is drawn: films break down at any smaller one, however small.
 _LEAST_MARGIN = 0.05
 
@@ -65,28 +68,31 @@ def speed_axis(curves: Curves) -> Along:
 def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
     """First and ring-to-ring breakdown with the shaft voltage, and where the margin is below 1."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
+    voltages = np.concatenate([first, through, shaft])
+    value = None if own is None else value_of(own[1], "first_break")
+    least = _LEAST_VOLTAGE * float(np.nanmax(voltages, initial=0.0))
+    least = least if value is None else min(least, 0.5 * value)
     drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
     for line in breakdown_lines(first, through):
-        drawn += _curves(curves, line.key, line.name.replace("\n", " "), line.look)
+        drawn += _curves(curves, line.key, line.name.replace("\n", " "), line.look, least=least)
     critical, marked = critical_speed_of(curves), []
     if critical is not None:
         at = critical / RPM
         drawn.append(_mark(critical, curves.at("shaft_voltage", critical), ORANGE, "ring"))
         marked.append(Upright(f"critical speed {text_of_speed(critical)} rpm", at, ORANGE, "dot"))
-    if own is not None and (value := value_of(own[1], "first_break")) is not None:
+    if own is not None and value is not None:
         drawn.append(_mark(own[0], value, BLACK, "star"))
     nodes, low = curves.between("first_break")
     _, high = curves.between("shaft_voltage")
-    danger = Area("margin below 1", nodes / RPM, high > low, ORANGE, 0.2, (low, high))
-    everything = np.concatenate([first, through, shaft])
+    danger = Area("margin below 1", nodes / RPM, high > low, ORANGE, 0.2, (np.maximum(low, least), high))
     return Panel(
         f"{'shaft' if is_coated(points) else 'bearing'} voltage",
         "V",
         drawn,
-        1.1 * float(np.nanmax(everything, initial=0.0)),
+        1.1 * float(np.nanmax(voltages, initial=0.0)),
         areas=(*([danger] if np.any(danger.within) else []), *_contacts_open(curves)),
         uprights=marked,
-        log=is_wide(everything),
+        log=is_wide(voltages[voltages >= least]),
     )
 
 
@@ -144,12 +150,19 @@ def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Pane
 
 
 def _curves(
-    curves: Curves, key: str, name: str, look: Look, factor: float = 1.0, *, dots: bool = True
+    curves: Curves,
+    key: str,
+    name: str,
+    look: Look,
+    factor: float = 1.0,
+    *,
+    dots: bool = True,
+    least: float = 0.0,
 ) -> Iterator[Curve]:
-    """Line between the speeds and dots at them; none where no speed has a value."""
+    """Line between the speeds and dots at them, of values of at least some; none if no speed has a value."""
     if np.any(np.isfinite(curves[key])):
         nodes, between = curves.between(key)
-        yield Curve(name, nodes / RPM, factor * between, *look)
+        yield Curve(name, nodes / RPM, factor * np.where(between >= least, between, np.nan), *look)
         if dots and curves.few:
             yield Curve("", curves.speed / RPM, factor * curves[key], look[0], marker="dots")
 

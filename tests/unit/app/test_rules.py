@@ -6,7 +6,8 @@ import pytest
 
 from ehlectric.app.catalogue import choices
 from ehlectric.app.form_fields import BEARING_GROUPS
-from ehlectric.app.form_fields.field_rules import changed, own_values
+from ehlectric.app.form_fields.field import form_data, kind_of
+from ehlectric.app.form_fields.field_rules import Memory, changed, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.errors import InputError
@@ -35,8 +36,93 @@ def case(inputs):
     ],
 )
 def test_changes_as_a_case_replaces_them(changes):
-    """Expected: ``BearingCase.replace``, which the library's users call."""
-    assert case(changed(EXAMPLE, changes)) == case(EXAMPLE).replace(changes)
+    """Expected: ``BearingCase.replace``, which the library's users call, for values that the user has set."""
+    given = frozenset(EXAMPLE.flat())
+    assert case(changed(EXAMPLE, changes, given)) == case(EXAMPLE).replace(changes)
+
+
+CLEARANCE, CLASS, RQ = "bearing.radial_clearance", "bearing.clearance_class", "bearing.composite_rq"
+
+
+@each(
+    ("base", "clearance_class"),
+    [
+        ("6208-C3", "C3"),
+        ("6208-2RS1/C3", "C3"),
+        ("6314-C3", "C3"),
+        ("6306", "CN"),
+        ("6208 ZZ", "CN"),
+        ("nu-210", "CN"),
+    ],
+)
+def test_a_designation_brings_its_class_as_in_a_file(base, clearance_class):
+    found = changed(EXAMPLE, {"bearing.base": base})
+    assert (found.value(CLASS), found.value(CLEARANCE)) == (clearance_class, None)
+    file = EXAMPLE.changed(
+        {"bearing.base": base, CLEARANCE: None, "bearing.profile": found.value("bearing.profile")}
+    )
+    file = file.changed({RQ: found.value(RQ), "bearing.axial_load": found.value("bearing.axial_load")})
+    assert case(file).bearing == case(found).bearing
+
+
+def test_the_class_of_a_designation_goes_with_it():
+    """Unless the user has set the class, the next designation without a suffix stands for the normal one."""
+    found = changed(EXAMPLE, {"bearing.base": "6208-C3"})
+    assert changed(found, {"bearing.base": "6208"}).value(CLASS) == "CN"
+    assert changed(found, {"bearing.base": "6306-C4"}).value(CLASS) == "C4"
+    assert changed(found, {"bearing.base": "6306"}, frozenset({CLASS})).value(CLASS) == "C3"
+    own = changed(EXAMPLE, {CLEARANCE: "12 um"})
+    assert changed(own, {"bearing.base": "6306"}).value(CLEARANCE) == "12 um"
+    assert changed(own, {"bearing.base": "6306-C3"}).value(CLASS) == "C3"
+
+
+# A bearing of each kind, and the composite Rq with which a file of the kind begins.
+OF_KINDS = {
+    "6208": "0.03 um", "7208-b": "0.03 um", "QJ 208": "0.05 um", "51208": "0.05 um", "nu-208": "0.1 um",
+    "HK 2020": "0.1 um", "32008 X": "0.1 um", "AXK 2542": "0.1 um",
+}  # fmt: skip
+
+
+@each(("base", "rq"), list(OF_KINDS.items()))
+def test_first_values_follow_the_kind_until_the_user_has_set_them(base, rq):
+    for before in OF_KINDS:
+        inputs = changed(EXAMPLE, {"bearing.base": before})
+        found = changed(inputs, {"bearing.base": base})
+        assert found.value(RQ) == rq
+        # What depends on the way is the load of the example, which is no value of a kind, and the clearance.
+        of_kind = {f"bearing.{key}" for key in form_data("kinds")[kind_of(found)]} - {"bearing.axial_load"}
+        expected = changed(EXAMPLE, {"bearing.base": base})
+        for key in of_kind - {CLEARANCE}:
+            assert found.value(key) == expected.value(key), key
+        kept = changed(inputs.changed({RQ: "0.03 um"}), {"bearing.base": base}, frozenset({RQ}))
+        assert kept.value(RQ) == "0.03 um"
+        assert changed(inputs.changed({RQ: "0.07 um"}), {"bearing.base": base}).value(RQ) == "0.07 um"
+
+
+def test_the_examples_of_the_kinds_have_the_first_values():
+    """The composite Rq of each example is the first value of its kind in the app."""
+    for name in ("6208", "four_point", "thrust", "needle", "tapered_pair"):
+        table = tomllib.loads(example_text(f"bearing_{name}"))["bearing"]
+        kind = kind_of(Inputs({"bearing": table}))
+        assert form_data("kinds")[kind]["composite_rq"] == table["composite_rq"], name
+
+
+def test_first_values_of_a_bearing_in_a_drive_follow_its_kind():
+    drive = Inputs(
+        {"drive_end": dict(EXAMPLE.table), "non_drive_end": {"bearing": {RQ.partition(".")[2]: "0.03 um"}}}
+    )
+    found = changed(drive, {"drive_end.bearing.base": "nu-208"})
+    assert found.value(f"drive_end.{RQ}") == "0.1 um"
+    kept = changed(drive, {"drive_end.bearing.base": "nu-208"}, frozenset({f"drive_end.{RQ}"}))
+    assert kept.value(f"drive_end.{RQ}") == "0.03 um"
+
+
+def test_what_the_user_sets_is_remembered():
+    memory = Memory([])
+    memory.take({RQ: "0.03 um", "bearing.fits": {"shaft_interference": "10 um"}})
+    assert memory.given == {RQ, "bearing.fits.shaft_interference"}
+    memory.take({RQ: None})
+    assert memory.given == {"bearing.fits.shaft_interference"}
 
 
 def test_a_viscosity_takes_the_place_of_the_data_sheet():

@@ -141,5 +141,69 @@ def test_a_file_with_a_designation():
     assert BearingCase.from_dict(case.to_dict()) == case
     own = BearingCase.of(base="6208-2Z/C3", radial_clearance="10 um", lubricant=OIL, **REST)
     assert own.bearing.radial_clearance == pytest.approx(10e-6)
+    own = BearingCase.of(base="6208-2Z/C3", clearance_class="C3", lubricant=OIL, **REST)
+    assert own.bearing.clearance_class == "C3"
     with pytest.raises(InputError, match="a bearing of the library or a designation"):
         BearingCase.of(base="32298", lubricant=OIL, **REST)
+
+
+@each(
+    ("base", "clearance"),
+    [
+        # Middle of CN of ISO 5753-1: 6 to 20 um on 40 mm, 10 to 30 um on 70 mm; rollers on 50 mm 30 to 60 um.
+        ("6208", 13e-6),
+        ("6208-2RS1", 13e-6),
+        ("6314", 20e-6),
+        ("NU 210 ECP", 45e-6),
+        ("nu-210", 45e-6),
+        ("NA 4908", 37.5e-6),
+    ],
+)
+def test_a_designation_without_a_class_stands_for_the_normal_class(base, clearance):
+    case = BearingCase.of(base=base, lubricant=OIL, **REST)
+    assert (case.bearing.clearance_class, case.bearing.radial_clearance) == ("CN", pytest.approx(clearance))
+    assert BearingCase.from_dict(case.to_dict()) == case
+    given = BearingCase.of(base=base, radial_clearance="10 um", lubricant=OIL, **REST)
+    assert (given.bearing.clearance_class, given.bearing.radial_clearance) == (None, pytest.approx(10e-6))
+    tight = BearingCase.of(base=base, clearance_class="C2", lubricant=OIL, **REST)
+    assert tight.bearing.clearance_class == "C2"
+
+
+@each("base", ["6208-C3", "6314 C3", "NU 210 ECP/C3", "6208/CN"])
+@each("given", [{"clearance_class": "C2"}, {"radial_clearance": "C2"}])
+def test_a_class_that_contradicts_the_designation_is_refused(base, given):
+    with pytest.raises(InputError, match="'C2' with base") as caught:
+        BearingCase.of(base=base, lubricant=OIL, **given, **REST)
+    assert caught.value.key == "bearing.clearance_class"
+
+
+def test_classes_before_mounting_follow_the_designation():
+    fits = {"shaft_interference": "10 um", "housing_interference": "-10 um", "housing_material": "steel"}
+    of = {base: BearingCase.of(base=base, fits=fits, lubricant=OIL, **REST) for base in ("6208", "6208-C3")}
+    assert [one.bearing.clearance_class for one in of.values()] == ["CN", "C3"]
+    own = fits | {"unmounted_clearance": "20 um"}
+    for base in of:
+        case = BearingCase.of(base=base, fits=own, lubricant=OIL, **REST)
+        assert (case.bearing.clearance_class, case.bearing.fits.unmounted_clearance) == (None, 20e-6)
+
+
+def test_another_designation_brings_its_class():
+    """Its own class replaces every clearance; without a class, only an implied one is replaced."""
+    given = BearingCase.of(base="6208", radial_clearance="10 um", lubricant=OIL, **REST)
+    classed = given.replace({"bearing.base": "6314-C3"})
+    assert (classed.bearing.clearance_class, classed.bearing.radial_clearance) == ("C3", pytest.approx(38e-6))
+    again = classed.replace({"bearing.base": "6208-C4"})
+    assert (again.bearing.clearance_class, again.bearing.radial_clearance) == ("C4", pytest.approx(37e-6))
+    assert given.replace({"bearing.base": "6314"}).bearing.radial_clearance == pytest.approx(10e-6)
+    implied = BearingCase.of(base="6208", lubricant=OIL, **REST)
+    assert implied.replace({"bearing.base": "6314"}).bearing.radial_clearance == pytest.approx(20e-6)
+    rollers = implied.replace({"bearing.base": "32208", "bearing.axial_load": "500 N"})
+    assert rollers.bearing.clearance_class is None
+    assert classed.replace({"bearing.base": "6208"}).bearing.clearance_class == "C3"
+
+
+@each(("base", "key"), [("QJ 208", "radial_clearance"), ("HK 2020", "radial_clearance")])
+def test_bearings_without_classes_still_need_a_clearance(base, key):
+    with pytest.raises(InputError) as caught:
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+    assert caught.value.key == f"bearing.{key}"

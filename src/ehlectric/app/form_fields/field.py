@@ -68,10 +68,11 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     Examples
     --------
     >>> fitted_to_kind(Inputs({"bearing": {"base": "nu-208", "axial_load": "300 N"}}))
-    {'bearing.axial_load': None, 'bearing.profile': 'logarithmic', 'bearing.radial_clearance': '20 um'}
+    {'bearing.axial_load': None, 'bearing.profile': 'logarithmic', 'bearing.clearance_class': 'CN',
+     'bearing.composite_rq': '0.1 um'}
     """
     # The server loads no physics before a bearing is changed.
-    from ehlectric.cases.library.bearing_catalogue import has_classes
+    from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, has_classes
 
     facts = facts_of(inputs)
     if facts is None:
@@ -86,11 +87,31 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     changes: dict[str, Any] = {key: None for key in given if inputs.value(key) is not None}
     for name, value in form_data("kinds")[kind_of(inputs)].items():
         key = f"bearing.{name}"
-        classes = inputs.value("bearing.clearance_class") or inputs.value("bearing.fits")
-        clear = name == "radial_clearance" and classed and classes
-        if not clear and inputs.value(key) is None and name not in known:
+        if name == "radial_clearance" and classed:
+            key, value = _clearance(inputs, value, NORMAL_CLASS)
+        if inputs.value(key) is None and name not in known:
             changes[key] = value
     return changes
+
+
+def _clearance(inputs: Inputs, first: str, normal: str) -> tuple[str, str]:
+    """Key and value of the clearance of a kind with classes: the given one, else the normal class of a
+    designation, and the first value for a geometry without a designation.
+    """
+    before_mounting = ("bearing.clearance_class", "bearing.fits.unmounted_clearance")
+    given = next((key for key in before_mounting if inputs.value(key) is not None), None)
+    if given is not None:
+        return given, normal
+    of_class = inputs.value("bearing.base") is not None or inputs.value("bearing.fits") is not None
+    if of_class and inputs.value("bearing.radial_clearance") is None:
+        return "bearing.clearance_class", normal
+    return "bearing.radial_clearance", first
+
+
+def first_of_kind(inputs: Inputs) -> dict[str, Any]:
+    """First values of the kind of bearing by dotted key; none if the inputs do not name a kind."""
+    own = form_data("kinds").get(kind_of(inputs), {})
+    return {f"bearing.{name}": value for name, value in own.items()}
 
 
 When = Callable[[Inputs], bool]

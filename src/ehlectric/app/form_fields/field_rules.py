@@ -12,7 +12,7 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, designated
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
-from ehlectric.app.form_fields.field import Field, Group, fitted_to_kind, form_data
+from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
@@ -47,6 +47,14 @@ class Memory:
         self._tables: dict[str, Mapping[str, Any]] = {}
         self._own: dict[str, dict[str, Any]] = {}
         self._ways: dict[tuple[str, int], dict[str, Any]] = {}
+        # Keys whose present values the user has set: they do not follow the kind of bearing.
+        self.given: frozenset[str] = frozenset()
+
+    def take(self, changes: Mapping[str, Any]) -> None:
+        """Remember the keys that the user sets; a removed one is no longer set."""
+        flat = _flat(changes)
+        gone = {key for key, value in flat.items() if value is None}
+        self.given = (self.given - gone) | (flat.keys() - gone)
 
     def note(self, inputs: Inputs) -> None:
         """Remember the values that inputs have now."""
@@ -114,10 +122,11 @@ OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
 }
 
 
-def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = frozenset()) -> Inputs:
     """Inputs with new values by dotted key, and without those that they replace.
 
-    None removes a key, and a mapping sets a table.
+    None removes a key, and a mapping sets a table. With another kind of bearing, the first values of the old
+    kind become the first values of the new kind, except of the keys ``given``, which the user has set.
 
     Examples
     --------
@@ -125,23 +134,27 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     >>> dict(changed(inputs, {"bearing.clearance_class": "C3"}).table["bearing"])
     {'base': '6208', 'elements': 8, 'clearance_class': 'C3'}
     >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
-    {'base': '6206', 'radial_clearance': '10 um'}
+    {'base': '6206', 'clearance_class': 'CN', 'composite_rq': '0.03 um'}
     >>> dict(changed(inputs, {"bearing.base": "6314-C3"}).table["bearing"])
-    {'base': '6314', 'clearance_class': 'C3'}
+    {'base': '6314', 'clearance_class': 'C3', 'composite_rq': '0.03 um'}
+    >>> set_by_user = frozenset({"bearing.radial_clearance"})
+    >>> changed(inputs, {"bearing.base": "6206"}, set_by_user).value("bearing.radial_clearance")
+    '10 um'
     """
     by_end: dict[str, dict[str, Any]] = {end: {} for end in ("", *ENDS)}
     for key, value in changes.items():
         end, inner = end_and_key(key)
         by_end[end][inner] = value
-    found = _changed(inputs, by_end[""])
+    found = _changed(inputs, by_end[""], given)
     for end in ENDS:
         if by_end[end]:
-            after = _changed(bearing_at(found, end), by_end[end])
+            own = frozenset(key.removeprefix(f"{end}.") for key in given if key.startswith(f"{end}."))
+            after = _changed(bearing_at(found, end), by_end[end], own)
             found = found.changed({end: dict(after.table) or None})
     return with_fitted_remedies(inputs, found)
 
 
-def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[str]) -> Inputs:
     """Inputs of a case, or of the bearing at one end of a drive, with new values."""
     if isinstance(changes.get("bearing.base"), str):
         own = designated(changes["bearing.base"])
@@ -150,12 +163,27 @@ def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
     found = inputs.changed(dropped).changed(changes)
     if {"bearing.base", "bearing.kind"} & set(given):
+        found = found.changed(dict.fromkeys(_first_values(inputs, found, {*given, *set_by_user})))
         found = found.changed(fitted_to_kind(found))
     if "bearing.film_factor" in given or _is_any_of(given, "lubricant"):
         found = found.changed(_needed_by_heat(found))
     if _is_any_of(given, "source"):
         found = found.changed(fitted_to_source(found))
     return found
+
+
+def _first_values(before: Inputs, after: Inputs, own: set[str]) -> Iterable[str]:
+    """Keys of another bearing whose values are first values of the kind before, or follow from its
+    designation; ``own``, keys that the user has set.
+    """
+    clearance, of_class = "bearing.radial_clearance", "bearing.clearance_class"
+    designated_now = after.value("bearing.base") is not None
+    for key, value in first_of_kind(before).items():
+        follows = kind_of(before) != kind_of(after) or (key == clearance and designated_now)
+        if follows and key not in own and after.value(key) == before.value(key) == value:
+            yield key
+    if designated_now and of_class not in own and before.value(of_class) is not None:
+        yield of_class
 
 
 def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
 from typing import Any
@@ -112,6 +112,7 @@ class Form:
         """Show other inputs, as after an undo; nothing is sent."""
         self._slide.drop()
         self._inputs = inputs
+        self.note.classes(remove="stays")
         brief(self.note, "")
         self._show()
 
@@ -203,14 +204,24 @@ class Form:
         They are one step to undo, together with those just before of the same dragged slider.
         """
         self._memory.note(self._inputs)
-        before, after = self._inputs, changed(self._inputs, changes)
+        before, after = self._inputs, changed(self._inputs, changes, self._memory.given)
+        self._memory.take(changes)
         self._inputs = after
-        brief(self.note, self._also(before, after, changes))
+        self._tell_also(self._also(before, after, changes), stays=_is_of_kind(changes))
         self._show()
         session = session_here()
         with nullcontext() if session is None else session.history.step(drag):
             for key, value in _sent(before, after, changes).items():
                 await self._change(key, value)
+
+    def _tell_also(self, text: str, *, stays: bool) -> None:
+        """Tell which further inputs changed: for a while, or until the next change of the kind of bearing."""
+        if stays:
+            self.note.classes(add="stays")
+            say(self.note, text)
+        elif text or not self.note.visible or "stays" not in self.note.classes:
+            self.note.classes(remove="stays")
+            brief(self.note, text)
 
     def _also(self, before: Inputs, after: Inputs, changes: Any) -> str:
         """Sentence on the further inputs that changed."""
@@ -221,15 +232,24 @@ class Form:
         def other(key: str) -> bool:
             return not any(key == one or key.startswith(f"{one}.") for one in changes)
 
-        gone = [labels.get(key, key) for key in old if key not in new and other(key)]
-        came = [
-            f"{labels.get(key, key)} = {shown_text(fields[key], str(value)) if key in fields else value}"
-            for key, value in new.items()
-            if old.get(key) != value and other(key)
-        ]
-        parts = [f"removed: {', '.join(gone)}" if gone else "", f"assumed: {', '.join(came)}" if came else ""]
-        text = "; ".join(filter(None, parts))
-        return f"Also {text}" if text else ""
+        def text(key: str, value: Any) -> str:
+            return shown_text(fields[key], str(value)) if key in fields else str(value)
+
+        told = {
+            "removed": [labels.get(key, key) for key in old if key not in new and other(key)],
+            "assumed": [
+                f"{labels.get(key, key)} = {text(key, value)}"
+                for key, value in new.items()
+                if key not in old and other(key)
+            ],
+            "changed": [
+                f"{labels.get(key, key)} from {text(key, old[key])} to {text(key, value)}"
+                for key, value in new.items()
+                if key in old and old[key] != value and other(key)
+            ],
+        }
+        parts = [f"{word}: {', '.join(items)}" for word, items in told.items() if items]
+        return f"Also {'; '.join(parts)}" if parts else ""
 
     def _show(self) -> None:
         """Show the present inputs in all fields."""
@@ -297,6 +317,11 @@ class Form:
         above = [field for field in shown if key.startswith(f"{field.key}.")]
         below = [field for field in shown if field.key.startswith(f"{key}.")]
         return next(iter([*exact, *above, *below]), None)
+
+
+def _is_of_kind(changes: Mapping[str, Any]) -> bool:
+    """Whether changes may bring another kind of bearing."""
+    return any(end_and_key(key)[1] in ("bearing.base", "bearing.kind") for key in changes)
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:

@@ -32,7 +32,7 @@ export default {
               <div v-if="g.name" class="options-name" aria-hidden="true">{{ g.name }}</div>
               <div v-for="o in g.options" :key="o.value" :id="boxId + '-o' + o.place" role="option"
                 :aria-selected="o.value === text ? 'true' : 'false'" :class="{ active: o.place === active }"
-                :data-testid="'option-' + o.value" @mousedown.prevent="choose(o.value)"
+                :data-testid="'option-' + o.value" @mousedown.prevent="pick(o)"
                 @mousemove="active = o.place">{{ o.label }}</div>
             </div>
           </div>
@@ -123,8 +123,14 @@ export default {
       const query = this.typed ? this.query.toLowerCase() : "";
       const found = this.matching(query);
       if (found.length || !this.ignored) return found;
-      const bare = query.replace(new RegExp(this.ignored), "");
+      const bare = this.bare(query);
       return /\d/.test(bare) ? this.matching(bare) : found;
+    },
+    // Ending of the typed name that no entry has, such as a class of clearance: it is sent with the entry.
+    ending() {
+      const query = this.typed ? this.query.trim() : "";
+      if (!this.ignored || this.matching(query.toLowerCase()).length) return "";
+      return query.slice(this.bare(query.toLowerCase()).length);
     },
     found() {
       // Where nothing is found, the entry for own values stays.
@@ -147,6 +153,9 @@ export default {
     },
   },
   methods: {
+    bare(query) {
+      return query.replace(new RegExp(this.ignored), "");
+    },
     matching(query) {
       const words = query.split(/\s+/).filter(Boolean);
       const text = (o) => (o.value + " " + o.label + " " + o.group).toLowerCase();
@@ -177,6 +186,9 @@ export default {
       if (this.held && this.last !== this.step) this.send();
       this.held = false;
       this.last = null;
+    },
+    pick(option) {
+      this.choose(option.value === OWN ? OWN : option.value + this.ending);
     },
     choose(value) {
       this.opened = false;
@@ -212,7 +224,7 @@ export default {
         this.seen();
       } else if (event.key === "Enter") {
         event.preventDefault();
-        if (this.opened && this.found[this.active]) this.choose(this.found[this.active].value);
+        if (this.opened && this.found[this.active]) this.pick(this.found[this.active]);
         else if (this.opened && this.free && this.query.trim()) this.choose(this.query.trim());
         else this.open();
       } else if (event.key === "Escape") {

@@ -15,6 +15,9 @@ from ehlectric.errors import InputError, shown, within
 ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5"]
 CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
+# Class of a bearing whose designation names none.
+NORMAL_CLASS: ClearanceClass = "CN"
+
 
 @dataclass(frozen=True)
 class ClearanceRange:
