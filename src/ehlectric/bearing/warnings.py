@@ -190,6 +190,8 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
     )
     yield from unusual("roughness", bearing.composite_rq)
+    around = np.pi * bearing.pitch_diameter
+    yield from unusual("filling", bearing.elements * bearing.element_diameter / around)
     yield from unusual("strength", case.discharge.dielectric_strength)
     yield from class_flags(bearing)
     yield from _geometry_flags(bearing)

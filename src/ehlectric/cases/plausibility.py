@@ -72,6 +72,15 @@ PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
         "clearance": Plausible(
             "the radial clearance", -2e-4, 6e-4, "µm", 1e6, "is it in µm, and the full diametral play?"
         ),
+        # Known bearings have 0.55 to 0.95, and thrust needle rollers have 0.36.
+        "filling": Plausible(
+            "the share of the pitch circle that the elements fill",
+            0.3,
+            1.1,
+            "",
+            1.0,
+            "are element_diameter and pitch_diameter diameters, and no radii?",
+        ),
     }
 )
 

@@ -10,7 +10,7 @@ import pickle
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -102,6 +102,10 @@ class Laws:
             for name in names
         }
         return SampledLaws(samples, temperature, max_pressure)
+
+    def __deepcopy__(self, _: Any) -> Self:
+        """Laws themselves, which do not change."""
+        return self
 
     def __getstate__(self) -> dict[str, Any]:
         """Functions by property. Raises InputError if one of them cannot be pickled."""

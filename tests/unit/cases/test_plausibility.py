@@ -90,6 +90,8 @@ def test_strength_and_roughness():
         ({"bearing__composite_rq": "30 um"}, "30 µm"),
         ({"discharge__dielectric_strength": "15 V/mm"}, "V/µm"),
         ({"bearing__radial_clearance": "0.7 mm"}, "700 µm"),
+        # 9 balls of 5.953 mm, the radius of those of a 6208, fill 9 * 5.953/(60 pi) = 0.284 of the circle.
+        ({"bearing__element_diameter": "5.953 mm"}, "0.2842"),
     ],
 )
 def test_bearings(changes, word):

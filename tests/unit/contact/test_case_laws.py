@@ -1,5 +1,6 @@
 """Laws of a user's own as a part of their case: compared, shown, kept, stored, and used with heat."""
 
+import copy
 import json
 import pickle
 
@@ -129,6 +130,12 @@ def test_a_pole_ends_the_values():
 def test_an_error_of_a_function_is_one_line():
     with pytest.raises(InputError, match=r"^laws\.viscosity: got ZeroDivisionError .*<lambda>"):
         case(laws=Laws(viscosity=lambda p, _: p * (1 / 0)))
+
+
+def test_copies_have_the_laws():
+    own = case(laws=Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)))
+    assert copy.copy(own) == copy.deepcopy(own) == own
+    assert copy.deepcopy(own) != case()
 
 
 def test_pickled_laws_are_equal_or_refused(result):
