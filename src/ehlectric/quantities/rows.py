@@ -192,8 +192,8 @@ def placed(name: str, key: str, summary: Summary) -> str:
 
 
 def in_cycle(summary: Summary) -> bool:
-    """Whether a result contains numbers of a duty cycle."""
-    return summary.get("duty") is not None
+    """Whether a result contains numbers of a duty cycle, or its file names one."""
+    return summary.get("duty") is not None or "duty" in summary.get("inputs", ())
 
 
 def placed_rows(rows: Iterable[Row], summary: Summary) -> Iterator[Row]:

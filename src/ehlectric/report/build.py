@@ -13,6 +13,7 @@ from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
+from ehlectric.quantities.rows import placed
 from ehlectric.quantities.sheets import CONTACT_CARDS
 from ehlectric.report.background import (
     date_of_report,
@@ -120,6 +121,7 @@ def _bearing(result: BearingResult) -> Part:
     rows, base = total_rows(summary), case.bearing.base
     loads = "Loads and dry contacts of the elements with both rings"
     films = "Films, capacitances and voltages of the contacts"
+    loads, films = (placed(caption, "contacts", summary) for caption in (loads, films))
     contacts = cell_table(loads_table(summary), loads), cell_table(films_table(summary), films)
     densities = density_tables({"bearing": summary["bearing"].get("current_density")})
     return part_of(

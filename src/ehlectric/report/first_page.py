@@ -150,7 +150,8 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
             )
             for margin, one, value in sorted(better, key=lambda row: -row[0])[:_CHANGES]
         )
-        caption = f"What would raise the margin of {ratio_text(own)}, one change at a time"
+        caption = placed(f"What would raise the margin of {ratio_text(own)}", "margin.effects", summary)
+        caption = f"{caption}, one change at a time"
         yield Table(caption, ("change", "from", "to", "margin"), rows, (3,), shares=(0.46, 0.18, 0.18, 0.18))
     elif own is None:
         yield Text(SENTENCES["no_effects"])

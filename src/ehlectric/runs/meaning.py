@@ -184,7 +184,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
         return _without_films(case, reason)
     # The file of a duty cycle is checked; it is computed by ehlectric bearing.
     result = solve_bearing(judged.model_copy(update={"duty": None}), workers=1)
-    summary = {**result.summary(), "films": judged.contacts}
+    summary = {**result.summary(), "inputs": case.to_dict(), "films": judged.contacts}
     heat = (
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
     )

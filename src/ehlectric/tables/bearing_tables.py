@@ -57,7 +57,8 @@ def total_rows(summary: Summary) -> list[Row]:
 def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
     """Rows of a bearing whose contacts are not solved, with further words beside its numbers."""
     bounds = bearing_bounds(BEARING_BOOK, summary)
-    return list(sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or Words()), bounds))
+    rows = sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or Words()), bounds)
+    return list(placed_rows(rows, summary))
 
 
 def input_rows(summary: Summary) -> Iterator[Row]:

@@ -197,6 +197,9 @@ class AnswerPage(Generic[A]):
         say(self._notice, f"{words}.{earlier}")
 
 
+_AT_POINT = "Numbers belong to the operating point of the form, unless they name the duty cycle."
+
+
 class AnswerView(Generic[A]):
     """Place of an answer, whose texts and figures change in place so that zoom and focus stay."""
 
@@ -210,6 +213,7 @@ class AnswerView(Generic[A]):
     def __init__(self) -> None:
         self.shown = False  # whether there is an answer
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self.body:
+            self._point = ui.label().classes("notice").props('data-testid="operating-point"')
             self.panel = Panel(self.leading, self.waits)
             self.build_below_panel()
             with ui.element("div").classes("answer-body") as self._rest:
@@ -221,7 +225,12 @@ class AnswerView(Generic[A]):
                 self.build()
                 self._lines = ui.html("", sanitize=False).props('data-testid="details"')
         self._rest.set_visibility(False)
+        self.place(cycle=False)
         self.dim(dimmed=True)
+
+    def place(self, *, cycle: bool) -> None:
+        """State what belongs to the operating point if there is a duty ``cycle``."""
+        say(self._point, _AT_POINT if cycle else "")
 
     def build_below_panel(self) -> None:
         """Build what stands between the panel and the numbers."""

@@ -42,11 +42,6 @@ _AT_ONCE, _OVER_SPEED = ("load", "film"), ("capacitance",)
 
 _OTHER_ROWS = "All rows of the operating point, as the command prints them"
 
-_AT_POINT = (
-    "The answer, its numbers and its figures belong to the operating point of the form. The numbers of the "
-    "duty cycle are below, under Duty cycle."
-)
-
 _OR_SOLVE = "solve the contacts, which computes the duty cycle, too"
 
 _NOT_COMPUTED = "The duty cycle is not computed; its field says why."
@@ -68,8 +63,7 @@ class BearingView(AnswerView[BearingAnswer]):
         super().__init__()
 
     def build_below_panel(self) -> None:
-        """Build the place of the remedies, and of a note that the answer belongs to the operating point."""
-        self._point = ui.label().classes("notice").props('data-testid="operating-point"')
+        """Build the place of the remedies."""
         self.helps = HelpBox(self._session)
 
     def build(self) -> None:
@@ -83,8 +77,8 @@ class BearingView(AnswerView[BearingAnswer]):
 
     def place(self, *, cycle: bool) -> None:
         """State what belongs to the operating point if there is a duty ``cycle``."""
+        super().place(cycle=cycle)
         self.rows_title = _OTHER_ROWS if cycle else AnswerView.rows_title
-        say(self._point, _AT_POINT if cycle else "")
 
     def stop(self) -> None:
         """Show that what was to follow is not computed, as after a wrong input."""

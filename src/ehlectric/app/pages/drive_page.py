@@ -223,6 +223,10 @@ class DrivePage(AnswerPage[DriveAnswer]):
         self.remedies.refresh()
         self.duty.refresh()
 
+    def _put(self, answer: DriveAnswer) -> None:
+        self.view.place(cycle=self.duty.file is not None)
+        super()._put(answer)
+
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""
         await super().change(key, value)
