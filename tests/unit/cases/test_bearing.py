@@ -82,7 +82,7 @@ ANGULAR = {
             "bearing.axial_load: got 0 N; expected one above 0: an an",
         ),
         # Semi-axes go with the cube root of the load: 1.44 mm at 876 N, over a fourth of the ball at 10 kN.
-        ({"bearing__radial_load": "3 MN"}, "bearing: inner contact at "),
+        ({"bearing__radial_load": "3 MN"}, "bearing: outer contact at "),
     ],
 )
 def test_what_a_bearing_cannot_carry_is_said_of_the_bearing(changes, text, contacts):
