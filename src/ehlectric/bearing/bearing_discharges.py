@@ -172,6 +172,19 @@ def with_films_scaled(case: BearingCase, scale: Numbers) -> BearingCase:
     return case.with_values({ROUGHNESS: case.bearing.composite_rq / scale})
 
 
+# Factor on all films with which no surfaces touch.
+_APART = 1e6
+
+
+def margin_apart(solution: BearingSolution) -> Numbers | None:
+    """Margin that a solved bearing has with films so thick that its surfaces do not touch, shape (...).
+
+    Only ratios of such margins are of use: margins of smooth films, in units of the thicker ones. None where
+    there is no margin for another reason: without a motor or a dielectric strength, or with ceramic elements.
+    """
+    return first_margin(replace(solution, case=with_films_scaled(solution.case, _APART)))
+
+
 def margin_with_films(solution: BearingSolution, scale: Array) -> Array:
     """Margins of a single bearing with all films ``scale`` times as thick, shape (n,); 0 where it touches.
 

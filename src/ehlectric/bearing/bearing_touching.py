@@ -65,6 +65,15 @@ DEFAULT_SHARE = "patir_cheng"
 CAPACITIVE, RESISTIVE = 0.01, 0.99
 
 
+def regime_clause(duty: BearingDuty) -> str:
+    """Clause about a bearing: its regime, and how long contacts short it."""
+    if duty.insulated:
+        return (
+            f"an element touches both rings {time_text(duty.touching_time_share)}, and the bearing insulates"
+        )
+    return f"the bearing is {duty.regime}, and contacts short it {time_text(duty.contact_time_share)}"
+
+
 @dataclass(frozen=True, eq=False)
 class RingDuty:
     """Asperities in the contacts of all elements with one ring at one position of the cage."""

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.bearing.bearing_discharges import voltage_ratio
 from ehlectric.bearing.cycle_life import CycleLife, cycle_life
 from ehlectric.bearing.cycle_rows import (
     FULL_FILM,
@@ -31,11 +32,12 @@ from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.bearing.solution import PARTIAL, touches, touching_ratio
 from ehlectric.bearing.uncertainty import SEED, MarginSpread
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.quantity import data_file
@@ -47,9 +49,12 @@ from ehlectric.runtime.values import Values
 # Speed below which a shaft stands still: sensors and their filters read such speeds at rest [rad/s].
 LEAST_SPEED = 0.1 * RPM
 
-# Rows at which the probability of breakdown is computed, and points of the uncertain inputs at each of them,
-# a power of 2.
+# Rows with a margin, and as many with touching surfaces, at which the probability of breakdown is computed,
+# and points of the uncertain inputs at each of them, a power of 2.
 _NODES, SAMPLES_OF_ROW = 32, 128
+
+# Least and largest probability of a row without a result.
+_NOT_KNOWN = (0.0, 1.0)
 
 # Units in which inputs are written, by their SI units.
 _SHOWN = {"K": "°C", "N": "N", "V": "V"}
@@ -63,6 +68,9 @@ COLUMNS: Mapping[str, Mapping[str, str]] = data_file("ehlectric.quantities", "me
 ]
 
 _MAYBE = "not negative or NaN"
+
+# Difference of bounds of a probability that is none.
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,14 +86,46 @@ class DutyRows(CycleRows):
     first_break: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     shaft_voltage: Array = field(metadata=stored("duty_row", "V", _MAYBE))
     margin: Array = field(metadata=stored("duty_row", "", _MAYBE))
-    # Probability that the margin is below 1 within what is uncertain, from 0 to 1; NaN without a margin.
+    # Probability of breakdown within what is uncertain, from 0 to 1: of a margin below 1, or surfaces that
+    # touch. It is 0 without a voltage, and NaN at a standstill and where it is not known.
     breakdown_probability: Array = field(metadata=stored("duty_row", "", _MAYBE))
     state: Array = field(metadata=stored("duty_row", "", "whole"))  # number of the state in ``STATES``
+    # Smallest and largest probability that rows and points without a result allow; NaN at a standstill. None
+    # of a result of an earlier version.
+    breakdown_probability_low: Array | None = field(
+        default=None, metadata=stored("duty_row", "", _MAYBE, needed=False)
+    )
+    breakdown_probability_high: Array | None = field(
+        default=None, metadata=stored("duty_row", "", _MAYBE, needed=False)
+    )
 
     @property
     def has_margin(self) -> bool:
         """Whether any row has a margin."""
         return bool(np.any(np.isfinite(self.margin)))
+
+    @property
+    def turns(self) -> Mask:
+        """Rows at which the shaft turns, shape (n,)."""
+        turns: Mask = self.state != STANDSTILL
+        return turns
+
+    @property
+    def breaks(self) -> Mask:
+        """Rows at which breakdown is expected under a voltage: a margin below 1, or touching surfaces."""
+        touching = (self.state == TOUCHING) & (self.common_mode_voltage > 0.0)
+        breaks: Mask = (self.margin < 1.0) | touching
+        return breaks
+
+    @property
+    def probabilities(self) -> tuple[Array, Array, Array]:
+        """Probability of breakdown of each row, and its bounds, NaN at a standstill; shape (n,)."""
+        own, low, high = (
+            self.breakdown_probability,
+            self.breakdown_probability_low,
+            self.breakdown_probability_high,
+        )
+        return own, own if low is None else low, own if high is None else high
 
 
 @dataclass(frozen=True)
@@ -144,15 +184,40 @@ class DutyResult(Values):
 
     @property
     def breakdown_probability(self) -> float | None:
-        """Probability of a margin below 1 at a random time of the cycle; None where no row has one.
+        """Probability of breakdown at a random time of the cycle; None where no row has one.
 
-        Rows without a margin do not count as breakdown.
+        A standstill does not count as breakdown, and a row that is not known does not count at all.
+        """
+        return self._means(whole=True)[0]
+
+    @property
+    def turning_breakdown_probability(self) -> float | None:
+        """Probability of breakdown at a random time at which the shaft turns; None where no row has one."""
+        return self._means(whole=False)[0]
+
+    def _means(self, *, whole: bool) -> tuple[float | None, float | None, float | None]:
+        """Probability of breakdown and its bounds, means over the whole cycle or the time in which the shaft
+        turns; None where no row has one.
         """
         rows = self.rows
-        known = np.isfinite(rows.breakdown_probability)
-        if not np.any(known):
-            return None
-        return float(rows.breakdown_probability[known] @ rows.duration[known] / np.sum(rows.duration))
+        if not np.any(np.isfinite(rows.breakdown_probability)):
+            return None, None, None
+        still = 0.0 if whole else math.nan
+        means = []
+        for values in rows.probabilities:
+            counted = np.where(rows.turns, values, still)
+            known = np.isfinite(counted)
+            means.append(float(np.average(counted[known], weights=rows.duration[known])))
+        return means[0], means[1], means[2]
+
+    def _probabilities(self) -> dict[str, float | None]:
+        """Probabilities of breakdown with their bounds by their keys."""
+        ends = ("", "_low", "_high")
+        return {
+            f"{name}{end}": value
+            for name, whole in (("turning_breakdown_probability", False), ("breakdown_probability", True))
+            for end, value in zip(ends, self._means(whole=whole), strict=True)
+        }
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``duty`` of summary.json, SI units; None for what is not known."""
@@ -170,8 +235,9 @@ class DutyResult(Values):
             "partial_film_share": rows.share(rows.state == PARTIAL_FILM),
             "full_film_share": rows.share(rows.state == FULL_FILM),
             "left_out_share": rows.share(rows.state == LEFT_OUT),
+            "breakdown_share": None if self.breakdown_probability is None else rows.share(rows.breaks),
             "low_margin_share": rows.share(self.low) if rows.has_margin else None,
-            "breakdown_probability": self.breakdown_probability,
+            **self._probabilities(),
             "least_margin": None if worst is None else float(rows.margin[worst]),
             "least_margin_time": None if worst is None else float(rows.time[worst]),
             **self.lives[0].summary(),
@@ -181,7 +247,10 @@ class DutyResult(Values):
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name; a column in which no row has a value is left out."""
         columns = {each.name: getattr(self.rows, each.name) for each in fields(self.rows)}
-        known = {name: values for name, values in columns.items() if np.any(np.isfinite(values))}
+        # The state of a row ends its line.
+        columns["state"] = columns.pop("state")
+        given = {name: values for name, values in columns.items() if values is not None}
+        known = {name: values for name, values in given.items() if np.any(np.isfinite(values))}
         return duty_csv(known, COLUMNS)
 
 
@@ -198,9 +267,15 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
     rows, found = rows_of(quick, cycle)
-    rows = replace(rows, breakdown_probability=_probabilities(quick, rows))
+    own, low, high = _probabilities(quick, rows).T
+    rows = replace(
+        rows,
+        breakdown_probability=own,
+        breakdown_probability_low=low,
+        breakdown_probability_high=high,
+    )
     life = life_of(quick, rows, found)
-    return DutyResult(
+    result = DutyResult(
         rows=rows,
         stretches=tuple(_stretches(quick, rows)),
         source=cycle.source,
@@ -208,9 +283,10 @@ def run_duty(case: BearingCase) -> DutyResult | None:
         points=found.solved,
         interpolation_error=found.error,
         touching_ratio=float(touching_ratio(quick.bearing.summit_height)),
-        warnings=(*_warnings(quick, cycle, found, refused), *life.warnings()),
         lives=(life,),
     )
+    told = _warnings(quick, cycle, found, refused, result)
+    return replace(result, warnings=(*told, *life.warnings()))
 
 
 def life_of(case: BearingCase, rows: DutyRows, found: PointValues) -> CycleLife:
@@ -322,26 +398,58 @@ def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str,
 
 
 def _probabilities(case: BearingCase, rows: DutyRows) -> Array:
-    """Probability of each row that its margin is below 1 within what is uncertain, NaN without a margin.
+    """Probability of breakdown of each row within what is uncertain, and its bounds, shape (n, 3).
 
-    It is computed at rows that are spread over margin and lambda ratio, and interpolated between them.
+    They are computed at rows that are spread over margin and lambda ratio, and interpolated between them.
+    Rows with touching surfaces have no margin: the lambda ratio divided by the shaft voltage replaces it.
     """
-    found = np.full(rows.time.size, np.nan)
-    known = np.flatnonzero(np.isfinite(rows.margin) & (rows.margin > 0.0))
-    if not known.size:
+    found = np.full((rows.time.size, 3), np.nan)
+    if case.motor is None:
         return found
-    at = np.log(np.column_stack([rows.margin[known], rows.lambda_ratio[known]]))
+    voltage = rows.common_mode_voltage
+    driven = rows.turns & (voltage > 0.0)
+    touching = driven & (rows.state == TOUCHING)
+    in_place = np.divide(
+        rows.lambda_ratio, _shaft_voltages(case.motor, rows), out=np.ones(rows.time.size), where=touching
+    )
+    for within, margin in ((driven & (rows.margin > 0.0), rows.margin), (touching, in_place)):
+        known = np.flatnonzero(within)
+        if known.size:
+            at = np.log(np.column_stack([margin[known], rows.lambda_ratio[known]]))
+            found[known] = _between_nodes(case, rows, known, at)
+    if np.any(np.isfinite(found)):
+        found[rows.turns & (voltage == 0.0)] = 0.0
+        found[np.ix_(driven & np.isnan(found[:, 0]), [1, 2])] = _NOT_KNOWN
+    return found
+
+
+def _shaft_voltages(motor: Motor, rows: DutyRows) -> Array:
+    """Shaft voltages that the rows would have if their surfaces did not conduct, shape (n,) [V]."""
+    own = rows.capacitance
+    second = motor.second_bearing_capacitance
+    ratio: Array = voltage_ratio(
+        motor.winding_rotor_capacitance,
+        motor.rotor_frame_capacitance,
+        own,
+        own if second is None else second,
+    )
+    return ratio * rows.common_mode_voltage
+
+
+def _between_nodes(case: BearingCase, rows: DutyRows, known: IntArray, at: Array) -> Array:
+    """Probabilities of the rows at k places, shape (k, 3), interpolated between some of them over the
+    coordinates ``at``, shape (k, d).
+    """
     nodes = spread_places(at, _NODES)
     places = known[nodes]
     given = {name: getattr(rows, name)[places] for name in _INPUTS}
     inputs = _inputs_of_films(case, given) | {CYCLE.columns[_VOLTAGE].key: given[_VOLTAGE]}
-    chances = np.full(places.size, np.nan)
+    chances = np.full((places.size, 3), np.nan)
     for part in solved_parts(case.with_arrays(inputs)):
         for place, spread in zip(part.points, spreads_of(part.solution, SAMPLES_OF_ROW, SEED), strict=True):
             if isinstance(spread, MarginSpread):
-                chances[place] = spread.probability
-    found[known] = between_places(at[nodes], chances[:, np.newaxis], at)[:, 0]
-    return found
+                chances[place] = spread.probability, *spread.bounds
+    return between_places(at[nodes], chances, at)
 
 
 def _stretches(case: BearingCase, rows: DutyRows) -> Iterator[Stretch]:
@@ -382,23 +490,36 @@ def _reasons(case: BearingCase, rows: DutyRows, name: str, places: list[int]) ->
     changed = {column: np.repeat(values[places], len(means)) for column, values in own.items()}
     for k, (column, mean) in enumerate(means.items()):
         changed[column][k :: len(means)] = mean
-    found = _at(case, changed).values[name].reshape(len(places), len(means))
+    values = _at(case, changed).values
+    found, ratios = (values[key].reshape(len(places), len(means)) for key in (name, "lambda_ratio"))
     texts = []
-    for place, row in zip(places, found, strict=True):
-        best = int(np.nanargmax(np.where(np.isnan(row), -1.0, row)))
+    for place, row, ratio in zip(places, found, ratios, strict=True):
+        best = int(np.argmax(np.nan_to_num(row, nan=-1.0)))
         column = list(means)[best]
-        texts.append(_reason(column, abs(float(own[column][place])), means[column], float(row[best])))
+        raised = _raised(float(row[best]), touching=bool(np.isfinite(ratio[best])))
+        texts.append(_reason(column, abs(float(own[column][place])), means[column], raised))
     return texts
 
 
-def _reason(column: str, value: float, mean: float, raised: float) -> str:
+def _raised(value: float, *, touching: bool) -> str:
+    """Text of a margin or a lambda ratio, or why there is none: surfaces touch, or the bearing has no result.
+
+    >>> _raised(1.7, touching=False), _raised(math.nan, touching=True), _raised(math.nan, touching=False)
+    ('1.70', 'surfaces touch', 'no result')
+    """
+    if math.isfinite(value):
+        return ratio_text(value)
+    return "surfaces touch" if touching else "no result"
+
+
+def _reason(column: str, value: float, mean: float, raised: str) -> str:
     """Text: input of a row, and the margin or the lambda ratio that it would have with the mean of the input.
 
-    >>> _reason("speed", 50.0 * RPM, 3000.0 * RPM, 1.7)
+    >>> _reason("speed", 50.0 * RPM, 3000.0 * RPM, "1.70")
     'speed 50 rpm; 1.70 at the mean of 3000 rpm'
     """
     name = column.replace("_", " ").replace("common mode", "common-mode")
-    return f"{name} {_text(column, value)}; {ratio_text(raised)} at the mean of {_text(column, mean)}"
+    return f"{name} {_text(column, value)}; {raised} at the mean of {_text(column, mean)}"
 
 
 def _text(column: str, value: float) -> str:
@@ -419,7 +540,7 @@ def file_warnings(cycle: Cycle, case: BearingCase) -> Iterator[ResultWarning]:
 
 
 def _warnings(
-    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None
+    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None, result: DutyResult
 ) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
     yield from file_warnings(cycle, case)
@@ -430,3 +551,7 @@ def _warnings(
         yield ResultWarning.of(
             "duty-left-out", rows=len(found.reasons), line=cycle.lines[place], reason=reason
         )
+    known = result.summary()
+    low, high = (known[f"breakdown_probability_{end}"] for end in ("low", "high"))
+    if low is not None and high - low > _ROUNDING:
+        yield ResultWarning.of("probability-bounded", "duty", low=100.0 * low, high=100.0 * high)

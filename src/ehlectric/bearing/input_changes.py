@@ -22,7 +22,7 @@ from ehlectric.cases.library.estimated_bearings import (
     is_estimated,
     series,
 )
-from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN
+from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number

@@ -126,7 +126,7 @@ def solved_parts(
         if reasons is not None:
             solved = () if part is None else part.points
             for place in np.setdiff1d(points, solved).tolist():
-                reasons[place] = _reason(case.single(place))
+                reasons[place] = reason_of(case.single(place))
 
 
 def gathered(
@@ -203,8 +203,8 @@ def _attempt(case: BearingCase, positions: int, detail: Detail) -> tuple[Bearing
     return None if np.any(outside) else solution, outside
 
 
-def _reason(case: BearingCase) -> str:
-    """Error of a single bearing that is beyond the model."""
+def reason_of(case: BearingCase) -> str:
+    """Return the error of a single bearing that is beyond the model."""
     try:
         solution_of(case, positions=1)
     except (InputError, ConvergenceError) as error:

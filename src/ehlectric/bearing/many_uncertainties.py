@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.bearing.bearing_discharges import first_margin, with_films_scaled
+from ehlectric.bearing.bearing_discharges import first_margin, margin_apart, with_films_scaled
 from ehlectric.bearing.many_points import SolvedPart, gathered, many_of, solved_parts
 from ehlectric.bearing.margin import TOUCHING_ALREADY, margin_and_lambda
 from ehlectric.bearing.solution import BearingSolution, film_error, lambda_ratio
@@ -25,7 +26,8 @@ from ehlectric.bearing.uncertainty import (
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import plain
 
-# Distribution of a point; None where it has no margin, and the error where it has none at any other inputs.
+# Distribution of a point; None where it has no probability of breakdown, and the error where it has no margin
+# at any other inputs.
 Spread = MarginSpread | InputError | None
 
 
@@ -38,16 +40,22 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     """
     case = solution.case
     spreads: list[Spread] = [None] * case.shape[0]
-    own = first_margin(solution)
-    if own is None:
+    apart = margin_apart(solution)
+    if apart is None:
         return spreads
     # Films of the coarse solutions are taken to be as thick as those of the solution.
     parts = [*solved_parts(case, detail="coarse")]
     (ratio,) = gathered(parts, lambda at: (lambda_ratio(at),), (1, len(spreads)))
     scales = lambda_ratio(solution) / ratio
-    scaled = (_with_films_scaled(part, scales[part.points]) for part in parts)
+    scaled = [_with_films_scaled(part, scales[part.points]) for part in parts]
     coarse, _ = gathered(scaled, margin_and_lambda, (2, len(spreads)))
-    own, off = np.broadcast_to(own, coarse.shape), np.broadcast_to(film_error(solution), coarse.shape)
+    (coarse_apart,) = gathered(scaled, lambda at: (margin_apart(at),), (1, len(spreads)))
+    found = first_margin(solution)
+    own = np.broadcast_to(math.nan if found is None else found, coarse.shape)
+    # Margins of thicker films are compared where the surfaces touch.
+    touching = np.isnan(own)
+    own, coarse = np.where(touching, apart, own), np.where(touching, coarse_apart, coarse)
+    off = np.broadcast_to(film_error(solution), coarse.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
         factors = own / coarse
     for place in np.flatnonzero(np.isfinite(own) & ~(coarse > 0.0)).tolist():

@@ -16,12 +16,13 @@ from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     first_margin,
     leakage_flags,
+    margin_apart,
     margin_with_films,
     shaft_leakage,
     shaft_voltage,
     with_films_scaled,
 )
-from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.bearing_touching import duty_of, regime_clause
 from ehlectric.bearing.ceramic_elements import element_breakdown, element_field, element_voltage
 from ehlectric.bearing.changed_bearings import (
     OWN,
@@ -60,19 +61,23 @@ from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW
-from ehlectric.discharge.film_verdict import (
+from ehlectric.discharge.breakdown_rule import (
     STRENGTH_UNKNOWN,
     UNLIKELY,
     Chance,
     Level,
-    Verdict,
-    assumption_of,
-    doubts_of,
+    doubted,
     lead_of,
     level_of,
     ratio_text,
-    strength_doubt,
     strength_interval,
+    touching_rule,
+)
+from ehlectric.discharge.film_verdict import (
+    Verdict,
+    assumption_of,
+    doubts_of,
+    strength_doubt,
     unusable,
     weibull_part,
 )
@@ -113,14 +118,19 @@ class QuickMargins:
     quick_case: BearingCase = field(repr=False)  # case with quick contacts, whose films are scaled
     quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
     quick_scale: float  # lambda ratio of the solution divided by that of ``quick``, dimensionless
-    quick_margin: float  # margin of ``quick`` with films so much thicker, dimensionless
+    # Margin of the solution divided by that of ``quick`` with films so much thicker, dimensionless.
+    quick_factor: float
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
         """Margins by quick contacts, scaled to those of a solution. Raises InputError where the solution has
         no margin, or the formulas have none for the same inputs.
+
+        If the surfaces touch, the margins of much thicker films are compared instead.
         """
-        own = MarginPoint(_margin_of(solution), lambda_ratio(solution))
+        touching = not np.any(insulating(solution))
+        margin = 0.0 if touching else _margin_of(solution)
+        own = MarginPoint(margin, lambda_ratio(solution))
         case = _quick(solution.case)
         _, several = over_parts(case)
         if OWN in several.reasons:
@@ -129,11 +139,18 @@ class QuickMargins:
         quick = solution if is_quick(solution.case) else quick_solution(case)
         scale, quick_scale = float(own.lambda_ratio / ratio), float(own.lambda_ratio / lambda_ratio(quick))
         case = with_films_scaled(case, scale)
-        margin = float(over_parts(case)[1].columns(margin_and_lambda, 2)[0, OWN])
-        whole = float(margin_and_lambda(replace(quick, case=with_films_scaled(quick.case, quick_scale)))[0])
-        if not margin * whole:
+        scaled = replace(quick, case=with_films_scaled(quick.case, quick_scale))
+        if touching:
+            margin = _known(margin_apart(solution))
+            coarse = over_parts(case)[1].columns(lambda at: (margin_apart(at),), 1)[0, OWN]
+            whole = _known(margin_apart(scaled))
+        else:
+            coarse = over_parts(case)[1].columns(margin_and_lambda, 2)[0, OWN]
+            whole = margin_and_lambda(scaled)[0]
+        if not coarse * whole:
             raise InputError.worded(None, TOUCHING_ALREADY)
-        return cls(solution.case, own, own.margin / margin, scale, case, quick, quick_scale, whole)
+        factor, quick_factor = float(margin / coarse), float(margin / whole)
+        return cls(solution.case, own, factor, scale, case, quick, quick_scale, quick_factor)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
@@ -175,7 +192,7 @@ class QuickMargins:
         """Points of a case with arrays on which the films do not depend."""
         margin, _ = margin_and_lambda(replace(self.quick, case=with_films_scaled(case, self.quick_scale)))
         ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
-        columns = self.own.margin / self.quick_margin * margin, ratio, np.ones(case.shape)
+        columns = self.quick_factor * margin, ratio, np.ones(case.shape)
         return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
 
     def _with_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
@@ -227,10 +244,14 @@ def margin_and_lambda(solution: BearingSolution) -> tuple[Numbers, Numbers]:
 
 def _margin_of(solution: BearingSolution) -> Numbers:
     """Margin of a solution, shape (...); raises an InputError where it has none."""
-    found: Numbers | None = first_margin(solution)
-    if found is None:
+    return _known(first_margin(solution))
+
+
+def _known(margin: Numbers | None) -> Numbers:
+    """Margin of a solution that must have one."""
+    if margin is None:
         raise InputError.worded(None, "the bearing has no margin")
-    return found
+    return margin
 
 
 # Intervals of speed [rad/s]; None in place of an end of the range of speeds.
@@ -503,7 +524,11 @@ _OPENING = "Contacts discharge at a low voltage as they open"
 
 
 def bearing_verdict(
-    solution: BearingSolution, analysis: MarginAnalysis, chance: Chance | None = None
+    solution: BearingSolution,
+    analysis: MarginAnalysis,
+    chance: Chance | None = None,
+    *,
+    unknown: str = "",
 ) -> Verdict:
     """Verdict on a solved bearing; grey where the numbers must not be used, and without a strength or a shaft
     voltage. Of ceramic elements it is about the voltage that they insulate.
@@ -512,7 +537,9 @@ def bearing_verdict(
     lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
     widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
     that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
-    strength by 20 % takes across 1 is yellow, too.
+    strength by 20 % takes across 1 is yellow, too. ``unknown``, reason for which the probability has no
+    value, though the bearing has a margin: no such verdict is green. The levels and first words are those of
+    ``breakdown_rule``.
     """
     warnings = bearing_warnings(solution)
     refused = unusable(warnings)
@@ -522,14 +549,8 @@ def bearing_verdict(
     if solution.conditions.ceramic:
         return _of_ceramics(solution)
     if state == "conducting":
-        # A thinner film than one that breaks down is not safer.
-        return Verdict(
-            "yellow" if solution.case.motor is None else "red",
-            f"Discharges likely: {_how_touching(solution)} {_at(solution)} (lambda ratio "
-            f"{lambda_text(solution)}), and contacts are intermittent; they short the bearing "
-            f"{_time(solution)}. {_OPENING}, and no "
-            "voltage is computed for that. This is no protection: current passes, and arcs are likely.",
-        )
+        level, lead = touching_rule(chance, driven=solution.case.motor is not None)
+        return Verdict(level, _touching_text(solution, lead, chance))
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
         known = "" if shaft is None else f" The shaft voltage is {shaft:.3g} V {_at(solution)}."
@@ -541,7 +562,25 @@ def bearing_verdict(
             f"No verdict: {first} {_at(solution)}, but no shaft voltage is known without [motor]. "
             + _assumptions(solution),
         )
-    return _judged(solution, analysis, breakdown, shaft, doubts_of(warnings), chance)
+    warned = [*doubts_of(warnings), *filter(None, [_unknown(unknown)])]
+    return _judged(solution, analysis, breakdown, shaft, warned, chance)
+
+
+def _unknown(reason: str) -> str:
+    """Sentence about a probability without a value; empty without a reason."""
+    return f"The probability of breakdown is not known: {reason}." if reason else ""
+
+
+def _touching_text(solution: BearingSolution, lead: str, chance: Chance | None) -> str:
+    """Verdict on a bearing whose surfaces touch, in sentences."""
+    likely = ""
+    if chance is not None and chance.first:
+        likely = f" The probability of breakdown, which counts touching surfaces, is {chance.text}."
+    return (
+        f"{lead}: {_how_touching(solution)} {_at(solution)} (lambda ratio {lambda_text(solution)}), "
+        f"{regime_clause(duty_of(solution))}. {_OPENING}, and no voltage is computed for that. This is no "
+        f"protection: current passes, and arcs are likely.{likely}"
+    )
 
 
 def _of_ceramics(solution: BearingSolution) -> Verdict:
@@ -586,14 +625,16 @@ def _judged(
 ) -> Verdict:
     """Verdict on a bearing with a margin; ``warned`` are sentences of warnings that make it doubtful."""
     margin = breakdown.shaft_first_break / shaft
-    doubts = [*_doubts(solution, analysis, margin), *warned]
+    touching, doubts = [*_at_times(solution)], [*_doubts(solution, analysis, chance), *warned]
     if chance is None:
-        level, lead, reasons, interval = _by_ends(solution, analysis, margin, doubts)
+        level, lead, reasons, interval = _by_ends(solution, analysis, margin)
+        reasons = [*touching, *_unfavourable(solution, analysis, margin), *doubts, *reasons]
     else:
-        level, lead, reasons, interval = chance.level, chance.lead, [*doubts, chance.sentence], ""
+        level, lead, interval = chance.level, chance.lead, ""
+        known = chance.sentence_with(doubts=bool(doubts) and level == "green")
+        reasons = [*touching, *_unfavourable(solution, analysis, margin), *doubts, known]
         reasons += _widths(solution, analysis, margin)
-        if doubts and level == "green":
-            level, lead = "yellow", lead_of("yellow", likely=False)
+    level, lead = doubted(level, lead, doubts=bool(doubts), touching=bool(touching))
     text = (
         f"{lead}: shaft voltage {shaft:.3g} V, first breakdown at "
         f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
@@ -605,10 +646,10 @@ def _judged(
 
 
 def _by_ends(
-    solution: BearingSolution, analysis: MarginAnalysis, margin: float, doubts: Sequence[str]
+    solution: BearingSolution, analysis: MarginAnalysis, margin: float
 ) -> tuple[Level, str, list[str], str]:
     """Level, first words, reasons and interval of a verdict from the smallest and the largest margin."""
-    reasons = [*doubts]
+    reasons: list[str] = []
     low, high = _widened(solution, *_stated(solution, analysis, margin))
     # Without a stated range of the strength a usual one counts.
     strength = not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
@@ -616,8 +657,6 @@ def _by_ends(
         weakest, strongest = strength_interval(margin)
         low, high = min(low, weakest), max(high, strongest)
     level = level_of(low, high)
-    if doubts and level == "green":
-        level = "yellow"
     if strength:
         reasons += filter(None, [strength_doubt(solution.case.discharge, margin)])
     reasons += _widths(solution, analysis, margin)
@@ -688,16 +727,33 @@ def film_factors(case: BearingCase, off: float) -> tuple[float, float]:
     return 1.0 - off, 1.0 + off
 
 
-def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
-    """Sentences for which the margin may be lower than it is computed to be."""
-    if lubrication(solution) == "partial film" or duty_of(solution).regime != "capacitive":
+def _at_times(solution: BearingSolution) -> Iterator[str]:
+    """Sentences about surfaces that touch at times."""
+    duty = duty_of(solution)
+    if lubrication(solution) == "partial film" or duty.regime != "capacitive":
         yield (
-            f"Surfaces may touch at times (lambda ratio {lambda_text(solution)}), and contacts are "
-            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed. An element touches "
-            f"both rings {_time(solution)}."
+            f"Surfaces may touch at times (lambda ratio {lambda_text(solution)}): {regime_clause(duty)}. "
+            f"Voltages are upper bounds. {_OPENING}, which is not computed."
         )
-    if solution.case.ranges and analysis.low is None:
+
+
+def _doubts(solution: BearingSolution, analysis: MarginAnalysis, chance: Chance | None) -> Iterator[str]:
+    """Sentences about ranges that neither the interval of the margin nor its probability contains.
+
+    An estimate of the probability at once does not contain what changes the films.
+    """
+    whole = chance is not None and chance.first
+    if solution.case.ranges and analysis.low is None and not whole:
         yield "The range of the margin could not be computed from the stated ranges of inputs."
+    if chance is not None:
+        yield from (f"{text[0].upper()}{text[1:]}." for text in chance.neglected)
+
+
+def _unfavourable(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
+    """Sentences about a margin that is lower at unfavourable ends of ranges or of a Weibull law.
+
+    The interval of the margin and its probability contain these ends.
+    """
     if analysis.low == 0.0:
         yield "At the unfavourable ends of the stated ranges the surfaces touch, at times at least."
     weibull = solution.case.discharge.weibull
@@ -765,11 +821,6 @@ def _interval(low: float | None, high: float | None) -> str:
 def _how_touching(solution: BearingSolution) -> str:
     """Clause of a bearing without a voltage: its surfaces touch nearly always, or its highest summits do."""
     return "surfaces touch" if lambda_ratio(solution) < CONDUCTING else "the highest summits touch at times"
-
-
-def _time(solution: BearingSolution) -> str:
-    """Share of time in which an element touches both rings, as text."""
-    return time_text(duty_of(solution).touching_time_share)
 
 
 def _at(solution: BearingSolution) -> str:

@@ -172,28 +172,40 @@ class BearingResult(Shown):
         return self._uncertainty_or_reason[0]
 
     @cached_property
-    def _uncertainty_or_reason(self) -> tuple[Uncertainty | None, tuple[str, ...]]:
-        """Distribution of the margin, and what could not be computed of it, and why."""
+    def _uncertainty_or_reason(self) -> tuple[Uncertainty | None, str]:
+        """Distribution of the margin, or the reason for which it could not be computed."""
         try:
-            return uncertainty_of_result(self.solution), ()
+            return uncertainty_of_result(self.solution), ""
         except InputError as error:
-            return None, (without_spread(error),)
+            return None, str(error)
+
+    @property
+    def all_warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings of the bearing, of its probability of breakdown, and of its duty cycle, each once.
+
+        It computes the probability and the duty cycle when it is first asked for.
+        """
+        uncertain = () if self.uncertainty is None else self.uncertainty.warnings
+        of_cycle = () if self.duty is None else self.duty.warnings
+        return (*self.warnings, *uncertain, *of_cycle)
 
     @cached_property
     def margin_band(self) -> MarginBand | None:
-        """Margin over the speed within what is uncertain; None where there is no margin.
+        """Margin over the speed within what is uncertain; None where it is known at no speed.
 
         It evaluates 1536 bearings with contacts from the atlas when it is first asked for: some two seconds.
         """
-        if self.uncertainty is None:
+        if self.uncertainty is None or self.margin is None:
             return None
-        return margin_band(self.solution, QuickMargins.of(self.solution))
+        band = margin_band(self.solution, QuickMargins.of(self.solution))
+        return band if band.speed.size else None
 
     @cached_property
     def verdict(self) -> Verdict:
         """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
-        chance = None if self.uncertainty is None else self.uncertainty.chance
-        return bearing_verdict(self.solution, self.margin_analysis, chance)
+        found, why = self._uncertainty_or_reason
+        chance = None if found is None else found.chance
+        return bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
 
     @cached_property
     def capacitive_speed(self) -> float | None:
@@ -226,8 +238,8 @@ class BearingResult(Shown):
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
                 found = analysis.summary()
-                if probable:
-                    found["left_out"] += self._uncertainty_or_reason[1]
+                if probable and self._uncertainty_or_reason[1]:
+                    found["left_out"].append(without_spread(self._uncertainty_or_reason[1]))
                 summary["margin"] = plain({"level": verdict.level, **found, **speed})
                 summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
             summary[key] = value
@@ -235,6 +247,8 @@ class BearingResult(Shown):
                 summary["verdict"] = verdict.text
             if key == "mechanics" and self.duty is not None:
                 summary["duty"] = plain(self.duty.summary())
+        if probable:
+            return summary | texts_and_codes(self.all_warnings)
         if self.duty is not None:
             summary |= texts_and_codes((*self.warnings, *self.duty.warnings))
         return summary

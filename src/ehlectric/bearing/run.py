@@ -59,8 +59,7 @@ def run(
         result = solve_bearing(case, progress=progress, workers=workers)
         files = save(result, folder, replaced=names, further=further)
     failure = None if result.converged else "not converged: a contact of the bearing"
-    warnings = (*result.warnings, *(() if result.duty is None else result.duty.warnings))
-    return RunOutcome(result, result.summary(), tuple(files), warnings, failure)
+    return RunOutcome(result, result.summary(), tuple(files), result.all_warnings, failure)
 
 
 def save(

@@ -11,18 +11,18 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers
-from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin
+from ehlectric.bearing.bearing_discharges import ROUGHNESS, first_margin, margin_apart
 from ehlectric.bearing.changed_bearings import LEAST, MOST
 from ehlectric.bearing.curve_nodes import where_it_bends
 from ehlectric.bearing.input_changes import Change, changes_of, proportional_to_strength
-from ehlectric.bearing.many_points import gathered, many_of, solved_parts
+from ehlectric.bearing.many_points import gathered, many_of, reason_of, solved_parts
 from ehlectric.bearing.margin import ONLY_SOLVED, QuickMargins, film_factors, margin_and_lambda
 from ehlectric.bearing.solution import BearingSolution, film_error
 from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
-from ehlectric.discharge.film_verdict import Chance
-from ehlectric.errors import InputError
+from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.formulas.variance_shares import variance_shares
 from ehlectric.runtime.threads import one_blas_thread
 
@@ -34,12 +34,6 @@ QUICK_SAMPLES = 256
 
 # Least and largest number of points of the design where it is asked for.
 LEAST_SAMPLES, MOST_SAMPLES = 32, 4096
-
-# Probabilities of the ends of the interval that is stated, and of its middle.
-INTERVAL = (0.05, 0.5, 0.95)
-
-# Standard deviations of a normal distribution within which the sampling error is at a confidence of 95 %.
-_CONFIDENCE = 1.959963984540054
 
 # Speeds at which the margin is computed at first for its curve, and points at each speed, a power of 2.
 _SPEEDS, _AT_EACH = 7, 128
@@ -77,7 +71,7 @@ class MarginBand:
     """Margin over the speed of the inner ring, within what is uncertain."""
 
     speed: Array  # [rad/s], shape (n,)
-    # low, median and high: quantiles of the margin of ``INTERVAL``, dimensionless, shape (n,).
+    # low, median and high: margin at 5 %, 50 % and 95 %, see ``Chance``, dimensionless, shape (n,).
     low: Array
     median: Array
     high: Array
@@ -99,21 +93,27 @@ class MarginSpread:
     samples: int
     seed: int
     left_out: tuple[str, ...] = ()  # ranges that are not in the distribution, and why
+    reason: str = ""  # why one of the points has no result; empty where it is not known
 
     @property
     def median(self) -> float:
-        """Margin that half of the points have, dimensionless."""
+        """Margin that half of the points have at least, dimensionless."""
         return self.chance.median
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Margins between which 90 % of the points are, dimensionless."""
+        """Margins between which 90 % of the points are, dimensionless; see ``Chance``."""
         return self.chance.low, self.chance.high
 
     @property
     def probability(self) -> float:
-        """Probability that the margin is below 1."""
+        """Probability of breakdown, of the points with a result."""
         return self.chance.probability
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Smallest and largest probability of breakdown that the points without a result allow."""
+        return self.chance.bounds
 
     @property
     def probability_error(self) -> float:
@@ -126,16 +126,35 @@ class MarginSpread:
     @cached_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
-        return _chance(self.margins)
+        return Chance.of(self.margins, self.failed, neglected=self.left_out)
+
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warning of points without a result; none if all points have one."""
+        if not self.failed:
+            return ()
+        low, high = self.bounds
+        warning = ResultWarning.of(
+            "probability-bounded",
+            "bearing",
+            failed=self.failed,
+            samples=self.samples,
+            low=100.0 * low,
+            high=100.0 * high,
+            reason=f" ({self.reason})" if self.reason else "",
+        )
+        return (warning,)
 
     def summary(self) -> dict[str, Any]:
         """Values as in the table ``uncertainty`` of summary.json, SI units."""
-        low, high = self.interval
+        (low, high), (least, most) = self.interval, self.bounds
         return {
             "margin_median": self.median,
             "margin_low": low,
-            "margin_high": high,
+            "margin_high": high if math.isfinite(high) else None,
             "breakdown_probability": self.probability,
+            "breakdown_probability_low": least,
+            "breakdown_probability_high": most,
             "breakdown_probability_error": self.probability_error,
             "touching_probability": self.touching,
             **self._shares(),
@@ -161,30 +180,12 @@ class Uncertainty(MarginSpread):
     @cached_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
-        return _chance(self.margins, self.inputs[0].label, self.inputs[0].total)
+        first = self.inputs[0]
+        about = {"first": first.label, "share": first.total, "neglected": self.left_out}
+        return Chance.of(self.margins, self.failed, **about)
 
     def _shares(self) -> dict[str, Any]:
         return {"indices": [asdict(one) for one in self.inputs], "predicted": self.predicted}
-
-
-def _chance(margins: Array, first: str = "", share: float = 0.0) -> Chance:
-    """Chance of a breakdown from margins at random points, shape (n,); see ``Chance`` for the others."""
-    probability = float(np.mean(margins < 1.0))
-    low, median, high = np.quantile(margins, INTERVAL).tolist()
-    error = sampling_error(probability, margins.size)
-    return Chance(probability, error, low, median, high, first, share)
-
-
-def sampling_error(probability: float, number: int) -> float:
-    """Half of Wilson's interval of a share of random points at a confidence of 95 %.
-
-    Examples
-    --------
-    >>> round(sampling_error(0.5, 2048), 4), round(sampling_error(0.0, 2048), 4)
-    (0.0216, 0.0009)
-    """
-    z2 = _CONFIDENCE**2 / number
-    return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
 
 
 def sobol_points(width: int, number: int, seed: int) -> Array:
@@ -307,7 +308,7 @@ def uncertainty_of(
     Raises InputError where no point has a result.
     """
     design, computed, at = _sampled(solution, margins, samples, seed)
-    spread = spread_at(design, computed, at, seed)
+    spread = _with_reason(spread_at(design, computed, at, seed), design, margins, computed, at)
     inputs, predicted = _inputs(design, computed, at)
     return Uncertainty(**vars(spread), inputs=inputs, predicted=predicted)
 
@@ -321,25 +322,40 @@ def _sampled(
     return design, _computed(design, margins, at), at
 
 
+def _with_reason(
+    spread: MarginSpread, design: Design, margins: QuickMargins, computed: Array, at: Array
+) -> MarginSpread:
+    """Distribution with the reason of the first of its points that has no result."""
+    if not spread.failed:
+        return spread
+    first = np.flatnonzero(~np.isfinite(computed))[:1]
+    many = many_of(margins.quick_case, design.arrays(at[first], margins.lambda_factor), 1)
+    return replace(spread, reason=reason_of(many.single(0)))
+
+
 def uncertainty_of_result(solution: BearingSolution) -> Uncertainty | None:
-    """Distribution of the margin of a solved bearing; None where it has no margin. Raises InputError where it
-    has none at any other inputs.
+    """Distribution of the margin of a solved bearing; None where ``has_chance`` is not. Raises InputError
+    where it has no margin at any other inputs.
     """
-    return uncertainty_of(solution, QuickMargins.of(solution)) if _has_margin(solution) else None
+    return uncertainty_of(solution, QuickMargins.of(solution)) if has_chance(solution) else None
 
 
-def _has_margin(solution: BearingSolution) -> bool:
-    """Whether a bearing has a margin, and its films are converged."""
-    return solution.converged and first_margin(solution) is not None
+def has_chance(solution: BearingSolution) -> bool:
+    """Whether a bearing has a probability of breakdown: its films are converged, and have a margin unless
+    their surfaces touch.
+    """
+    return solution.converged and margin_apart(solution) is not None
 
 
 def spread_of_result(solution: BearingSolution, samples: int, seed: int = SEED) -> MarginSpread | None:
     """Distribution of the margin of a solved bearing as ``uncertainty_of_result``, without the shares of its
     inputs, at so many points.
     """
-    if not _has_margin(solution):
+    if not has_chance(solution):
         return None
-    return spread_at(*_sampled(solution, QuickMargins.of(solution), samples, seed), seed)
+    margins = QuickMargins.of(solution)
+    design, computed, at = _sampled(solution, margins, samples, seed)
+    return _with_reason(spread_at(design, computed, at, seed), design, margins, computed, at)
 
 
 def spread_at(design: Design, computed: Array, at: Array, seed: int) -> MarginSpread:
@@ -363,16 +379,16 @@ def _with_factors(design: Design, computed: Array, at: Array) -> Array:
     return margins
 
 
-def without_spread(error: InputError) -> str:
+def without_spread(reason: object) -> str:
     """Text that says why a bearing with a margin has no distribution of it."""
-    return f"probability of breakdown: {error}"
+    return f"probability of breakdown: {reason}"
 
 
 def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> Chance | None:
     """Chance of a solved bearing at once, with its own films at all points: what changes them is left out, as
-    temperature, load and clearance. None where there is no margin.
+    temperature, load and clearance. None where ``has_chance`` is not.
     """
-    if not _has_margin(solution):
+    if not has_chance(solution):
         return None
     design = Design.of(solution, beside_films=True)
     at = sobol_points(design.width, samples, SEED)
@@ -381,7 +397,7 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     found = first_margin(replace(solution, case=case))
     # Points whose surfaces touch count as breakdown.
     margin = design.film_scale(at) * np.nan_to_num(np.zeros(len(at)) if found is None else found)
-    return _chance(margin * np.exp(np.sum(design.log_factors(at), axis=-1)))
+    return Chance.of(margin * np.exp(np.sum(design.log_factors(at), axis=-1)))
 
 
 def _computed(design: Design, margins: QuickMargins, at: Array, speed: Array | None = None) -> Array:
@@ -456,19 +472,23 @@ def margin_band(
 
     The temperature does not change with the speed. Every speed has the same 128 points of the other inputs.
     By default, speeds are added until straight lines between the logarithms of the quantiles are within 5 %.
+    The result does not contain a speed at which 5 % of the points or more have no result, because its
+    quantiles are not known.
     """
     design = Design.of(solution)
     at = sobol_points(design.width, _AT_EACH, seed)
 
     def quantiles(speed: Array) -> Array:
-        """Quantiles of ``INTERVAL`` and probability of a margin below 1, shape (4, n); NaN without any."""
+        """Quantiles and probability of ``Chance``, shape (4, n); NaN where they are not known."""
         computed = _computed(design, margins, np.tile(at, (speed.size, 1)), np.repeat(speed, _AT_EACH))
         rows = _with_factors(design, computed, np.tile(at, (speed.size, 1))).reshape(speed.size, _AT_EACH)
-        found = np.full((len(INTERVAL) + 1, speed.size), np.nan)
-        known = np.any(np.isfinite(rows), axis=1)
-        found[:-1, known] = np.nanquantile(rows[known], INTERVAL, axis=1)
-        below = np.where(np.isfinite(rows[known]), rows[known] < 1.0, np.nan)
-        found[-1, known] = np.nanmean(below, axis=1)
+        found = np.full((4, speed.size), np.nan)
+        for k, row in enumerate(rows):
+            solved = np.isfinite(row)
+            failed = int(np.count_nonzero(~solved))
+            if failed < UNLIKELY * row.size:
+                one = Chance.of(row[solved], failed)
+                found[:, k] = one.low, one.median, one.high, one.probability
         return found
 
     if speeds is not None:

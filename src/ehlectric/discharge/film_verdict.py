@@ -5,17 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Literal
 
 from ehlectric.arrays import Numbers
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.breakdown_rule import (
+    STRENGTH_UNKNOWN,
+    Level,
+    doubted,
+    lead_of,
+    level_of,
+    ratio_text,
+    strength_interval,
+)
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.errors import CODES, Flag, ResultWarning
 from ehlectric.quantities.quantity import data_file
-
-# "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
-# expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
-Level = Literal["green", "yellow", "red", "grey"]
 
 
 @dataclass(frozen=True)
@@ -55,115 +59,8 @@ class Verdict:
         return self.text
 
 
-# Probabilities of breakdown below which it is not expected, below which it is possible, and above which it is
-# expected; between the last two it is likely. The first one also is that at which a voltage of a Weibull law
-# counts as safe.
-UNLIKELY, EVEN, CERTAIN = 0.05, 0.5, 0.95
-
-# Part of a dielectric strength by which it may be wrong either way where no range of it is stated:
-# engineering judgement.
-STRENGTH_UNKNOWN = 0.2
-
 # Codes of warnings of results whose margin may be lower than computed: no verdict is green with one of them.
 DOUBTS: tuple[str, ...] = tuple(data_file("ehlectric.quantities", "warning_codes.toml")["doubts"])
-
-
-def level_of(low: float, high: float) -> Level:
-    """Level of a verdict from the smallest and the largest margin that are possible.
-
-    Examples
-    --------
-    >>> level_of(1.1, 1.5), level_of(0.8, 1.5), level_of(0.5, 0.8)
-    ('green', 'yellow', 'red')
-    """
-    return "green" if low >= 1.0 else "red" if high < 1.0 else "yellow"
-
-
-def lead_of(level: Level, *, likely: bool) -> str:
-    """First words of a verdict with this level; ``likely``, whether breakdown is likelier than none."""
-    if level == "yellow":
-        return "Breakdown likely" if likely else "Breakdown possible"
-    return "No breakdown expected" if level == "green" else "Breakdown expected"
-
-
-# Sentence in place of the probability where only an estimate of it at once is known.
-PROBABILITY_FOLLOWS = "The probability of breakdown follows."
-
-
-@dataclass(frozen=True)
-class Chance:
-    """Probability of breakdown within what is uncertain, and what makes it so."""
-
-    probability: float
-    error: float  # sampling error of the probability
-    # low, median and high: margin at 5 %, 50 % and 95 %, dimensionless; 0 where surfaces touch.
-    low: float
-    median: float
-    high: float
-    # Name of the input that spreads the margin most, and its share of the variance of the logarithm of the
-    # margin; empty for an estimate at once, which leaves out what changes the films.
-    first: str = ""
-    share: float = 0.0
-
-    @property
-    def level(self) -> Level:
-        """Level of a verdict by the probability."""
-        if self.probability < UNLIKELY:
-            return "green"
-        return "yellow" if self.probability <= CERTAIN else "red"
-
-    @property
-    def lead(self) -> str:
-        """First words of a verdict by the probability."""
-        return lead_of(self.level, likely=self.probability > EVEN)
-
-    @property
-    def sentence(self) -> str:
-        """Sentence about the probability, the interval of the margin, and the input to measure first.
-
-        Examples
-        --------
-        >>> Chance(0.163, 0.016, 0.783, 1.474, 3.0, "rotor capacitance", 0.567).sentence
-        'The probability of breakdown is 16 % (sampling error 1.6 %): within what is uncertain the margin is \
-0.78 to 3.00 in 90 of 100 cases, 1.47 in the middle. Measure first: rotor capacitance, 57 % of the spread.'
-        """
-        if not self.first:
-            return PROBABILITY_FOLLOWS
-        low, median, high = map(ratio_text, (self.low, self.median, self.high))
-        return (
-            f"The probability of breakdown is {chance_text(self.probability, self.error)}: within what is "
-            f"uncertain the margin is {low} to {high} in 90 of 100 cases, {median} in the middle. "
-            f"Measure first: {self.first}, {100.0 * self.share:.0f} % of the spread."
-        )
-
-
-def chance_text(probability: float, error: float) -> str:
-    """Probability with its sampling error as text.
-
-    Examples
-    --------
-    >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
-    ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
-    """
-    if probability < error:
-        return f"below {100.0 * (probability + error):.1g} %"
-    if 1.0 - probability < error:
-        return f"above {100.0 * (probability - error):.3g} %"
-    return f"{100.0 * probability:.2g} % (sampling error {100.0 * error:.2g} %)"
-
-
-def ratio_text(ratio: Numbers) -> str:
-    """Ratio as text with two digits behind the point; more where it would be rounded to 1.
-
-    Examples
-    --------
-    >>> ratio_text(1.4432), ratio_text(0.9981), ratio_text(0.0123), ratio_text(2345.6)
-    ('1.44', '0.9981', '0.012', '2.3e+03')
-    """
-    if not 0.1 <= ratio < 100.0:
-        return f"{ratio:.2g}"
-    text = f"{ratio:.2f}"
-    return f"{ratio:.4g}" if text == "1.00" else text
 
 
 def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
@@ -175,14 +72,6 @@ def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = Non
     if table is not None:
         return f"the table of dielectric strength over {table.over} is an assumption"
     return "the Weibull law of the dielectric strength is an assumption"
-
-
-def strength_interval(margin: float) -> tuple[float, float]:
-    """Margins at the smallest and the largest strength that is possible where no range of it is stated.
-
-    Every breakdown voltage is proportional to the strength.
-    """
-    return (1.0 - STRENGTH_UNKNOWN) * margin, (1.0 + STRENGTH_UNKNOWN) * margin
 
 
 def strength_doubt(discharge: Discharge, margin: float) -> str:
@@ -258,15 +147,13 @@ def contact_verdict(
     weakest, strongest = strength_interval(margin)
     interval = min(low, weakest), max(margin * (1.0 + off), strongest)
     level = level_of(*interval)
+    level, lead = doubted(level, lead_of(level, likely=margin < 1.0), doubts=bool(doubts))
     doubts += filter(None, [strength_doubt(discharge, margin)])
-    if doubts and level == "green":
-        level = "yellow"
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
         part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
         doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
     bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
     last = f"{bound}{assumption_of(discharge)}."
-    lead = lead_of(level, likely=margin < 1.0)
     text = (
         f"{lead}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
         f"(margin {ratio_text(margin)}{spread})."

@@ -10,7 +10,8 @@ from ehlectric.bearing.bearing_discharges import voltage_ratio
 from ehlectric.bearing.impedance import shaft_capacitance
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.discharge.film_verdict import Verdict, lead_of, level_of, ratio_text, strength_interval
+from ehlectric.discharge.breakdown_rule import lead_of, level_of, ratio_text, strength_interval
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.quantities.inputs import BOTH
 
 # Change of the common-mode voltage of an inverter by one edge over its largest value: a third of the DC link,

@@ -8,8 +8,16 @@ from typing import Any
 
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.breakdown_rule import (
+    STRENGTH_UNKNOWN,
+    TOUCHING,
+    TOUCHING_AT_TIMES,
+    TOUCHING_EXPECTED,
+    Level,
+    doubted,
+)
 from ehlectric.discharge.discharge_laws import beside_limits
-from ehlectric.discharge.film_verdict import DOUBTS, STRENGTH_UNKNOWN, Level, Verdict, assumption_of, unusable
+from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of, unusable
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
@@ -32,8 +40,8 @@ _OPENING = "contacts discharge as they open, which is not computed"
 LEADS: Mapping[Level, str] = {
     "grey": "No verdict",
     "green": "No discharge expected",
-    "yellow": "Discharges possible",
-    "red": "Discharges expected",
+    "yellow": TOUCHING_AT_TIMES,
+    "red": TOUCHING_EXPECTED,
 }
 _ORDER = tuple(LEADS)
 
@@ -54,12 +62,15 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
     levels = [_level(end, summary["source"]["peak"], part) for end in ends]
     events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
     doubts = [] if events else [CODES[code].meaning for code in _DOUBTS if code in codes]
-    level: Level = max(["yellow", *levels] if doubts else levels, key=_ORDER.index)
+    level: Level = max(levels, key=_ORDER.index)
+    level, lead = doubted(
+        level, LEADS[level], doubts=bool(doubts), touching="partial-film" in codes and not events, drive=True
+    )
     if events or arcs:
-        lead = "Discharges likely" if level == "yellow" and events >= FEW else LEADS[level]
+        lead = TOUCHING if level == "yellow" and events >= FEW else lead
         sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
     else:
-        sentences = [f"{LEADS[level]}: {_none(summary, part)}."]
+        sentences = [f"{lead}: {_none(summary, part)}."]
     sentences += [*_touching(ends), *_harm(case, ends), *([] if arcs else doubts)]
     if any(end["breakdown_voltage"] is not None for end in ends):
         sentences += [*([] if events or arcs else [_bound(case, codes)]), _assumption(case)]

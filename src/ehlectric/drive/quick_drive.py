@@ -7,7 +7,8 @@ from typing import Any
 
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN, Level, Verdict, ratio_text
+from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, Level, ratio_text
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_verdict import LEADS, SELDOM, most_by_law, weakest_part
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS

@@ -29,7 +29,7 @@ from ehlectric.bearing.speed_curves import (
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS
-from ehlectric.discharge.film_verdict import chance_text, ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing_figures import (
     LEAST_VARIATION,
@@ -131,23 +131,23 @@ def margin(result: BearingResult) -> str:
     """Sentence: the probability of breakdown at the speed of the bearing, and the interval of its margin."""
     assert result.uncertainty is not None
     chance = result.uncertainty.chance
-    low, high = ratio_text(chance.low), ratio_text(chance.high)
-    return (
-        f"{chance.lead} at {rpm_text(result.case.bearing.inner_speed)}: probability "
-        f"{chance_text(chance.probability, chance.error)}, margin {low} to {high} in 90 of 100 cases"
-    )
+    interval = f"margin {ratio_text(chance.low)} to {ratio_text(chance.high)} in 90 of 100 cases"
+    if chance.failed:
+        interval = f"{chance.failed} of {chance.samples} points have no result"
+    lead = result.verdict.lead
+    return f"{lead} at {rpm_text(result.case.bearing.inner_speed)}: probability {chance.text}, {interval}"
 
 
 def duty_cycle(result: BearingResult) -> str:
-    """Sentence: share of the time of a duty cycle with a margin below 1; and a line with those of the states
-    of lubrication.
+    """Sentence: share of the time of a duty cycle with breakdown expected; and a line with the shares of the
+    states of lubrication.
     """
     assert result.duty is not None
     found = result.duty.summary()
     names = {"full_film": "full film", "partial_film": "partial film", "touching": "touching"}
     names["standstill"] = "standstill"
     shares = [f"{name} {100.0 * found[f'{key}_share']:.3g} %" for key, name in names.items()]
-    what, share = "Margin below 1", found["low_margin_share"]
+    what, share = "Breakdown expected", found["breakdown_share"]
     if share is None:
         what, share = "Full film", found["full_film_share"]
     return f"{what} for {100.0 * share:.3g} % of the time\n{', '.join(shares)}"
@@ -308,7 +308,7 @@ def _breaks(result: BearingResult) -> bool:
 
 
 def _margin(result: BearingResult) -> tuple[Draw, ...]:
-    return () if result.uncertainty is None else (margin_over_speed,)
+    return () if result.margin_band is None else (margin_over_speed,)
 
 
 # Functions of the panels and of the first line of the title, by the names of the files. A figure without

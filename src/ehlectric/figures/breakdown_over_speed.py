@@ -16,7 +16,7 @@ from ehlectric.bearing.speed_curves import (
     curves_of,
     value_of,
 )
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.figures.bearing_figures import label_ends, volts
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel

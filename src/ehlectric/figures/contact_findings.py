@@ -10,8 +10,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.touching import about_share
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.discharge.film_breakdown import FieldUtilisation
-from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.figures.figure_names import (
     BREAKDOWN_FIGURE,
     METER_FIGURE,

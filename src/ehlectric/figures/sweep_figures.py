@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_touching import OF_TIME, time_text
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing_figure_files import save_speed_figures
 from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats, map_files

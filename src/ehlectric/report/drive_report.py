@@ -15,7 +15,8 @@ import numpy as np
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.discharge.film_verdict import Level, Verdict
+from ehlectric.discharge.breakdown_rule import Level
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable

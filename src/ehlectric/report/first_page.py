@@ -15,7 +15,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.film_verdict import chance_text, ratio_text
+from ehlectric.discharge.breakdown_rule import chance_text, ratio_text
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
@@ -202,6 +202,8 @@ def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:
     if row.key != "uncertainty.breakdown_probability":
         return row
     found = summary["uncertainty"]
+    if found.get("failed"):
+        return row
     text = chance_text(found["breakdown_probability"], found["breakdown_probability_error"])
     return replace(row, value=text.partition(" (")[0], unit="")
 

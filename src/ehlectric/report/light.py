@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ehlectric.errors import printable
 
 if TYPE_CHECKING:
-    from ehlectric.discharge.film_verdict import Level
+    from ehlectric.discharge.breakdown_rule import Level
 
 # What the levels mean, for a verdict whose first words are no such name.
 _WORDS = {

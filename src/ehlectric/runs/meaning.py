@@ -196,7 +196,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
             notes={"bearing.first_break": lambda _: ", needs solved contacts for this strength"},
         )
     rows = check_rows(summary, words)
-    return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
+    return Meaning(case.title, tuple(rows), summary, result.all_warnings, result.verdict)
 
 
 @check.register

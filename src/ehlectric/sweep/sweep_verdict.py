@@ -15,14 +15,8 @@ from ehlectric.bearing.solution import percent
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase
-from ehlectric.discharge.film_verdict import (
-    DOUBTS,
-    Level,
-    Verdict,
-    assumption_of,
-    ratio_text,
-    strength_interval,
-)
+from ehlectric.discharge.breakdown_rule import TOUCHING, Level, ratio_text, strength_interval
+from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
@@ -94,7 +88,7 @@ def _without_voltages(results: SweepPoints) -> Verdict | None:
     everywhere = sure and count == len(states) and driven
     return Verdict(
         "red" if everywhere else "yellow",
-        f"Discharges likely: at {count} of {len(states)} points surfaces touch, at times at least, and "
+        f"{TOUCHING}: at {count} of {len(states)} points surfaces touch, at times at least, and "
         "contacts discharge at a low voltage as they open; no voltage is computed for that.",
     )
 

@@ -12,7 +12,7 @@ from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
@@ -354,8 +354,40 @@ def _effects(summary: Summary) -> Iterator[Row]:
 
 
 def _margin_range(summary: Summary) -> str | None:
+    """Interval of the margin; that it is not known if points without a result leave an end open."""
     found = summary.get("uncertainty")
-    return None if not found else _between(found["margin_low"], found["margin_high"])
+    if not found:
+        return None
+    if found.get("failed") and not (found["margin_low"] and found["margin_high"]):
+        return "not known"
+    return _between(found["margin_low"], found["margin_high"])
+
+
+def _median_note(summary: Summary) -> str:
+    found = summary["uncertainty"]
+    least = "at least " if found.get("failed") else ""
+    return f", median {least}{ratio_text(found['margin_median'])}"
+
+
+def _probability(key: str) -> Callable[[Summary], Any]:
+    """Probability of breakdown; its bounds if points or rows without a result leave it open."""
+
+    def value(summary: Summary) -> Any:
+        found = value_at(summary, key)
+        low, high = (value_at(summary, f"{key}_{end}") for end in ("low", "high"))
+        # Results of earlier versions have no bounds.
+        if low is None or high is None or high - low < _EQUAL:
+            return found
+        return " to ".join(f"{100.0 * end:.2g}" for end in (low, high)), "%"
+
+    return value
+
+
+def _probability_note(summary: Summary) -> str:
+    found = summary["uncertainty"]
+    if found.get("failed"):
+        return f", {found['failed']} of {found['samples']} points have no result"
+    return f", sampling error {100.0 * found['breakdown_probability_error']:.2g} %"
 
 
 def _shares(summary: Summary) -> Iterator[Row]:
@@ -371,12 +403,8 @@ def _shares(summary: Summary) -> Iterator[Row]:
 
 
 def _left_out_of_probability(summary: Summary) -> Iterator[Row]:
-    """Rows of ranges and points that are not in the probability, and why."""
-    found = summary.get("uncertainty") or {}
-    texts = [*found.get("left_out", ())]
-    if found.get("failed"):
-        texts.append(f"{found['failed']} of {found['samples']} points, which have no result")
-    for text in texts:
+    """Rows of ranges that are not in the probability, and why."""
+    for text in (summary.get("uncertainty") or {}).get("left_out", ()):
         yield Row("not in the probability", note=text, key="uncertainty.left_out")
 
 
@@ -428,6 +456,9 @@ def input_range(effect: Mapping[str, Any]) -> str:
 _SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N", "mm²/s")}
 
 
+# Difference of bounds of a probability that is none.
+_EQUAL = 1e-9
+
 # Least share of the spread of an input that has a row.
 _LEAST_SHARE = 0.005
 
@@ -458,10 +489,8 @@ _WORDS = Words(
         "life.dynamic_rating": lambda s: f", {s['life']['dynamic_rating_source']}",
         "life.static_rating": lambda s: f", {s['life']['static_rating_source']}",
         "life.fatigue_load_limit": _fatigue_limit_note,
-        "uncertainty.breakdown_probability": lambda s: (
-            f", sampling error {100.0 * s['uncertainty']['breakdown_probability_error']:.2g} %"
-        ),
-        "uncertainty.margin_range": lambda s: f", median {ratio_text(s['uncertainty']['margin_median'])}",
+        "uncertainty.breakdown_probability": _probability_note,
+        "uncertainty.margin_range": _median_note,
     },
     values={
         "inputs.discharge.dielectric_strength": _strength,
@@ -487,6 +516,13 @@ _WORDS = Words(
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
         **{
+            key: _probability(key)
+            for key in (
+                *("uncertainty.breakdown_probability", "duty.breakdown_probability"),
+                "duty.turning_breakdown_probability",
+            )
+        },
+        **{
             f"duty.{name}_share": _unless_zero(f"duty.{name}_share")
             for name in ("left_out", "low_viscosity", "low_film", "unsolved")
         },
@@ -502,6 +538,7 @@ _WORDS = Words(
         "bearing.first_break": lambda s: bool(_state(s) == "conducting"),
         "bearing.margin": lambda s: bool(s["bearing"]["margin"] < 1.0),
         "bearing.current_density": _over_limits,
+        "duty.breakdown_share": lambda s: bool(s["duty"]["breakdown_share"]),
         "duty.low_margin_share": lambda s: bool(s["duty"]["low_margin_share"]),
     },
     rows={

@@ -28,7 +28,8 @@ from ehlectric.app.compute.bearing_answers import (
     whole_quick_answer,
 )
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.discharge.film_verdict import PROBABILITY_FOLLOWS, Verdict, ratio_text
+from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS, ratio_text
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK

@@ -88,7 +88,7 @@ def test_the_page_has_the_numbers_of_the_command(answer, summary):
     assert answer.lines == lines_of(row for row in rows if not row.key.startswith("duty.stretches"))
     assert {
         "share of the duty cycle at a standstill",
-        "probability of breakdown, mean of the duty cycle",
+        "duty cycle, breakdown while turning",
     } <= {line.name for line in answer.lines}
     stretches = summary["duty"]["stretches"]
     assert stretches

@@ -6,8 +6,9 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.discharge.film_breakdown import Breakdown
-from ehlectric.discharge.film_verdict import contact_verdict, ratio_text, weibull_part
+from ehlectric.discharge.film_verdict import contact_verdict, weibull_part
 from ehlectric.errors import ResultWarning
 from tests.helpers.each import each
 

@@ -11,7 +11,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ehlectric import BearingCase, DriveCase, save, solve, solve_drive, write_report
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.units import to_si
 from ehlectric.report.background import named

@@ -67,7 +67,7 @@ def check_tables(one, other, rel):
 
 @pytest.mark.slow
 def test_points_have_the_probability_of_their_bearing_alone():
-    """From touching surfaces, where there is none, to full films; the ranges follow the temperature."""
+    """From touching surfaces, which count as breakdown, to full films; ranges follow the temperature."""
     vary = {
         SPEED: {"from": "20 rpm", "to": "10000 rpm", "count": 3, "spacing": "log"},
         TEMPERATURE: ["40 degC", "110 degC"],
@@ -76,8 +76,11 @@ def test_points_have_the_probability_of_their_bearing_alone():
     for outcome, table in found:
         check_alone(outcome, table)
     known = [one.summary["uncertainty"] for one, _ in found]
-    assert None in known
-    assert {one["breakdown_probability"] for one in known if one} > {0.0}
+    states = [one.summary["bearing"]["lubrication"] for one, _ in found]
+    touching = [one for one, state in zip(known, states, strict=True) if state == "conducting"]
+    assert touching
+    assert all(one["breakdown_probability"] == 1.0 for one in touching)
+    assert {one["breakdown_probability"] for one in known} > {0.0}
 
 
 @pytest.mark.slow

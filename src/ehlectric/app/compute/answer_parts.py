@@ -16,7 +16,8 @@ from typing import Any
 from ehlectric.app.answers import SEVERITIES, Judged, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
-from ehlectric.discharge.film_verdict import Verdict, ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity

@@ -60,7 +60,8 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import quick_chance
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
-from ehlectric.discharge.film_verdict import PROBABILITY_FOLLOWS, Verdict, ratio_text
+from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS, ratio_text
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_bounds import bearing_bounds
@@ -193,6 +194,9 @@ def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
         if key in rows or not probable
     )
     within = summary.get("uncertainty") or {}
+    if within.get("failed"):
+        # Points without a result leave the interval and its middle open.
+        within = {}
     ends = (within["margin_low"], within["margin_high"]) if within else None
     median = [("median", ratio_text(within["margin_median"]))] if within else []
     label = gauge_text(margin, [*(facts if probable else ()), *median])

@@ -23,14 +23,8 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.discharge.film_verdict import (
-    STRENGTH_UNKNOWN,
-    Verdict,
-    doubts_of,
-    lead_of,
-    level_of,
-    ratio_text,
-)
+from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, doubted, lead_of, level_of, ratio_text
+from ehlectric.discharge.film_verdict import Verdict, doubts_of
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import (
@@ -134,10 +128,9 @@ def verdict_by_formula(
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
     high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
     level, doubts = level_of(low, high), doubts_of(warnings)
-    if doubts and level == "green":
-        level = "yellow"
+    level, lead = doubted(level, lead_of(level, likely=margin < 1.0), doubts=bool(doubts))
     text = (
-        f"{lead_of(level, likely=margin < 1.0)}: by formula the film breaks down at "
+        f"{lead}: by formula the film breaks down at "
         f"{estimate['breakdown_voltage']:.3g} V, {estimate['applied_voltage']:.3g} V are applied (margin "
         f"{ratio_text(margin)})."
     )

@@ -43,7 +43,8 @@ from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
-from ehlectric.discharge.film_verdict import Verdict, ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.grouped_digits import certain

@@ -19,7 +19,7 @@ from ehlectric.bearing.margin import (
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.run import save
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.units import rpm_text
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of

@@ -17,9 +17,9 @@ from ehlectric.bearing.uncertainty import (
     _computed,
     margin_band,
     quick_chance,
-    sampling_error,
     uncertainty_of,
 )
+from ehlectric.discharge.breakdown_rule import sampling_error
 from ehlectric.tables.bearing_tables import total_rows
 
 STRENGTH, ROTOR = "discharge.dielectric_strength", "motor.winding_rotor_capacitance"
@@ -207,5 +207,7 @@ def test_points_without_a_result_are_told_in_the_table():
     summary = solve_bearing(case, workers=1).summary()
     failed = summary["uncertainty"]["failed"]
     assert 0 < failed < 2048
-    rows = [row for row in total_rows(summary) if row.key == "uncertainty.left_out"]
-    assert [row.note for row in rows] == [f"{failed} of 2048 points, which have no result"]
+    (row,) = (row for row in total_rows(summary) if row.key == "uncertainty.breakdown_probability")
+    assert row.note == f", {failed} of 2048 points have no result"
+    (row,) = (row for row in total_rows(summary) if row.key == "uncertainty.margin_range")
+    assert row.value == "not known"

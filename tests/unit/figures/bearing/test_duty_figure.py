@@ -41,5 +41,5 @@ def test_bands_end_halfway_between_rows(result):
 def test_title_is_the_finding(result):
     found = result.duty.summary()
     first, second, *_ = title_of(figure(result, "bearing_duty"))
-    assert first == f"Margin below 1 for {100.0 * found['low_margin_share']:.3g} % of the time"
+    assert first == f"Breakdown expected for {100.0 * found['breakdown_share']:.3g} % of the time"
     assert second.startswith("full film 37.5 %")

@@ -1,0 +1,124 @@
+"""Points without a result: bounds of the probability of breakdown in verdict, table, warning and summary."""
+
+import numpy as np
+import pytest
+
+from ehlectric import BearingCase, solve_bearing
+from ehlectric.app.compute.bearing_answers import deciding, whole_quick_answer
+from ehlectric.bearing.input_changes import changes_of
+from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
+from ehlectric.tables.bearing_tables import total_rows
+from tests.helpers.each import each
+
+CASE = {
+    "contacts": "atlas",
+    "bearing": {
+        "base": "6208",
+        "radial_clearance": "10 um",
+        "radial_load": "1800 N",
+        "axial_load": "300 N",
+        "inner_speed": "9000 rpm",
+        "temperature": "116 degC",
+        "composite_rq": "0.01 um",
+    },
+    "lubricant": {
+        "base": "paper",
+        "temperature": {
+            "kinematic_viscosity_40": "10 mm^2/s",
+            "kinematic_viscosity_100": "2.6 mm^2/s",
+            "density_15": "850 kg/m^3",
+            "thermal_conductivity": "0.137 W/m/K",
+        },
+    },
+    "discharge": {"dielectric_strength": "15 V/um"},
+    "motor": {
+        "common_mode_voltage": "300 V",
+        "winding_rotor_capacitance": "8.3 pF",
+        "rotor_frame_capacitance": "1 nF",
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return solve_bearing(BearingCase.from_dict(CASE), workers=1)
+
+
+def unknown_share(case):
+    """Part of the range of the temperature in which the oil has below 2 mm^2/s, by Walther's equation."""
+    (temperature,) = (one for one in changes_of(case) if one.key == "bearing.temperature")
+    t, low, high = np.log10([313.15, 373.15]), *(np.log10(np.log10(nu + 0.7)) for nu in (10.0, 2.6))
+    limit = 10.0 ** (t[0] + (np.log10(np.log10(2.7)) - low) * (t[1] - t[0]) / (high - low))
+    first, last = temperature.ends
+    return (last - limit) / (last - first)
+
+
+@pytest.mark.slow
+def test_points_without_a_result_lie_between_bounds(result):
+    """The hot 40 % of the points have no viscosity: any part of them may break down."""
+    summary = result.summary()
+    found = summary["uncertainty"]
+    failed, samples = found["failed"], found["samples"]
+    assert failed / samples == pytest.approx(unknown_share(result.case), abs=0.01)
+    broken = np.count_nonzero(result.uncertainty.margins < 1.0)
+    low, high = found["breakdown_probability_low"], found["breakdown_probability_high"]
+    assert (low, high) == pytest.approx((broken / samples, (broken + failed) / samples))
+    assert low < found["breakdown_probability"] < high
+    # Random points with the logarithm of the margin continued over the temperature: 32.5 %, median 1.20.
+    assert low < 0.325 < high
+    assert found["margin_median"] < 1.20
+    assert (found["margin_low"], found["margin_high"]) == (0.0, None)
+    assert "probability-bounded" in summary["warning_codes"]
+    (text,) = (one for one in summary["warnings"] if one.startswith(f"{failed} of {samples} points"))
+    assert "2 mm^2/s" in text
+    assert f"between {100.0 * low:.3g} and {100.0 * high:.3g} %" in text
+
+
+@pytest.mark.slow
+def test_verdict_table_and_page_state_the_bounds(result):
+    verdict, summary = result.verdict, result.summary()
+    low, high = result.uncertainty.bounds
+    ends = f"between {100.0 * low:.2g} and {100.0 * high:.2g} %"
+    assert f"The probability of breakdown is {ends}: " in verdict.text
+    assert (verdict.level, verdict.lead) == ("yellow", "Breakdown possible")
+    rows = {row.key: row for row in total_rows(summary)}
+    row = rows["uncertainty.breakdown_probability"]
+    assert row.text.startswith(f"{100.0 * low:.2g} to {100.0 * high:.2g} %")
+    assert rows["uncertainty.margin_range"].value == "not known"
+    facts = deciding(summary, probable=True)
+    assert dict(facts.facts)["probability of breakdown"] == row.amount
+    assert facts.gauge.interval is None
+    assert facts.gauge.value == summary["bearing"]["margin"]
+    assert whole_quick_answer(CASE).text == verdict.text
+
+
+@each(
+    ("broken", "whole", "failed", "level", "lead"),
+    [
+        (0, 100, 0, "green", "No breakdown expected"),
+        (0, 96, 4, "green", "No breakdown expected"),
+        (0, 94, 6, "yellow", "Breakdown possible"),
+        (20, 20, 60, "yellow", "Breakdown possible"),
+        (60, 0, 40, "yellow", "Breakdown likely"),
+        (96, 0, 4, "red", "Breakdown expected"),
+        (94, 0, 6, "yellow", "Breakdown likely"),
+        (100, 0, 0, "red", "Breakdown expected"),
+    ],
+)
+def test_the_level_follows_the_bounds(broken, whole, failed, level, lead):
+    chance = Chance.of(np.repeat([0.5, 2.0], [broken, whole]), failed)
+    assert (chance.level, chance.lead) == (level, lead)
+    low, high = chance.bounds
+    assert (low, high) == pytest.approx((broken / 100.0, (broken + failed) / 100.0))
+
+
+def test_a_quantile_is_a_bound():
+    """Of 100 points, 10 are not known: a tenth of the margins may be any number."""
+    margins = np.linspace(1.0, 2.0, 90)
+    chance = Chance.of(margins, failed=10)
+    assert (chance.low, chance.high) == (0.0, np.inf)
+    assert chance.median == pytest.approx(np.sort([*np.zeros(10), *margins])[[49, 50]].mean())
+    few = Chance.of(np.linspace(1.0, 2.0, 98), failed=2)
+    assert few.low < Chance.of(np.linspace(1.0, 2.0, 98)).low
+    assert few.high > Chance.of(np.linspace(1.0, 2.0, 98)).high
+    assert few.failed / few.samples < UNLIKELY
