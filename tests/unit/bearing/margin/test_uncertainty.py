@@ -197,7 +197,8 @@ def test_a_probability_that_is_not_computed_says_why(monkeypatch):
     assert result.uncertainty is None
     assert summary["uncertainty"] is None
     assert summary["margin"]["left_out"] == ["probability of breakdown: no point has a result"]
-    assert "probability" not in result.verdict.text
+    assert (result.verdict.level, result.verdict.lead) == ("yellow", "Breakdown not known")
+    assert "The probability of breakdown is not known: no point has a result." in result.verdict.text
 
 
 @pytest.mark.slow
