@@ -538,7 +538,7 @@ def bearing_verdict(
     widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
     that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
     strength by 20 % takes across 1 is yellow, too. ``unknown``, reason for which the probability has no
-    value, though the bearing has a margin: no such verdict is green. The levels and first words are those of
+    value, though the bearing has a margin: no such verdict is green. The levels and first words follow
     ``breakdown_rule``.
     """
     warnings = bearing_warnings(solution)
