@@ -106,7 +106,7 @@ def test_sensitivity_prints_and_writes_the_same(command, tmp_path):
     assert found["schema"] == "ehlectric.sensitivity/1"
     assert set(found) == {
         "schema", "value", "points", "solved", "rows", "rows_dropped", "rows_doubtful", "spread",
-        "share_below_voltage", "indices", "bootstrap",
+        "share_below_voltage", "share_below_voltage_bounds", "indices", "bootstrap",
     }  # fmt: skip
     assert (found["value"], found["rows"]) == (VALUE, 64)
     assert found["rows_dropped"] > 0

@@ -549,7 +549,7 @@ def _warnings(
     if found.reasons:
         place, reason = next(iter(found.reasons.items()))
         yield ResultWarning.of(
-            "duty-left-out", rows=len(found.reasons), line=cycle.lines[place], reason=reason
+            "duty-left-out", "bearing", rows=len(found.reasons), line=cycle.lines[place], reason=reason
         )
     known = result.summary()
     low, high = (known[f"breakdown_probability_{end}"] for end in ("low", "high"))

@@ -23,7 +23,7 @@ from ehlectric.bearing.uncertainty import (
     spread_of_result,
     without_spread,
 )
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.runtime.files import plain
 
 # Distribution of a point; None where it has no probability of breakdown, and the error where it has no margin
@@ -156,6 +156,11 @@ def spread_alone(solution: BearingSolution, samples: int, seed: int) -> Spread:
         return spread_of_result(solution, samples, seed)
     except InputError as error:
         return error
+
+
+def warnings_of_spread(spread: Spread) -> tuple[ResultWarning, ...]:
+    """Warnings of a distribution: points without a result."""
+    return spread.warnings if isinstance(spread, MarginSpread) else ()
 
 
 def tables_of_spread(spread: Spread) -> dict[str, Any]:

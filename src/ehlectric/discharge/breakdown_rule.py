@@ -162,8 +162,7 @@ class Chance:
     @property
     def bounds(self) -> tuple[float, float]:
         """Smallest and largest probability that points without a result allow."""
-        known = 1.0 - self.failed / self.samples if self.failed else 1.0
-        return self.probability * known, 1.0 - (1.0 - self.probability) * known
+        return bounds_of(self.probability, self.samples, self.failed)
 
     @property
     def level(self) -> Level:
@@ -219,6 +218,18 @@ result. Measure first: temperature, 60 % of the spread at the other points.
         low, median, high = map(ratio_text, (self.low, self.median, self.high))
         interval = f"the margin is {low} to {high} in 90 of 100 cases, {median} in the middle"
         return f"within what is uncertain {interval}"
+
+
+def bounds_of(share: float, samples: int, failed: int) -> tuple[float, float]:
+    """Smallest and largest share of all points, from the share of the points with a result.
+
+    Examples
+    --------
+    >>> bounds_of(0.5, 100, 20)
+    (0.4, 0.6)
+    """
+    known = 1.0 - failed / samples if failed else 1.0
+    return share * known, 1.0 - (1.0 - share) * known
 
 
 def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:

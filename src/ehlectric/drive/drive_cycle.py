@@ -303,7 +303,11 @@ def _simulated(ready: _Ready, solve: Callable[[DriveCase], DriveSolution], progr
     usable = known[drawn] & np.isfinite(found[:, 0])
     weights = duration[places[known]]
     means, off = _compared(at[known], weights / np.sum(weights), at[drawn[usable]], found[usable])
-    return _Found(rates, _sums(means, off, float(np.sum(weights)), simulation), simulation)
+    sums = _sums(means, off, float(np.sum(weights)), simulation)
+    if not (np.all(known) and np.all(ready.computed)):
+        # Nothing bounds the discharges in rows that are not known.
+        sums = [replace(one, high=None) for one in sums]
+    return _Found(rates, sums, simulation)
 
 
 def _drawn(duration: Array, seed: int) -> IntArray:
@@ -476,7 +480,7 @@ def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:
         reasons = {**ready.reasons, **found.simulation.reasons}
         place, reason = next(iter(reasons.items()))
         line = ready.cycle.lines[place]
-        yield ResultWarning.of("duty-left-out", rows=left_out.size, line=line, reason=reason)
+        yield ResultWarning.of("duty-left-out", "drive", rows=left_out.size, line=line, reason=reason)
 
 
 def _of_ring(ready: _Ready) -> Iterator[ResultWarning]:

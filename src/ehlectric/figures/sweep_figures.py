@@ -145,7 +145,11 @@ def of_sensitivity(results: SweepResults, analysis: Sensitivity) -> str:
     if analysis.share_below_voltage is None:
         return f"{text} of the {value}"
     voltage = breakdown_of(results.case, analysis.value).voltage_name
-    return f"{text}; {100.0 * analysis.share_below_voltage:.3g} % of the samples are below the {voltage}"
+    share = f"{100.0 * analysis.share_below_voltage:.3g}"
+    low, high = analysis.share_below_voltage_bounds or (0.0, 0.0)
+    if analysis.spread.failed and high > low:
+        share = f"{100.0 * low:.3g} to {100.0 * high:.3g}"
+    return f"{text}; {share} % of the samples are below the {voltage}"
 
 
 # Probabilities marked in the distribution.

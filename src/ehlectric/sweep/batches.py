@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.many_points import TOGETHER, SolvedPart, single_tables, solved_parts
-from ehlectric.bearing.many_uncertainties import spreads_of, tables_of_spread
+from ehlectric.bearing.many_uncertainties import spreads_of, tables_of_spread, warnings_of_spread
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.summary import SCHEMA
 from ehlectric.bearing.uncertainty import SEED
@@ -191,7 +191,10 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
             codes[place][code] = CODES[code].meaning
     samples, probable = batch.uncertainty_samples, list[dict[str, Any]]()
     if samples is not None:
-        probable = [tables_of_spread(spread) for spread in spreads_of(solution, samples, SEED)]
+        spreads = spreads_of(solution, samples, SEED)
+        probable = [tables_of_spread(spread) for spread in spreads]
+        for own, spread in zip(codes, spreads, strict=True):
+            own |= {one.code: CODES[one.code].meaning for one in warnings_of_spread(spread)}
     for place, (point, tables) in enumerate(zip(part.points.tolist(), single_tables(part), strict=True)):
         yield {
             "schema": SCHEMA,

@@ -23,7 +23,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ehlectric.bearing.many_uncertainties import spread_alone, tables_of_spread
+from ehlectric.bearing.many_uncertainties import spread_alone, tables_of_spread, warnings_of_spread
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import SEED
@@ -33,7 +33,14 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.contact.check import portable
 from ehlectric.contact.solver import solve
 from ehlectric.drive.quick_drive import quick_drive
-from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
+from ehlectric.errors import (
+    ConvergenceError,
+    InputError,
+    LostError,
+    MemoryLimitError,
+    shown,
+    texts_and_codes,
+)
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.runtime.files import now
@@ -260,7 +267,9 @@ def _solve_bearing(case: BearingCase, samples: int | None) -> tuple[bool, dict[s
     summary = summary_of(bearing.solution)
     del summary["contacts"]  # with columns for every contact, the table would be too wide
     if samples is not None:
-        summary |= tables_of_spread(spread_alone(bearing.solution, samples, SEED))
+        spread = spread_alone(bearing.solution, samples, SEED)
+        warnings = (*bearing.warnings, *warnings_of_spread(spread))
+        summary |= texts_and_codes(warnings) | tables_of_spread(spread)
     return bearing.converged, summary, "a contact of the bearing is not converged"
 
 

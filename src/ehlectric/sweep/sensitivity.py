@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
+from ehlectric.discharge.breakdown_rule import bounds_of
 from ehlectric.errors import InputError
+from ehlectric.quantities.rows import value_at
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import numbers_of
 from ehlectric.sweep.sweep_inputs import breakdown_of
@@ -37,6 +40,9 @@ class Spread:
     maximum: float
     # Quantiles by probability, in SI units, interpolated linearly between the samples.
     quantiles: Mapping[float, float]
+    failed: int = 0  # number of further samples, which have no value
+    # Smallest and largest quantile that the samples without a value allow, in SI units; None without a bound.
+    quantile_bounds: Mapping[float, tuple[float | None, float | None]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -69,12 +75,14 @@ class Sensitivity:
     doubtful: int
     spread: Spread
     indices: tuple[Index, ...]  # indices of the inputs, in the order of the varied keys
-    # Part of the samples whose breakdown voltage is below the applied voltage; None if the value is not a
-    # breakdown voltage or a margin.
+    # Part of the samples with breakdown: the breakdown voltage is below the applied voltage, or the surfaces
+    # touch. None if the value is not a breakdown voltage or a margin.
     share_below_voltage: float | None
     # resamples and seed: number of bootstrap samples, and seed of their random numbers.
     resamples: int
     seed: int
+    # Smallest and largest part that the samples without a result allow.
+    share_below_voltage_bounds: tuple[float, float] | None = None
 
     @property
     def dropped(self) -> int:
@@ -93,8 +101,12 @@ class Sensitivity:
             "rows_dropped": self.dropped,
             "rows_doubtful": self.doubtful,
             "spread": asdict(spread)
-            | {"quantiles": {f"{q:g}": value for q, value in spread.quantiles.items()}},
+            | {
+                name: {f"{q:g}": value for q, value in getattr(spread, name).items()}
+                for name in ("quantiles", "quantile_bounds")
+            },
             "share_below_voltage": self.share_below_voltage,
+            "share_below_voltage_bounds": self.share_below_voltage_bounds,
             "indices": {
                 index.key: {key: value for key, value in asdict(index).items() if key != "key"}
                 for index in self.indices
@@ -145,9 +157,7 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
     first, total = (found.tolist() for found in indices(a, b, mixed))
     ends = intervals(a, b, mixed, resamples=resamples, seed=seed)
     low, high = (found.tolist() for found in ends)
-    breakdown = breakdown_of(results.case, value)
-    margins = breakdown.margins(results)[: 2 * rows][drawn]
-    has_margins = value in breakdown.keys and bool(np.all(np.isfinite(margins)))
+    share, bounds = _broken(results, value, drawn) or (None, None)
     return Sensitivity(
         value=value,
         points=len(results.points),
@@ -155,24 +165,50 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
         rows=rows,
         used=used,
         doubtful=int(np.sum(np.any(results.doubtful.reshape(pages.shape)[:, complete], axis=0))),
-        spread=spread_of(samples),
+        spread=spread_of(samples, drawn.size - samples.size),
         indices=tuple(
             Index(key, first[k], (low[0][k], high[0][k]), total[k], (low[1][k], high[1][k]))
             for k, key in enumerate(results.varied)
         ),
-        share_below_voltage=float(np.mean(margins < 1.0)) if has_margins else None,
+        share_below_voltage=share,
         resamples=resamples,
         seed=seed,
+        share_below_voltage_bounds=bounds,
     )
 
 
-def spread_of(samples: Array) -> Spread:
-    """Moments and quantiles of samples, shape (n,).
+def _broken(results: SweepResults, value: str, drawn: Mask) -> tuple[float, tuple[float, float]] | None:
+    """Share of the samples with breakdown, and its bounds; None if the value has no margin.
+
+    ``drawn``, samples with a value, shape (n,), the first points of the design.
+    """
+    breakdown = breakdown_of(results.case, value)
+    if value not in breakdown.keys:
+        return None
+    margins = breakdown.margins(results)[: drawn.size]
+    if not np.all(np.isfinite(margins[drawn])):
+        return None
+    touching = np.array(
+        [
+            point.solved and value_at(point.summary or {}, "bearing.lubrication") == "conducting"
+            for point in results.points[: drawn.size]
+        ]
+    )
+    margins = np.where(touching, 0.0, margins)
+    known = np.isfinite(margins)
+    share = float(np.mean(margins[known] < 1.0))
+    return share, bounds_of(share, drawn.size, int(np.count_nonzero(~known)))
+
+
+def spread_of(samples: Array, failed: int = 0) -> Spread:
+    """Moments and quantiles of samples, shape (n,). ``failed``, number of further samples without a value.
 
     Examples
     --------
     >>> spread_of(np.arange(101.0)).quantiles[0.95]
     95.0
+    >>> spread_of(np.arange(90.0), failed=10).quantile_bounds[0.5]
+    (39.0, 50.0)
     """
     return Spread(
         samples=samples.size,
@@ -181,7 +217,18 @@ def spread_of(samples: Array) -> Spread:
         minimum=float(np.min(samples)),
         maximum=float(np.max(samples)),
         quantiles={q: float(np.quantile(samples, q)) for q in QUANTILES},
+        failed=failed,
+        quantile_bounds={q: _bounds(samples, failed, q) for q in QUANTILES},
     )
+
+
+def _bounds(samples: Array, failed: int, q: float) -> tuple[float | None, float | None]:
+    """Smallest and largest quantile of samples and ``failed`` further ones, which may have any value."""
+    low = float(np.quantile(np.concatenate([np.full(failed, -np.inf), samples]), q, method="lower"))
+    high = float(np.quantile(np.concatenate([samples, np.full(failed, np.inf)]), q, method="higher"))
+    if not failed:
+        low = high = float(np.quantile(samples, q))
+    return (low if math.isfinite(low) else None), (high if math.isfinite(high) else None)
 
 
 def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:

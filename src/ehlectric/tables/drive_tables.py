@@ -182,9 +182,10 @@ def _duty_range(name: str) -> Callable[[Summary], Any]:
             return None
         low, high = end[f"duty_{name}_low"], end[f"duty_{name}_high"]
         unit = DRIVE_BOOK[f"end.duty_{name}"].unit
+        most = low if high is None else high
+        factor, shown = unit_for(most, unit, least=1.0) if unit and most else (1.0, unit)
         if high is None:
-            return "not known", ""
-        factor, shown = unit_for(high, unit, least=1.0) if unit and high else (1.0, unit)
+            return (f"at least {number_text(factor * low)}", shown) if low else ("not known", "")
         texts = [number_text(factor * value) for value in (low, high)]
         return f"{texts[0]} to {texts[1]}", shown
 

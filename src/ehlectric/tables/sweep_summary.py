@@ -54,6 +54,10 @@ def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
         yield others, "other reasons, see sweep.csv"
 
 
+# Difference of bounds of a share that is none.
+_EQUAL = 1e-9
+
+
 def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     """Rows of the spread of a value over its samples, all in one unit."""
     label, spread = label_of(sensitivity.value, results.case), sensitivity.spread
@@ -61,7 +65,8 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     values = {"mean": spread.mean, "standard deviation": spread.standard_deviation}
     values |= {"minimum": spread.minimum, "maximum": spread.maximum}
     values |= {f"{100.0 * q:g} % quantile": at for q, at in spread.quantiles.items()}
-    rows = [Row("samples", str(spread.samples))]
+    unknown = f", {spread.failed} more have no value, and the quantiles do not contain them"
+    rows = [Row("samples", str(spread.samples), note=unknown if spread.failed else "")]
     breakdown = breakdown_of(results.case, sensitivity.value)
     at_most = sensitivity.value in (breakdown.value, breakdown.margin)
     for name, value in values.items():
@@ -71,7 +76,9 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     share = sensitivity.share_below_voltage
     if share is not None:
         voltage = breakdown.voltage_name
-        rows.append(Row(f"samples below the {voltage}", share, "%", digits=".3g"))
+        low, high = sensitivity.share_below_voltage_bounds or (share, share)
+        shown = share if high - low < _EQUAL else f"{100.0 * low:.3g} to {100.0 * high:.3g}"
+        rows.append(Row(f"samples below the {voltage}", shown, "%", digits=".3g"))
     return rows
 
 

@@ -168,6 +168,9 @@ def test_rows_that_cannot_be_simulated_are_left_out_and_named(tmp_path):
     left_out = ~duty.rows.known
     assert np.all(duty.rows.speed[left_out] > 2900.0 * RPM)
     assert duty.summary()["left_out_share"] == pytest.approx(0.5, abs=0.1)
+    # Any number of discharges is possible in the other half of the time.
+    assert all(one.low > 0.0 and one.high is None for one in duty.discharges)
+    assert any("lower bounds" in str(warning) for warning in duty.warnings)
     (warning,) = [one for one in duty.warnings if one.code == "duty-left-out"]
     assert "breakdown.extinction_current: got 10 A" in warning.text
     assert all(one.value > 0.0 for one in duty.discharges)
