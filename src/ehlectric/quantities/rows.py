@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
 from ehlectric.quantities.formats import UNITS, USUAL, formatted, scale_of, suited
-from ehlectric.quantities.quantity import Bound, Keys, Quantity, key_of
+from ehlectric.quantities.quantity import BOUNDS, Bound, Keys, Quantity, key_of
 
 # Nested tables of a result, SI units, as summary.json has them.
 Summary: TypeAlias = Mapping[str, Any]
@@ -29,6 +29,8 @@ class Row:
     '0.2 µm, at the outlet'
     >>> Row("breakdown voltage", 5.88, "V", bound="≤").text
     '≤ 5.88 V'
+    >>> Row("rating life", 1e12, "h", bound="≤", ceiling=1e6).text
+    'upper bound above 1 000 000 h'
     """
 
     name: str  # label of the quantity, which a reader understands without the other rows
@@ -57,7 +59,9 @@ class Row:
     @property
     def bounded(self) -> str:
         """Value as a string in the shown unit, after the sign of its bound."""
-        return " ".join(filter(None, [self.bound, self.shown]))
+        # A sign in front of "above" would contradict it.
+        sign = BOUNDS[self.bound] if self.bound and self.shown.startswith("above") else self.bound
+        return " ".join(filter(None, [sign, self.shown]))
 
     @property
     def amount(self) -> str:

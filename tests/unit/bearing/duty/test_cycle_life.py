@@ -10,8 +10,10 @@ from ehlectric.bearing import duty_points
 from ehlectric.bearing.cycle_life import LIVES
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS
+from tests.helpers.each import each
 
 PRINTED = {"contamination_factor": 0.5, "dynamic_rating": "29.1 kN", "static_rating": "17.9 kN"}
 HEADS = "time [s],speed [rpm],radial load [N]"
@@ -161,8 +163,11 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
 
 
 @pytest.mark.slow
-def test_every_number_states_the_point_or_the_cycle(tmp_path):
-    rows = total_rows(solve_bearing(case_of(tmp_path)).summary(probable=False))
+@each("command", ["check", "bearing"])
+def test_every_number_states_the_point_or_the_cycle(command, tmp_path):
+    case = case_of(tmp_path)
+    solved = solve_bearing(case).summary(probable=False)
+    rows = check(case).rows if command == "check" else total_rows(solved)
     heading = ""
     for row in rows:
         heading = row.name if row.heading else heading
