@@ -18,11 +18,11 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.measured_film import FORMULA
 from ehlectric.contact.problems import domain_of, spacings_of
 from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
-from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS
 from ehlectric.quantities.units import to_si, unit_for
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -159,9 +159,8 @@ class _Contact:
         spacings = spacings_of(self.case, self.conditions)
         found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
-        thin = too_rough(
-            table, rough, formulas_of(self.conditions)[BREAKDOWN_FORMULAS[self.case.contact.geometry]]
-        )
+        # The formula that holds in all regimes.
+        thin = too_rough(table, rough, formulas_of(self.conditions)[FORMULA[self.case.contact.geometry]])
         shown = tuple(plainly(one, table, rough, self.domain) for one in page_warnings_of(found))
         return shown if thin is None else (thin, *shown)
 
