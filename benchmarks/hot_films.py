@@ -12,7 +12,7 @@ from time import process_time
 from tests.helpers.hot import ball, paper_line
 
 from ehlectric.film.film_solver import refined_solution
-from ehlectric.film.heated_film import solve_heated_film
+from ehlectric.film.heated_solution import solve_heated_film
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.runtime.threads import quiet_solution
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import FrozenTemperature, energy_imbalance
-from ehlectric.film.film_error import expected_nodes, key_thicknesses
+from ehlectric.film.film_error import key_thicknesses
 from ehlectric.film.film_solver import (
     RefinedSolution,
     StarvedSolution,
@@ -39,6 +39,7 @@ from ehlectric.film.heated_film import (
 from ehlectric.film.hot_oil import HeatedFilm, Physics
 from ehlectric.film.newton import GridSolution, Guess, Progress, Status
 from ehlectric.film.oil_content import Supply
+from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Traction, traction
 from ehlectric.film.starved_solver import Solver, StarvedProblem
@@ -173,10 +174,11 @@ def is_too_fine(problem: FilmProblem, times: int) -> bool:
     width, physics = problem.width, problem.physics
     if width is None or physics is None or physics.plain or times == 1:
         return False
-    nodes = expected_nodes(problem, times)
-    whole = times**2 * (problem.nodes - 1) * (width.y.size - 1)
-    heats_all = nodes == whole and problem.supply is None
-    return nodes > (_MOST_WHOLE if heats_all else _MOST_FROZEN)
+    nodes = times**2 * (problem.nodes - 1) * (width.y.size - 1)
+    if problem.supply is not None:
+        return nodes > _MOST_FROZEN
+    part = part_of_domain(problem, problem.thickness_guess)
+    return part * nodes > (_MOST_FROZEN if part < 1.0 else _MOST_WHOLE)
 
 
 def _most_nodes(problem: FilmProblem) -> int:

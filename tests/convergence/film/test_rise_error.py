@@ -30,10 +30,10 @@ def overrun(monkeypatch, *values):
     coarse = solve(contact(*values))
     if not coarse.converged:
         return None
-    posed, times = heated_film._iteration_on, 2 if values[-1] == "newtonian" else 4
+    posed, times = heated_film.iteration_on, 2 if values[-1] == "newtonian" else 4
     with monkeypatch.context() as patch:
         patch.setattr(
-            heated_film, "_iteration_on", lambda *given, **keys: replace(posed(*given, **keys), degree=DEGREE)
+            heated_film, "iteration_on", lambda *given, **keys: replace(posed(*given, **keys), degree=DEGREE)
         )
         patch.setattr(oil_of_case, "_ABOVE", ABOVE)
         fine = solve(contact(*values, nodes=times * (coarse.film.x.size - 1) + 1))
