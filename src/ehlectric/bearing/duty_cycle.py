@@ -27,7 +27,6 @@ from ehlectric.bearing.cycle_rows import (
 from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, spread_places, values_at
 from ehlectric.bearing.many_points import solved_parts
 from ehlectric.bearing.many_uncertainties import spreads_of
-from ehlectric.bearing.physical_bounds import MOST_MARGIN
 from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.bearing.solution import PARTIAL, touches, touching_ratio
 from ehlectric.bearing.uncertainty import SEED, MarginSpread
@@ -38,6 +37,7 @@ from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.discharge.breakdown_rule import ratio_text
+from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.quantity import data_file

@@ -16,10 +16,8 @@ from scipy.constants import epsilon_0
 from ehlectric.arrays import Array, Mask, Numbers, any_of
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.solution import BearingSolution, RingState
+from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
-
-# Largest margin. A margin above it follows from a voltage or a capacitance that no machine has.
-MOST_MARGIN = 1e6
 
 
 @dataclass(frozen=True)

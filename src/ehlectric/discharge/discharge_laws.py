@@ -27,6 +27,9 @@ LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
 # Film thickness below which electrons tunnel through the film in large numbers [m].
 TUNNELLING = 2e-9
 
+# Largest margin. A larger margin follows from a voltage or a capacitance that no machine has.
+MOST_MARGIN = 1e6
+
 # Published limits of the apparent current density, peak current over Hertz area, above which bearings are
 # damaged [A/m^2].
 CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)

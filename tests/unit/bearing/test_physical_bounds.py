@@ -7,7 +7,8 @@ import pytest
 
 from ehlectric import evaluate, solve_bearing
 from ehlectric.bearing.many_points import solved_parts
-from ehlectric.bearing.physical_bounds import MOST_MARGIN, check_bounds, outside_bounds
+from ehlectric.bearing.physical_bounds import check_bounds, outside_bounds
+from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.each import each
