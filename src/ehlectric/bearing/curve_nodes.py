@@ -16,13 +16,13 @@ _HALVINGS = 16
 
 
 def where_it_bends(
-    values_of: Values, x: Array, values: Array, *, tolerance: float, closest: float
+    values_of: Values, x: Array, values: Array, *, tolerance: float, closest: float, always: int = 1
 ) -> tuple[Array, Array]:
     """Add nodes to curves until straight lines between the nodes are as accurate as wanted.
 
-    Every interval is halved at least once. Both halves are halved again if a value in the middle differs from
-    the straight line. If a curve has a value at one end of an interval only, the half with the end of the
-    curve is halved again.
+    Every interval is halved some times in any case, so that no middle is on a straight line by chance. Then
+    both halves are halved again if a value in the middle differs from the straight line. The halves with
+    values are also halved again if a curve ends in an interval.
 
     Parameters
     ----------
@@ -36,6 +36,8 @@ def where_it_bends(
         Largest difference between a value and the straight line, in the unit of the values.
     closest : float
         Smallest length of an interval that is halved, in the unit of the positions.
+    always : int
+        Number of times that every interval is halved in any case.
 
     Returns
     -------
@@ -55,7 +57,7 @@ def where_it_bends(
     (10, 1)
     """
     low, high = np.arange(x.size - 1), np.arange(1, x.size)
-    for _ in range(_HALVINGS):
+    for number in range(_HALVINGS):
         wide = x[high] - x[low] > closest
         low, high = low[wide], high[wide]
         if not low.size:
@@ -64,7 +66,7 @@ def where_it_bends(
         x = np.append(x, 0.5 * (x[low] + x[high]))
         values = np.append(values, values_of(x[middle]), axis=1)
         first, between, last = (values[:, places] for places in (low, middle, high))
-        left, right = _halved(first, between, last, tolerance)
+        left, right = _halved(first, between, last, tolerance if number + 1 >= always else -1.0)
         low, high = (
             np.concatenate([low[left], middle[right]]),
             np.concatenate([middle[left], high[right]]),
@@ -75,8 +77,11 @@ def where_it_bends(
 
 def _halved(first: Array, middle: Array, last: Array, tolerance: float) -> tuple[Mask, Mask]:
     """Whether the left and the right half of each interval are halved again, shape (n,), from the values at
-    its ends and in its middle, shape (k, n).
+    its ends and in its middle, shape (k, n). A negative tolerance halves every interval with values.
     """
     bent = np.abs(middle - 0.5 * (first + last)) > tolerance
-    left, right = (np.isfinite(middle) != np.isfinite(end) for end in (first, last))
+    known = [np.isfinite(values) for values in (first, middle, last)]
+    # A line is compared only if all three values are known.
+    open_end = ~np.logical_and.reduce(known)
+    left, right = (open_end & (known[1] | end) for end in (known[0], known[2]))
     return np.any(bent | left, axis=0), np.any(bent | right, axis=0)

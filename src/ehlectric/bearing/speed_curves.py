@@ -138,7 +138,7 @@ def _add_bends(points: dict[float, dict[str, Any]], solved: Callable[[Array], li
 
     speeds = sorted(points)
     known = log_of(_columns([points[speed] for speed in speeds]))
-    where_it_bends(logs, np.log(speeds), known, tolerance=_BEND, closest=_CLOSEST)
+    where_it_bends(logs, np.log(speeds), known, tolerance=_BEND, closest=_CLOSEST, always=2)
 
 
 def _columns(summaries: Sequence[Mapping[str, Any] | None]) -> Array:

@@ -44,6 +44,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import AMBER, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
+from ehlectric.sweep.computed_lines import computed_line
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice, applied_at, curve_of, spaced_log, take
 
@@ -64,7 +65,9 @@ class SeriesLine:
 
 @dataclass(frozen=True)
 class LinePath:
-    """Interpolation between the points of the lines of a slice, the same as in a map over the same axes."""
+    """Values between the points of the lines of a slice: computed if a bearing takes a millisecond, and
+    otherwise interpolated as in a map over the same axes.
+    """
 
     results: SweepResults
     selection: Slice
@@ -73,6 +76,9 @@ class LinePath:
 
     def values(self, line: SeriesLine) -> tuple[Array, Array]:
         """Values of x along a line and the drawn values there, both in SI units."""
+        computed = self._computed(line)
+        if computed is not None:
+            return computed
         if self.selection.value != self.selection.breakdown.margin:
             return self._curve(self.selection.values, line)
         places, breaks = self._curve(self.selection.margin * self.selection.voltage, line)
@@ -83,6 +89,13 @@ class LinePath:
         places, voltage = self._curve(self.selection.voltage, line)
         applied = applied_at(self.results, self.selection, places, line.value)
         return places, voltage if applied is None else np.where(np.isfinite(voltage), applied, np.nan)
+
+    def _computed(self, line: SeriesLine) -> tuple[Array, Array] | None:
+        """Computed line; None if it is interpolated."""
+        if self.selection.value in TIME_SHARES or len(self.selection.series()) > NAMED:
+            return None
+        log = by_logarithm(self.selection.values, log_axis=self.log_x or self.log_y)
+        return computed_line(self.results, self.selection, line.numbers, log_x=self.log_x, log=log)
 
     def _curve(self, values: Array, line: SeriesLine) -> tuple[Array, Array]:
         along, heights = self.selection.along[line.numbers], values[line.numbers]
