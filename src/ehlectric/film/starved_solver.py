@@ -47,15 +47,25 @@ def forms_again(full_film: Mask) -> bool:
     return bool(np.any(inner & behind))
 
 
+# Damping of the first Newton step of a film that did not converge without damping.
+_FIRST_DAMPING = 1.0
+
+
 def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int) -> GridSolution:
     """Last iterate, with its content of oil, of a film on one grid that conserves its oil.
 
-    ``order`` is that of the wedge term where oil fills the gap. The surfaces are apart.
+    ``order`` is the order of the wedge term where oil fills the gap. The surfaces are apart. If Newton's
+    method does not converge from the start, its first step is damped: over rough surfaces, a full step from
+    the film of a coarser grid may empty valleys that take many steps to fill again.
     """
     state, filled = start
     guess = Guess(replace(state, contact_pressure=0.0), with_inlet(filled))
-    apart = replace(problem, asperities=Asperities())
-    return isothermal(apart)(guess, flooded_inlet(problem.level, order))
+    apart, supply = replace(problem, asperities=Asperities()), flooded_inlet(problem.level, order)
+    found = isothermal(apart)(guess, supply)
+    if found.status == "converged":
+        return found
+    damped = isothermal(apart, first_damping=_FIRST_DAMPING)(guess, supply)
+    return damped if damped.status == "converged" else found
 
 
 def flooded_inlet(level: Level, order: int, *, first_order: bool = False) -> Supply:

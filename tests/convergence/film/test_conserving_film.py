@@ -126,12 +126,16 @@ def random_point(seed):
 
 
 def keeps_its_oil(case, most=1e-6):
-    """Oil left over is at most a millionth of the mean flow, by the solver's faces or from nodal values."""
+    """Film whose oil left over is at most a millionth of the mean flow.
+
+    The oil is that through the faces of the solver, or follows from nodal values.
+    """
     result = solve(case, beside_smooth=False)
     film = result.film
     assert film.converged
     assert oil_balance(result.case, result.conditions, film).mass_error <= most
     assert (film.mass_residual or 0.0) <= most
+    return film
 
 
 @pytest.mark.slow
@@ -145,6 +149,14 @@ def test_random_lines_keep_their_oil(seed):
 @pytest.mark.parametrize("seed", share(range(40), 8))
 def test_random_points_keep_their_oil(seed):
     keeps_its_oil(random_point(seed))
+
+
+@pytest.mark.slow
+def test_a_line_of_many_nodes_keeps_its_oil():
+    """A line that is refined to 6401 nodes, from a film of 3201 nodes that keeps its oil."""
+    film = keeps_its_oil(line().replace({"grid": {"error": 0.01}}))
+    assert film.x.size > 3201
+    assert film.discretisation_error <= 0.01
 
 
 @pytest.mark.slow
