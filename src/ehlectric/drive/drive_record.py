@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.special import gammaincinv, stdtrit
@@ -155,6 +157,8 @@ class DriveSolution:
     # Whether the films of both bearings are converged.
     converged: bool = field(default=True, metadata=stored("", None, "0 or 1", dtype="i1"))
     told: tuple[ResultWarning, ...] = ()  # warnings about the file of a measured source, and of the bearings
+    # Rating lives at both ends, as in the table ``life`` of a bearing; empty for a file of version 1.0.
+    lives: tuple[Mapping[str, Any], ...] = ()
     # Solved bearings at both ends; none in a loaded result, whose file does not hold them.
     bearings: tuple[BearingResult, ...] = field(default=(), compare=False)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ehlectric.bearing.rating_life import life_summary
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.discharges.march import Films, Segments
@@ -24,6 +25,7 @@ from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import LIMITS
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
 
 # Fundamental periods that are simulated where the case gives no duration, and periods before them in which
@@ -113,6 +115,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         highest_source=ready.highest_source,
         converged=all(one.converged for one in ready.bearings),
         told=(*ready.told, *bearing_warnings(ready.bearings)),
+        lives=tuple(plain(life_summary(one.solution)) for one in ready.bearings),
         bearings=ready.bearings,
     )
 

@@ -14,6 +14,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import Path
 from ehlectric.bearing.cycle_life import CycleLife
 from ehlectric.bearing.cycle_rows import StoredDuty
+from ehlectric.bearing.rating_life import KEYS as LIFE_KEYS
 from ehlectric.bearing.stored import with_smooth_films
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
@@ -21,7 +22,18 @@ from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, 
 from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record
 from ehlectric.errors import TEXTS, texts_and_codes
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.file_rules import (
+    Rule,
+    UnfitError,
+    case_of,
+    is_list,
+    is_number_or_null,
+    is_table,
+    is_text,
+    json_of,
+    number_of,
+    text_of,
+)
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
@@ -119,6 +131,7 @@ def dataset_of(
             "case": solution.case.to_toml(),
             "seconds": seconds,
             TEXTS: json.dumps([texts_and_codes(one.told) for one in solutions]),
+            _LIVES: json.dumps([list(one.lives) for one in solutions]),
             **{key: one for k, duty in enumerate(duties) for key, one in _duty(k).attributes(duty).items()},
         },
     )
@@ -161,11 +174,34 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     values, told = values_of(dataset), warnings_in_tables(attributes)
     if len(told) != len(cases):
         raise UnfitError(f"{TEXTS} is not as it was written")
-    solutions = [_solution_of(values, k, case=own, told=told[k]) for k, own in enumerate(cases)]
+    lives = _lives(attributes, len(cases))
+    solutions = [
+        _solution_of(values, k, case=own, told=told[k], lives=lives[k]) for k, own in enumerate(cases)
+    ]
     remedies = tuple(
         (one.title, dict(one.changes), found) for one, found in zip(case.remedies, solutions[1:], strict=True)
     )
     return solutions[0], remedies, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+# Attribute with the rating lives of both bearings of the drive and of each remedy.
+_LIVES = "lives"
+
+
+def _is_text_or_null(value: Any) -> bool:
+    return value is None or is_text(value)
+
+
+def _lives(attributes: Mapping[Any, Any], variants: int) -> list[tuple[dict[str, Any], ...]]:
+    """Rating lives of both bearings of each variant; none for a file of version 1.0."""
+    if _LIVES not in attributes:
+        return [()] * variants
+    checks = {key: _is_text_or_null if key.endswith("_source") else is_number_or_null for key in LIFE_KEYS}
+    ends = partial(is_list, right=partial(is_table, columns=checks))
+    found = json_of(attributes, _LIVES, partial(is_list, right=ends))
+    if len(found) != variants or any(len(one) != len(ENDS) for one in found):
+        raise UnfitError(f"{_LIVES} is not as it was written")
+    return [tuple(one) for one in found]
 
 
 def _case(tables: dict[str, Any]) -> DriveCase:

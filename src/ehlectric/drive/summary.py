@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ehlectric.bearing.rating_life import KEYS as LIFE_KEYS
+from ehlectric.bearing.rating_life import life_summary
 from ehlectric.bearing.solution import film_error
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
@@ -126,6 +128,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
         },
         **_events(record, b, edges_per_second(case)),
         **_densities(solution, b),
+        "life": dict(solution.lives[b]) if solution.lives else dict.fromkeys(LIFE_KEYS),
     }
 
 
@@ -153,6 +156,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
             "voltage_at_peak": ratio * highest,
             "films": result.case.contacts,
             "films_error": film_error(result.solution),
+            "life": life_summary(result.solution),
         }
         for end, one, ratio, result in zip(ENDS, ready.elements, ready.divider, ready.bearings, strict=True)
     }

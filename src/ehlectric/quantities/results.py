@@ -126,7 +126,7 @@ BEARING_BOOK: Keys = {**BEARING_KEYS, **_read("bearing", stored=False)}
 ELEMENT_KEYS: Keys = _within("contacts", BEARING_KEYS)
 
 # Drives: the table "end" is that of the bearing at either end, "event" a row of the table of discharges.
-_DRIVE = _read("drive")
+_DRIVE = {**_read("drive"), **under("end.life", _within("life", BEARING_KEYS))}
 _ENDS: Keys = {
     f"{end}.{name}": replace(one, label=f"{one.label}, {words}" if one.label else "")
     for end, words in NAMES_OF_ENDS.items()

@@ -225,6 +225,11 @@ def _unless_zero(name: str) -> Callable[[Summary], Any]:
     return lambda summary: summary["end"].get(name) or None
 
 
+def _rating_note(name: str) -> Callable[[Summary], str]:
+    """Note with the origin of a load rating of the bearing at an end."""
+    return lambda summary: f", {summary['end']['life'][f'{name}_rating_source']}"
+
+
 def _contact_current(summary: Summary) -> Any:
     """Current through asperities; None where it is none in both bearings."""
     either = any(summary[end]["contact_current"] for end in ENDS)
@@ -242,6 +247,7 @@ _WORDS = Words(
             ", by its table at this speed" if "grounding_ring_table" in s["inputs"]["circuit"] else ""
         ),
         "end.films": lambda s: f", films may be {percent(s['end']['films_error'])} off",
+        **{f"end.life.{name}_rating": _rating_note(name) for name in ("dynamic", "static")},
         "end.breakdown_voltage": lambda s: (
             ", at a probability of 63.2 %" if s["end"]["weibull_shape"] is not None else ""
         ),

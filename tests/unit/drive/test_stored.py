@@ -5,13 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import InputError, load, save, solve_drive
+from ehlectric import InputError, load, save, solve, solve_drive
 from ehlectric.drive import run as of_drives
 from ehlectric.drive.result import DriveResult
+from ehlectric.drive.solver import prepare
 from ehlectric.drive.stored import check, parts_of
+from ehlectric.drive.summary import checked_summary
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.file_rules import UnfitError
+from ehlectric.tables.drive_tables import drive_rows
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 
@@ -23,7 +26,11 @@ SIGNS = ("events_per_second_positive", "events_per_second_negative")
 def drive():
     """Drive with two different bearings, and a warning about a file."""
     case = drive_with_remedy().replace(
-        {"non_drive_end.bearing.radial_load": "500 N", "non_drive_end.bearing.parallel_capacitance": "20 pF"}
+        {
+            "non_drive_end.bearing.radial_load": "500 N",
+            "non_drive_end.bearing.parallel_capacitance": "20 pF",
+            "non_drive_end.bearing.life": {"contamination_factor": 0.5, "dynamic_rating": 29_100.0},
+        }
     )
     result = solve_drive(case, workers=1)
     told = (ResultWarning("waveform-coarse", "told by hand"), *result.solution.told)
@@ -43,6 +50,24 @@ def test_a_loaded_result_equals_the_saved_one(drive, tmp_path):
         assert list(map(str, again.warnings)) == list(map(str, drive.warnings))
     assert again.solution.bearings == ()
     assert len(drive.solution.bearings) == 2
+
+
+@pytest.mark.slow
+def test_each_bearing_of_a_drive_has_its_rating_life(drive):
+    """The life of the bearing alone, and L_10 by hand from 29.1 kN and the load at the non-drive end."""
+    first, second = (drive.summary()[end]["life"] for end in ENDS)
+    assert first["basic_life"] is None
+    bearing = drive.case.bearings[1]
+    alone = solve(bearing).summary(probable=False)["life"]
+    assert second == alone
+    turns = bearing.bearing.inner_speed / (2.0 * np.pi)
+    expected = (29_100.0 / second["equivalent_load"]) ** 3 * 1e6 / turns
+    assert second["basic_life"] == pytest.approx(expected, rel=1e-9)
+    rows = {row.key: row for row in drive_rows(drive.summary())}
+    assert rows["non_drive_end.life.dynamic_rating"].text == "29100 N, given"
+    assert "drive_end.life.basic_life" not in rows
+    checked = checked_summary(prepare(drive.case, workers=1))
+    assert checked["non_drive_end"]["life"]["basic_life"] == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.slow
