@@ -34,7 +34,8 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """Verdict on a sweep from the margins of its points.
 
     Returns green where no margin is below 1, red where all are, else yellow; it is not green where points
-    have no margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where
+    have no margin: they are not solved or must not be used, or their surfaces touch. It is not red if
+    points are not solved or must not be used: their margins may lie on the other side. Nor is it green where
     the margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
     the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by its
     warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces touch at
@@ -70,10 +71,20 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
             f"At {touching} of the points the surfaces touch: spots conduct, and the margin is that of the "
             "boundary film; use the asperities of these points."
         )
-    level: Level = "red" if below == known.size else "yellow" if below or missing or touching else "green"
+    # A point that is not solved may lie on either side.
+    everywhere = below == known.size and not _not_solved(results, usable)
+    level: Level = "red" if everywhere else "yellow" if below or missing or touching else "green"
     if doubts:
         level = "yellow"
     return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
+
+
+def _not_solved(results: SweepPoints, margins: Array) -> int:
+    """Number of the points without a margin that are not solved or must not be used."""
+    return sum(
+        not math.isfinite(margin) and (not point.solved or point.doubtful)
+        for point, margin in zip(results.points, margins, strict=True)
+    )
 
 
 def _without_voltages(results: SweepPoints) -> Verdict | None:

@@ -197,6 +197,26 @@ def test_share_of_samples_that_break_down():
     assert sensitivity(sobol(ranges, 256, breakdown), "film.minimum_thickness").share_below_voltage is None
 
 
+def test_samples_that_are_not_solved_leave_bounds():
+    """All samples below 1 m/s fail: they may break down or not, and any quantile may be one of them."""
+    ranges = {SPEED: Range(0.5, 4.5), LOAD: Range(1e6, 1e6 + 1e-3)}
+    whole = sobol(ranges, 256, breakdown)
+    samples = whole.points[:512]
+    failed = [point.number for point in samples if point.inputs[SPEED] < 1.0]
+    below = sum(10.0 * (point.inputs[SPEED] / 4.0) ** 0.7 < 5.0 for point in samples)
+    assert 0 < len(failed) < below
+    found = sensitivity(without(whole, failed), "discharge.margin", resamples=10)
+    low, high = found.share_below_voltage_bounds
+    assert (low, high) == pytest.approx(((below - len(failed)) / 512.0, below / 512.0))
+    assert low < found.share_below_voltage < high
+    known = sensitivity(whole, "discharge.margin", resamples=10).spread
+    assert found.spread.failed == len(failed)
+    for q, (least, most) in found.spread.quantile_bounds.items():
+        assert least is None or least <= known.quantiles[q]
+        assert most is None or most >= known.quantiles[q]
+        assert (least is None) == (q < len(failed) / 512.0)
+
+
 def test_same_seed_same_intervals():
     rows = some_rows()
     one, same, other = (intervals(*rows, resamples=50, seed=seed) for seed in (1, 1, 2))

@@ -266,3 +266,17 @@ def test_the_example_is_mapped_by_the_command(tmp_path):
     known = values[:, 0]
     # A faster bearing has thicker films.
     assert np.all(np.diff(known[np.isfinite(known)]) < 0.0)
+
+
+@pytest.mark.slow
+def test_a_point_with_samples_without_a_result_has_the_warning_and_the_bounds():
+    """Up to 230 degC the oil has no viscosity: the point alone and the point of a batch warn."""
+    case = with_motor(ranges={"bearing.temperature": ["60 degC", "230 degC"]})
+    for outcome, table in outcomes(swept({SPEED: ["1500 rpm", "6000 rpm"]}, case)):
+        found = outcome.summary["uncertainty"]
+        part = found["failed"] / found["samples"]
+        assert 0.0 < part < 1.0
+        low, high = found["breakdown_probability_low"], found["breakdown_probability_high"]
+        assert high - low == pytest.approx(part)
+        assert "probability-bounded" in outcome.summary["warning_codes"]
+        assert "probability-bounded" in solve_point(table, 32).summary["warning_codes"]

@@ -180,3 +180,11 @@ def test_a_linear_input_below_zero_is_interpolated_as_it_is():
     assert crossing((-5e-6, 0.5), (15e-6, 2.0)) == pytest.approx(5e-6)
     assert crossing((2.0, 0.5), (8.0, 2.0)) == pytest.approx(4.0)
     assert value_text("bearing.contact_angle", np.deg2rad(25.0), bearing_case(BALLS)) == "25 deg"
+
+
+def test_a_point_that_is_not_solved_leaves_no_red_verdict():
+    """Its margin may be above 1; a point whose surfaces touch breaks down."""
+    axes = {SPEED: (1.0, 2.0)}
+    failed = sweep_verdict(sweep(axes, [0.5, None], at_1={"status": "failed"}))
+    assert failed.level == "yellow"
+    assert sweep_verdict(sweep(axes, [0.5, None], at_1={"lubrication": "conducting"})).level == "red"
