@@ -111,6 +111,24 @@ def test_a_hot_film_on_a_patch_is_that_on_the_whole_domain():
     assert patch.film_error > abs(patch.film.central_thickness / whole.film.central_thickness - 1.0)
 
 
+@pytest.mark.slow
+def test_a_starved_hot_film_is_refined_at_the_temperature_of_its_first_grid():
+    """One doubling from 65 x 65 nodes, and the film with its own temperature on 129 x 129."""
+    inlet = {"inlet": {"film_ratio": 0.5}}
+    refined = ball(HOT, {"nodes": 65, "refine": 1e-4, "most_nodes": 129}, entrainment_speed="1 m/s")
+    fixed = ball(HOT, {"nodes": 129}, entrainment_speed="1 m/s")
+    found, whole = (solve(case.replace(inlet)) for case in (refined, fixed))
+    assert found.film.thickness.shape == whole.film.thickness.shape == (129, 129)
+    for film in (found.film, whole.film):
+        assert film.starvation.film_ratio == pytest.approx(0.5, abs=1e-3)
+    one, other = found.film, whole.film
+    assert one.minimum_thickness == pytest.approx(other.minimum_thickness, rel=0.01)
+    assert one.central_thickness == pytest.approx(other.central_thickness, rel=0.005)
+    isothermal = one.heated.isothermal_minimum_thickness
+    assert isothermal == pytest.approx(other.heated.isothermal_minimum_thickness, rel=1e-4)
+    assert found.film_error == pytest.approx(whole.film_error, rel=0.1)
+
+
 def test_a_grid_that_takes_minutes_is_not_tried():
     """A patch of 8192 intervals along x has 20 million nodes: heat and shear end the refinement before."""
     from ehlectric.contact.check import check_case
