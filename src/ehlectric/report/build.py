@@ -98,7 +98,7 @@ def _contact(result: Any) -> Part:
         date=result.to_xarray().attrs.get("date", ""),
         kind=f"{result.case.contact.geometry} contact",
         command="run",
-        first=(Numbers(numbers_of(rows, CONTACT_CARDS)),),
+        first=(Numbers(numbers_of(rows, CONTACT_CARDS, {})),),
         numbers=tuple(row_tables(rows, "Overview")),
     )
 

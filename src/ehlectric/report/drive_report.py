@@ -30,7 +30,7 @@ from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
-from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range, with_place
+from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
@@ -297,8 +297,9 @@ def drive_part(result: DriveResult) -> Part:
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Numbers of both bearings, remedies, and the three values that decide most."""
     places = NAMES_OF_ENDS.items()
-    ends = {end: [with_place(row, summary) for row in end_rows(summary, end)] for end, _ in places}
-    numbers = (numbers_of(ends[end], FIRST_PAGE_OF_DRIVE, place) for end, place in places)
+    numbers = (
+        numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, summary, place) for end, place in places
+    )
     yield Numbers(tuple(chain.from_iterable(numbers)))
     if result.remedies:
         heads, *cells = remedy_rates(summary)

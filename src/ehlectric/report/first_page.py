@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,7 @@ from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
-from ehlectric.quantities.rows import Row, placed
+from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.quantities.units import rpm
 from ehlectric.report.background import given_inputs, input_text, named
@@ -95,20 +96,26 @@ def _short(light: Light) -> Light:
 
 
 def numbers_of(
-    rows: Iterable[Row], keys: Mapping[str, Iterable[str]], place: str = ""
+    rows: Iterable[Row], keys: Mapping[str, Iterable[str]], summary: Summary, place: str = ""
 ) -> tuple[tuple[str, str, str], ...]:
-    """Large numbers of those keys that have a row, each with the rows of further keys in its note. ``place``,
-    name of the end of a drive that they belong to.
+    """Large numbers of those keys that have a row, each with the rows of further keys in its note; labels
+    state the operating point next to a duty cycle of the ``summary``. ``place``, name of the end of a drive.
     """
     known = {row.key: row for row in rows if row.key}
-    return tuple(_number(key, keys[key], known, place) for key in keys if key in known)[:_MOST]
+    return tuple(
+        _number(key, keys[key], known, (placed("", key, summary).removeprefix(", "), place))
+        for key in keys
+        if key in known
+    )[:_MOST]
 
 
-def _number(key: str, further: Iterable[str], rows: Mapping[str, Row], place: str) -> tuple[str, str, str]:
-    """Label, value and note of a large number."""
+def _number(
+    key: str, further: Iterable[str], rows: Mapping[str, Row], places: tuple[str, ...]
+) -> tuple[str, str, str]:
+    """Label, value and note of a large number; ``places``, what the label names besides the quantity."""
     row = rows[key]
     row = replace(row, digits=".3g") if row.digits == ".4g" else row
-    label = ", ".join(filter(None, [f"{row.name[:1].upper()}{row.name[1:]}", place]))
+    label = ", ".join(filter(None, [f"{row.name[:1].upper()}{row.name[1:]}", *places]))
     below = [
         f"{rows[name].name.removeprefix(f'{row.name}, ')} {rows[name].bounded}{_unit(rows[name])}"
         for name in further
@@ -129,8 +136,8 @@ def _unit(row: Row) -> str:
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
     """Numbers of a bearing, what would raise its margin, and what to measure first."""
     totals = tuple(totals)
-    shown = (with_place(_with_chance(summary, row), summary) for row in totals)
-    yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING))
+    shown = map(partial(_with_chance, summary), totals)
+    yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING, summary))
     yield from _lives({row.key: row for row in totals})
     given = flattened(case.to_dict())
     own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
@@ -178,23 +185,28 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
     )
 
 
-def with_place(row: Row, summary: Mapping[str, Any]) -> Row:
-    """Row outside of its section, whose name states the operating point next to a duty cycle."""
-    return replace(row, name=placed(row.name, row.key, summary)) if row.key else row
-
-
 def _lives(rows: Mapping[str, Row]) -> Iterator[Text]:
     """Sentences with the rating lives of a bearing and with the numbers from which they follow, and with its
     lives over a duty cycle; none if no row is a life.
     """
     for place, keys in FIRST_PAGE_OF_LIFE.items():
-        # The symbol is the last word of the label of the operating point.
-        symbols = {
-            key: BEARING_BOOK[f"life.{key.partition('.')[2]}"].label.rpartition(" ")[2] for key in keys
-        }
-        text = "; ".join(f"{symbols[key]} = {rows[key].text}" for key in keys if key in rows)
-        if text:
-            yield Text(with_units_kept(f"{SENTENCES[f'rating_life_{place}']}: {text}."), "small")
+        known = {_symbol(key): rows[key] for key in keys if key in rows}
+        texts = [f"{symbol} {_equals(row)}" for symbol, row in known.items()]
+        notes = {symbol: row.note.lstrip(", ") for symbol, row in known.items() if symbol in ("C", "C0")}
+        for source in dict.fromkeys(notes.values()):
+            texts.append(f"{', '.join(symbol for symbol, own in notes.items() if own == source)} {source}")
+        if texts:
+            yield Text(with_units_kept(f"{SENTENCES[f'rating_life_{place}']}: {'; '.join(texts)}."), "small")
+
+
+def _symbol(key: str) -> str:
+    """Symbol of a number of the rating life: the last word of its label at the operating point."""
+    return BEARING_BOOK[f"life.{key.partition('.')[2]}"].label.rpartition(" ")[2]
+
+
+def _equals(row: Row) -> str:
+    """Value with its unit after the sign "=", or after the words or the sign of a bound."""
+    return row.amount if row.bound or row.amount.startswith("above") else f"= {row.amount}"
 
 
 def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:

@@ -180,7 +180,7 @@ def life_of(report):
     """Texts of the rating life by symbol."""
     (text,) = [one.text for one in blocks(report, Text) if one.text.startswith(LIFE)]
     parts = text.removeprefix(f"{LIFE}: ").removesuffix(".").replace("\xa0", " ").split("; ")
-    return dict(part.split(" = ", 1) for part in parts)
+    return dict(part.replace("= ", "").split(" ", 1) for part in parts)
 
 
 @pytest.mark.slow

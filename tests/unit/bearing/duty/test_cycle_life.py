@@ -160,6 +160,7 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
     text = page.read_text(encoding="utf-8").replace("\xa0", " ")
     assert "Rating life of the duty cycle: P = 2537 N; L10 = 10100 h" in text
     assert "Rating life at the operating point: C = 29100 N" in text
+    assert "C, C0 given." in text
 
 
 @pytest.mark.slow
