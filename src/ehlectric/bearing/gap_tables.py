@@ -274,12 +274,14 @@ def rigid_balls(race: Raceway, gap: Numbers) -> Array:
     """Capacitance in vacuum [F] between unloaded, rigid balls and raceway, as of ``groove_capacitance``.
 
     ``race``, raceways of the points; ``gap``, gap at the contact angle [m]; they broadcast to the shape
-    (...). Returns capacitance [F], shape (...); NaN where a number is NaN or not positive, or the contact
-    angle is not in the groove. Polynomials have a relative error of about 3e-9.
+    (...). Returns capacitance [F], shape (...); NaN if a number is NaN or not positive, the gap is above the
+    radius of the ball, or the contact angle is not in the groove. Polynomials have a relative error of about
+    3e-9.
     """
     contacts = _Contacts.of(race, gap)
     gap, size = contacts.row(gap), contacts.size
-    valid = np.isfinite(gap) & (gap > 0.0) & contacts.of_point(contacts.race.holds)
+    radius = contacts.of_point(contacts.race.ball_radius)
+    valid = (gap > 0.0) & (gap <= radius) & contacts.of_point(contacts.race.holds)
     found, table = np.full(gap.shape, np.nan), None
     unit_length = contacts.of_point(contacts.length)[valid]
     variables = np.square(contacts.angles), np.log(gap[valid] / unit_length), *contacts.varying(valid)

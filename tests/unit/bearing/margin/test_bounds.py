@@ -122,3 +122,21 @@ def test_a_quantile_is_a_bound():
     assert few.low < Chance.of(np.linspace(1.0, 2.0, 98)).low
     assert few.high > Chance.of(np.linspace(1.0, 2.0, 98)).high
     assert few.failed / few.samples < UNLIKELY
+
+
+@pytest.mark.slow
+def test_points_with_films_above_a_ball_have_no_result():
+    """An oil of a low viscosity index near -20 degC: films of light balls are thicker than the balls."""
+    oil = {"kinematic_viscosity_40": "100 mm^2/s", "kinematic_viscosity_100": "5.8 mm^2/s"}
+    bearing = {
+        "radial_load": "750 N",
+        "axial_load": "125 N",
+        "inner_speed": "83 rpm",
+        "temperature": "-11 degC",
+    }
+    lubricant = CASE["lubricant"] | {"temperature": CASE["lubricant"]["temperature"] | oil}
+    case = BearingCase.from_dict(CASE | {"bearing": CASE["bearing"] | bearing, "lubricant": lubricant})
+    found = solve_bearing(case, workers=1)
+    low, high = found.uncertainty.bounds
+    assert high - low == pytest.approx(found.uncertainty.failed / found.uncertainty.samples)
+    assert found.verdict.level == "yellow"
