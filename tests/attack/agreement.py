@@ -27,6 +27,7 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.commands.command_line import app
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.values import is_number
 from tests.helpers.kinds_of_bearings import DISCHARGE, KINDS, LIFE, MOTOR, OIL, POINT
 
@@ -98,7 +99,7 @@ def bearing(rng: np.random.Generator) -> Table:
     """Bearing of any kind, with contacts of the atlas or by formula, and some of its tables."""
     kind = list(KINDS)[rng.integers(len(KINDS))]
     own: Table = {**POINT, **KINDS[kind]}
-    own["inner_speed"] = f"{_log(rng, 5.0, 15000.0)} rpm"
+    own["inner_speed"] = f"{_log(rng, 5.0, 15000.0):.1f} rpm"
     own["composite_rq"] = _log(rng, 1e-8, 2e-7)
     own["temperature"] = float(rng.integers(260, 420))
     if "radial_clearance" in own:
@@ -137,7 +138,7 @@ def drive(rng: np.random.Generator) -> Table:
         ends.append(end)
     table: Table = {
         "drive": {
-            "speed": f"{_log(rng, 300.0, 5000.0)} rpm",
+            "speed": f"{_log(rng, 300.0, 5000.0):.1f} rpm",
             "temperature": "70 degC",
             "duration": "5 ms",
             "seed": int(rng.integers(100)),
@@ -160,7 +161,7 @@ def drive(rng: np.random.Generator) -> Table:
         "non_drive_end": ends[1],
     }
     if rng.random() < 0.3:
-        rows = "\n".join(f"{k},{_log(rng, 100.0, 5000.0)}" for k in range(3))
+        rows = "\n".join(f"{k},{_log(rng, 100.0, 5000.0):.1f}" for k in range(3))
         table["duty"] = {"file": f"time [s],speed [rpm]\n{rows}\n"}
     return table
 
@@ -194,7 +195,7 @@ def differences(kind: str, seed: int, number: int, folder: Path) -> tuple[list[s
     }
     if isinstance(first, Mapping):
         ways["load"] = lambda: json.loads(json.dumps(load(out).summary()))
-    if isinstance(case, BearingCase):
+    if not isinstance(case, Case):
         ways["evaluate"] = lambda: _evaluate(case)
     for name, ask in ways.items():
         found += [f"{name}: {one}" for one in _unlike(first, ask(), name)]
@@ -264,11 +265,17 @@ def _numbers(case: Asked) -> Iterator[tuple[str, float]]:
             yield key, value
 
 
-def _evaluate(case: BearingCase) -> Mapping[str, Any] | str:
-    found = evaluate(case, {"bearing.composite_rq": [case.bearing.composite_rq]}).isel(point=0)
-    if not bool(found["converged"]):
-        return str(found["reason"].item())
-    return {name: found[name].item() for name in found.data_vars}
+def _evaluate(case: BearingCase | DriveCase) -> Mapping[str, Any] | str:
+    """Numbers of a bearing, or of both bearings of a drive, at one point."""
+    key, value = next(_numbers(case))
+    found = evaluate(case, {key: [value]}).isel(point=0)
+    for end in ("", "drive_end.", "non_drive_end."):
+        if f"{end}converged" in found and not bool(found[f"{end}converged"]):
+            return str(found[f"{end}reason"].item())
+    values = {name: found[name].item() for name in found.data_vars}
+    # The summary of a drive has these numbers of a bearing next to numbers of the simulation.
+    ends = [f"{end}.{key}" for end in ENDS for key in ("capacitance", "touching_time_share")]
+    return values | {key: values.get(key.replace(".", ".bearing.")) for key in ends}
 
 
 def _unlike(first: Mapping[str, Any] | str, other: Mapping[str, Any] | str, way: str) -> Iterator[str]:
@@ -288,18 +295,19 @@ def _unlike(first: Mapping[str, Any] | str, other: Mapping[str, Any] | str, way:
                 yield f"{key} is missing"
         elif not _alike(value, right[key]):
             yield f"{key} is {right[key]!r}, and by command {value!r}"
-    if not whole and (codes := _codes(left) ^ _codes(right)):
+    if not whole and "warning_codes" in right and (codes := _codes(left) ^ _codes(right)):
         yield f"only one of both has the warnings {codes}"
 
 
-# Keys that tables of many points have in another form, and the codes of a duty cycle, which no point has.
+# Keys that tables of many points have in another form, and beginnings of codes about a duty cycle or about a
+# probability, which points do not have.
 _OF_RESULTS = ("status", "warnings", "warning_codes", "title")
 
 
 def _codes(table: Mapping[str, Any]) -> set[str]:
     codes = table["warning_codes"]
     names = codes.split("; ") if isinstance(codes, str) else codes
-    return {name for name in names if name and not name.startswith(("duty", "columns"))}
+    return {name for name in names if name and not name.startswith(("duty", "columns", "probability"))}
 
 
 def _alike(first: Any, second: Any) -> bool:

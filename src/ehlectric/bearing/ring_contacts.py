@@ -673,9 +673,11 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
 
     The domain of a contact suits its regime, and the voltage of a single contact is not that of the bearing.
     The films of light contacts are too thin by what their domain cuts off, which makes no margin too large:
-    by 0.3 to 2.4 % under rollers, by more under balls that hardly press.
+    by 0.3 to 2.4 % under rollers, by more under balls that hardly press. Inputs of the bearing have checks
+    of their own, and light contacts of every bearing have unusual pressures.
     """
-    left_out = {"regime", "breakdown-expected", "inlet-too-short", "domain-too-small", "domain-far-too-small"}
+    of_domain = {"inlet-too-short", "domain-too-small", "domain-far-too-small"}
+    left_out = {"regime", "breakdown-expected", "value-unusual", *of_domain}
     return tuple(warning for warning in warnings if warning.code not in left_out)
 
 

@@ -39,6 +39,13 @@ def test_limits_of_the_current_density_are_no_values_of_three_points():
     assert differences(case, {"discharge.peak_current": [1.0, 2.0, 3.0]}) == []
 
 
+def test_light_loads_of_elements_are_no_unusual_pressures():
+    """The least loaded rollers of the largest load that is too low have some megapascals."""
+    case = bearing_of("tapered", contacts="formula")
+    loads = {"bearing.radial_load": [3.0, 3000.0], "bearing.axial_load": [1.2, 2000.0]}
+    assert differences(case, loads) == []
+
+
 def test_the_viscosity_of_the_library_is_noted_where_it_is_used():
     case = bearing_of("thrust needle", contacts="formula", lubricant={"base": "paper"})
     assert differences(case, {"lubricant.viscosity": [0.04, 0.039, 0.04]}) == []
