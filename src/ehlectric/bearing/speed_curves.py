@@ -48,7 +48,7 @@ def over_speed(
 ) -> tuple[list[Speed], list[ResultWarning]]:
     """Compute the numbers of a bearing at speeds around the speed of its case, with contacts from the atlas.
 
-    Contacts by formula remain contacts by formula. The loads of the contacts have fewer nodes than in
+    A case with formulas for its contacts keeps the formulas. Contacts have fewer loads than in
     ``solve_bearing``: numbers differ by less than 1e-3.
 
     Parameters
@@ -109,7 +109,7 @@ def over_speed(
 
 
 def _with_ratio(case: BearingCase, own_ratio: float) -> BearingCase:
-    """Quick case whose lambda ratio at its own speed is a given one; unchanged without a result there."""
+    """Case with a given lambda ratio at its own speed; unchanged without a result at this speed."""
     _, several = over_parts(case)
     ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
     return with_films_scaled(case, own_ratio / ratio) if ratio > 0.0 else case
@@ -231,7 +231,7 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
 
 
 def listed(points: Speeds, own: float) -> list[Speed]:
-    """Points for a table: all of a few, else those at the speeds of ``PARTS`` times the own speed [rad/s]."""
+    """Points for a table: all of a few, else the points at ``PARTS`` times the own speed [rad/s]."""
     if len(points) < _FEW:
         return list(points)
     parts = np.log(PARTS)

@@ -215,7 +215,7 @@ class Form:
                 await self._change(key, value)
 
     def _tell_also(self, text: str, *, stays: bool) -> None:
-        """Tell which further inputs changed: for a while, or until the next change of the kind of bearing."""
+        """Show which further inputs changed: for a while, or until the kind of bearing changes again."""
         if stays:
             self.note.classes(add="stays")
             say(self.note, text)
