@@ -146,12 +146,16 @@ def remedy_cells(
 
 
 def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Heads of the short table of remedies, then a row for each drive: discharges of both bearings."""
-    (*_, rate), places = REMEDIES[0].keys[:1], (*NAMES_OF_ENDS.values(), BOTH)
-    yield "remedy", *(f"{head_of(DRIVE_BOOK[rate])}, {place}" for place in places)
+    """Heads of the short table of remedies, then a row for each drive: discharges in a second of each bearing
+    and of both, and if there is a duty cycle, discharges of both over the cycle.
+    """
+    places = {**NAMES_OF_ENDS, BOTH: BOTH}
+    columns = [("end.events_per_second", end) for end in places]
+    columns += [("end.duty_discharges", BOTH)] if summary.get("duty") else []
+    yield "remedy", *(f"{head_of(DRIVE_BOOK[key])}, {places[end]}" for key, end in columns)
     for title, tables in remedied(summary):
-        cells = (_remedy_rows(tables, end).get(rate) for end in (*ENDS, BOTH))
-        yield printable(title), *map(_cell, cells)
+        rows = {end: _remedy_rows(tables, end) for end in places}
+        yield printable(title), *(_cell(rows[end].get(key)) for key, end in columns)
 
 
 def _remedy_rows(tables: Summary, end: str) -> dict[str, Row]:

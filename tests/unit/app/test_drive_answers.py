@@ -206,10 +206,10 @@ def test_remedies_stand_side_by_side(simulated):
     answer, out, _ = simulated
     titles = [row[0] for row in answer.remedies.rows]
     names = ["as it is", *(one["title"] for one in SHORT.value("remedies"))]
-    assert titles == [name for name in names for _ in range(3)]
+    assert titles == names
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     rates = [summary[table]["events_per_second"] for table in (*ENDS, "drive")]
-    assert [float(row[2]) for row in answer.remedies.rows[:3]] == pytest.approx(rates, rel=5e-3)
+    assert list(map(float, answer.remedies.rows[0][1:])) == pytest.approx(rates, rel=5e-3)
     chart = answer.figures["remedies"]
     # A ring leaves no discharge: its mark is the upper bound.
     ring = summary["remedies"][0]["drive_end"]

@@ -105,6 +105,9 @@ def test_the_cycle_of_a_remedy_is_the_cycle_of_the_changed_drive(tmp_path):
     heads, *cells = remedy_cells(remedied(summary))
     place = next(k for k, head in enumerate(heads) if head.startswith("discharges in the cycle"))
     assert float(cells[5][place].replace(" ", "")) == pytest.approx(remedy["duty"]["discharges"], rel=5e-3)
+    (*_, last), *short = remedy_rates(summary)
+    assert last == "discharges in the cycle, both"
+    assert float(short[1][-1]) == pytest.approx(remedy["duty"]["discharges"], rel=5e-3)
     save(result, tmp_path)
     again = load(tmp_path)
     assert again == result

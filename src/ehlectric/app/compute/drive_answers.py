@@ -49,8 +49,7 @@ from ehlectric.tables.drive_tables import (
     drive_rows,
     end_cells,
     prepared_rows,
-    remedied,
-    remedy_cells,
+    remedy_rates,
     side_by_side,
     whole_rows,
 )
@@ -90,7 +89,7 @@ def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     """The drive and its remedies side by side; None without remedies."""
     if not summary["remedies"]:
         return None
-    (_, *heads), *rows = remedy_cells(remedied(summary), intervals=False)
+    (_, *heads), *rows = remedy_rates(summary)
     return Table("Each bearing, and both together", ("", *heads), tuple(rows))
 
 
