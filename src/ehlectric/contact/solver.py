@@ -27,7 +27,7 @@ from ehlectric.contact.contact_solution import Smooth
 from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
-from ehlectric.contact.touching import Coarser, spot_warnings
+from ehlectric.contact.touching import Coarser, makes_oil, spot_warnings
 from ehlectric.contact.warnings import accuracy_warnings, case_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.film_breakdown import field_flags
@@ -185,6 +185,8 @@ def solve_prepared(
     geometry = conditions.geometry
     contact, films = _on_large_domain(contact, solvers, progress, on_grid)
     film = films.film
+    if makes_oil(case, conditions, film):
+        film = replace(film, status="stalled")
     LOGGER.info(
         "%s contact: film %s on %s nodes in %.2g s, residual %.1e",
         geometry,

@@ -351,6 +351,14 @@ def oil_balance(
     return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
 
 
+def makes_oil(case: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm) -> bool:
+    """Whether a converged rough film makes or loses so much oil that it counts as not converged."""
+    if not (film.converged and case.roughness):
+        return False
+    balance = oil_balance(case, conditions, film)
+    return balance is not None and balance.mass_error > _MOST_MASS_ERROR
+
+
 # Answer of a contact in one word.
 Behaviour: TypeAlias = Literal["resistive", "mixed", "capacitive"]
 
@@ -676,6 +684,12 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.
 MASS_ERROR = 1e-3
 
+# Oil above which a film counts as not converged, as a hot film does above the same part of its heat.
+_MOST_MASS_ERROR = 0.1
+
+# Residual up to which the balance of the oil is a property of the film and not of its iteration.
+_SETTLED = 1e-6
+
 
 # Smallest load share, and smallest part of the mean flow of the oil, that a text states as a number.
 _LEAST_SHARE = 1e-4
@@ -715,21 +729,22 @@ def spot_warnings(
     film: Film | PointFilm,
     coarser: Coarser | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a converged film that is rough or touches.
+    """Warnings about a film that is rough or touches, and whose residual is small.
 
     They tell that the surfaces touch, in the domain or at its edge, that oil appears or is lost, and that the
     load share depends on the grid. ``coarser`` has the asperities on a grid with half the nodes, or is None
     if it was not solved.
     """
+    settled = film.residual is not None and film.residual <= _SETTLED
+    if settled and (case.roughness or np.any(film.contact)):
+        balance = oil_balance(case, conditions, film)
+        if balance is not None and balance.mass_error > MASS_ERROR:
+            yield _not_conserved(balance)
     if not film.converged:
         return
     if conditions.boundary_film > 0.0 and _edge_gap(film) <= (1.0 + _ROUNDING) * conditions.boundary_film:
         sides = " or grid.side" if film.thickness.ndim == 2 else ""
         yield ResultWarning.of("domain-too-small", "touching", sides=sides)
-    if case.roughness or np.any(film.contact):
-        balance = oil_balance(case, conditions, film)
-        if balance is not None and balance.mass_error > MASS_ERROR:
-            yield _not_conserved(balance)
     if not np.any(film.contact):
         return
     spots = spots_of(film)

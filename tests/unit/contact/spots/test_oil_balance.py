@@ -132,6 +132,19 @@ def test_a_film_that_makes_oil_is_told():
 
 
 @pytest.mark.slow
+def test_a_film_that_makes_much_oil_is_not_converged():
+    """A nearly dry line, of which no film that conserves its oil is found."""
+    case = rough_line(sinusoid("140 nm", "60 um"), speed=1e-4, nodes=401)
+    result = solve(case, beside_smooth=False)
+    balance = oil_balance(case, result.conditions, result.film)
+    assert balance.mass_error > 0.1
+    assert result.film.residual < 1e-6
+    assert not result.converged
+    assert {"not-converged", "oil-not-conserved"} <= {warning.code for warning in result.warnings}
+    assert result_rows(result)[0].name == "NOT CONVERGED"
+
+
+@pytest.mark.slow
 @each("geometry", ["line", "point"])
 def test_of_a_film_that_keeps_its_oil_nothing_is_told(geometry):
     kept = solved(geometry)
