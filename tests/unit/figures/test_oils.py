@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.cases.oil_report import oil_report
+from ehlectric.cases.oil_report import PROPERTIES, oil_report
 from ehlectric.figures.oil_figures import over_pressure, over_temperature, save_oil
 from ehlectric.figures.style import figure_of
 
@@ -45,6 +45,24 @@ def test_curves_over_pressure_are_the_values_of_the_table():
     assert "Not known: volumetric heat capacity" in title
     assert panel(axes, "viscosity").get_title(loc="left") == "modulus: fitted"
     assert panel(axes, "density").get_title(loc="left") == "dowson-higginson: assumed"
+
+
+@pytest.mark.slow
+def test_curves_are_the_laws_at_random_pressures():
+    """Direct values at 200 pressures: curves between their nodes are within 0.5 %."""
+    places = np.sort(np.random.default_rng(56).uniform(0.0, 1.9e9, 200))
+    report = oil_report("fva-3", (), [])
+    axes = over_pressure(report)
+    for word, key in (
+        ("viscosity", "viscosity"),
+        ("density", "density"),
+        ("relative", "relative_permittivity"),
+    ):
+        for oil, line in zip(report.oils, curves(panel(axes, word)).values(), strict=True):
+            one = PROPERTIES["density_ratio" if key == "density" and oil.density is None else key]
+            within = places[places < 1e9 * line.get_xdata()[-1]]
+            direct = [one.value(oil, pressure) for pressure in within.tolist()]
+            np.testing.assert_allclose(at(line, 1e-9 * within), direct, rtol=5e-3, err_msg=key)
 
 
 def test_a_curve_is_dotted_from_the_end_of_its_range():
