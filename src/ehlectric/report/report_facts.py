@@ -46,7 +46,7 @@ def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: A
         "lead": lead_of(result),
         "failure": "" if result.converged else SENTENCES["unsolved"],
         "verdict": getattr(result, "verdict", None),
-        "warnings": result.warnings,
+        "warnings": result.all_warnings if isinstance(result, BearingResult) else result.warnings,
         "figures": tuple(sorted(names, key=lambda name: name != first)),
         "details": _details(summary, date),
         "toml": result.case.described_toml(),

@@ -375,6 +375,8 @@ def answer_of(
     summary = result.summary(probable=probable) if whole else summary_of(result.solution)
     verdict = _verdict(result, whole=whole, probable=probable)
     warnings = result.warnings
+    if whole and probable and result.uncertainty is not None:
+        warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
     if whole and result.converged:
         points, left_out = over_speed(result.case, own_ratio=summary["bearing"]["lambda_ratio"])

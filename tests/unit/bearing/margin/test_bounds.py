@@ -7,6 +7,7 @@ from ehlectric import BearingCase, solve_bearing
 from ehlectric.app.compute.bearing_answers import deciding, whole_quick_answer
 from ehlectric.bearing.input_changes import changes_of
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
+from ehlectric.report.report_facts import part_of
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.each import each
 
@@ -89,7 +90,12 @@ def test_verdict_table_and_page_state_the_bounds(result):
     assert dict(facts.facts)["probability of breakdown"] == row.amount
     assert facts.gauge.interval is None
     assert facts.gauge.value == summary["bearing"]["margin"]
-    assert whole_quick_answer(CASE).text == verdict.text
+    answer = whole_quick_answer(CASE)
+    assert answer.text == verdict.text
+    assert "probability-bounded" in {warning.code for warning in answer.warnings}
+    assert "probability-bounded" in {
+        warning.code for warning in part_of(result, summary, kind="", command="", numbers=()).warnings
+    }
 
 
 @each(
