@@ -66,16 +66,24 @@ def refined(
     grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
     warnings: tuple[ResultWarning, ...] = ()
     if film.discretisation_error is None or film.discretisation_error > target:
-        unknown = f"the error is unknown on {UNKNOWN} grids in succession"
         missed = ResultWarning.of(
             "refine-not-reached",
             key=_target_key(setup),
             percent=100 * target,
             nodes=grid.nodes_along,
-            reason=refusal if grid is grids[-1] else unknown,
+            reason=refusal if grid is grids[-1] else _reason(film),
         )
         warnings = (missed,)
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
+
+
+def _reason(film: Film | PointFilm) -> str:
+    """Reason for the end of a refinement on a grid of which a finer one is allowed."""
+    if film.discretisation_error is None:
+        return f"the error is unknown on {UNKNOWN} grids in succession"
+    if np.any(film.contact):
+        return "the surfaces touch, and a finer grid has other spots"
+    return "no film that conserves its oil was found on the next grid"
 
 
 def finer_grids(setup: Setup, geometry: str, problem: FilmProblem) -> tuple[list[Grid], str]:

@@ -27,6 +27,7 @@ from ehlectric.film.starved_solver import (
     StarvedProblem,
     at_centre_line,
     film_of_ratio,
+    forms_again,
     isothermal,
     taken_layer,
 )
@@ -79,6 +80,13 @@ class RefinedSolution:
             return max(error, LEAST_UNSEEN)
         return error
 
+    @property
+    def makes_oil(self) -> bool:
+        """Whether the last film converged with cavities that count as full, and forms again behind one."""
+        last = self.last
+        counted_full = last.status == "converged" and last.content is None
+        return counted_full and self.problem.added_gap is not None and forms_again(last.final.full_film)
+
     @cached_property
     def coarser(self) -> list[GridSolution]:
         """Last solutions on the coarser grids for the same surfaces, from the finest on."""
@@ -97,8 +105,9 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     """Solve the film, and refine its grid until the discretisation error is below the target of the problem.
 
     The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
-    The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain, or
-    after three grids in succession whose error is unknown because a film did not converge.
+    The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain,
+    after three grids in succession whose error is unknown because a film did not converge, or before the
+    first grid on which no film is found that conserves its oil.
     """
     found = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1
@@ -113,7 +122,11 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
         if found.last.touches and problem.added_gap is not None:
             break
-        found = finer_solution(found, progress)
+        finer = finer_solution(found, progress)
+        # A finer film that makes oil is worse than one that conserves it on fewer nodes.
+        if finer.makes_oil and not found.makes_oil:
+            break
+        found = finer
     return found
 
 

@@ -1,10 +1,14 @@
 """Stationary rough films that form again behind cavities: the oil that passes is the oil that enters."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ehlectric import Case, solve
 from ehlectric.contact.touching import oil_balance
+from ehlectric.film import film_solver
+from ehlectric.film.nested import nested_iteration
 from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share
@@ -157,6 +161,24 @@ def test_a_line_of_many_nodes_keeps_its_oil():
     film = keeps_its_oil(line().replace({"grid": {"error": 0.01}}))
     assert film.x.size > 3201
     assert film.discretisation_error <= 0.01
+
+
+@pytest.mark.slow
+def test_a_refinement_ends_before_a_film_that_makes_oil(monkeypatch):
+    """If cavities count as full on 6401 nodes, the film of 3201 nodes stays, and the warning says why."""
+
+    def counted_full(problem, progress, known=()):
+        found = nested_iteration(problem, progress, known)
+        return [*found[:-1], replace(found[-1], content=None)] if problem.nodes > 3201 else found
+
+    monkeypatch.setattr(film_solver, "nested_iteration", counted_full)
+    result = solve(line().replace({"grid": {"error": 0.01}}), beside_smooth=False)
+    assert result.converged
+    assert result.film.x.size == 3201
+    assert oil_balance(result.case, result.conditions, result.film).mass_error <= 1e-6
+    (told,) = (each.text for each in result.warnings if each.code == "refine-not-reached")
+    assert "conserves its oil" in told
+    assert "3201 nodes" in told
 
 
 @pytest.mark.slow
