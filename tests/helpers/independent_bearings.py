@@ -525,47 +525,76 @@ def rigid_roller_capacitance(table, oil, gap, *, inner):
 
 
 def _films(table, oil, load, angle, inner, speed):
-    """Minimum and central film of a contact [m]."""
+    """Minimum and central film of a contact [m]: of deformed and of rigid bodies, in fourth powers."""
     if has_rollers(table):
-        return roller_films(oil, load / table["roller_length"], roller_radius(table, inner), speed)
-    return ball_films(oil, load, *radii(table, angle, inner), speed)
+        radius, per_length = roller_radius(table, inner), load / table["roller_length"]
+        films = roller_films(oil, per_length, radius, speed)
+        # Martin.
+        rigid = 4.896 * oil.viscosity * speed * radius / per_length
+    else:
+        rx, ry = radii(table, angle, inner)
+        films = ball_films(oil, load, rx, ry, speed)
+        # Brewe, Hamrock and Taylor.
+        flow = oil.viscosity * speed * rx / load / (1.0 + 2.0 * rx / (3.0 * ry))
+        rigid = 128.0 * ry * (flow * (0.131 * np.arctan(0.5 * ry / rx) + 1.683)) ** 2
+    return [(film**4 + rigid**4) ** 0.25 for film in films]
 
 
-def contact_of(table, oil, load, angle, gap, inner, speed, lightest):
+def _room(gap, film):
+    """Room for the film of an element [m], which two films of the most loaded contact widen."""
+    least = 2.0 * film
+    return least + gap**2 / (4.0 * least) if gap < 2.0 * least else gap
+
+
+def contact_of(table, oil, load, angle, gap, room, inner, speed, thinnest):
     """Capacitance [F] and breakdown voltage [V] of a contact, loaded or a gap apart.
 
-    Contacts below the load ``lightest`` have its film; elements without load are no closer to the raceway.
+    ``gap``, gap of the contact, and ``room``, gaps of the element with both rings [m]; ``thinnest``, central
+    film of the most loaded contact with the ring [m]. From 0.8 to 1.2 times its room, the film under a load
+    turns into a gap.
     """
-    rollers = has_rollers(table)
-    if load > 0.0:
-        load = max(load, lightest)
-        least, central = _films(table, oil, load, angle, inner, speed)
-        if rollers:
-            return roller_capacitance(table, oil, load, central, inner=inner), oil.strength * least
-        return ball_capacitance(table, oil, angle, load, central, inner=inner), oil.strength * least
-    gap = max(gap, _films(table, oil, lightest, angle, inner, speed)[1])
-    if rollers:
-        return rigid_roller_capacitance(table, oil, gap, inner=inner), oil.strength * gap
-    return rigid_ball_capacitance(table, oil, angle, gap, inner=inner), oil.strength * gap
+
+    def rigid(apart):
+        of = rigid_roller_capacitance(table, oil, apart, inner=inner) if has_rollers(table) else None
+        return rigid_ball_capacitance(table, oil, angle, apart, inner=inner) if of is None else of
+
+    if load <= 0.0:
+        apart = _room(gap, thinnest)
+        return rigid(apart), oil.strength * apart
+    most = _room(room, thinnest)
+    least, central = _films(table, oil, load, angle, inner, speed)
+    part = np.clip((central / most - 0.8) / 0.4, 0.0, 1.0)
+    free = part**2 * (3.0 - 2.0 * part)
+    apart = min(central, most * (0.8 + 0.4 * part - 0.2 * part**2))
+    own = 0.0
+    if free < 1.0 and has_rollers(table):
+        own = roller_capacitance(table, oil, load, central, inner=inner)
+    elif free < 1.0:
+        own = ball_capacitance(table, oil, angle, load, central, inner=inner)
+    if free > 0.0:
+        own = (1.0 - free) * own + free * rigid(apart)
+    return own, oil.strength * apart * (free + (1.0 - free) * least / central)
 
 
-def electric_of(table, oil, loads, lightest):
+def electric_of(table, oil, loads, largest):
     """Capacitance of a bearing in oil [F], and the voltage at which its first contact breaks down [V].
 
-    Both contacts of a ball with one ring are parallel, and those with both rings are in series. ``lightest``,
-    loads of the contacts with both rings below which films do not change [N].
+    Both contacts of a ball with one ring are parallel, and those with both rings are in series. ``largest``,
+    loads of the most loaded contacts with both rings at all positions of the cage [N].
     """
     number = loads.load.shape[1]
     capacitance, breaks = np.empty((2, number)), np.empty((2, number))
     # The halves of a groove or an arch are alike.
     angles, known = np.abs(loads.angle), {}
-    speed = rolling_speed(table, np.mean(angles, axis=0))
+    speed, rooms = rolling_speed(table, np.mean(angles, axis=0)), np.sum(loads.gap, axis=0)
     for ring in (0, 1):
+        most = np.argmax(loads.load[ring])
+        thinnest = _films(table, oil, largest[ring], angles[ring, most], ring == 0, speed[most])[1]
         for k in range(number):
-            values = loads.load[ring, k], angles[ring, k], loads.gap[ring, k], speed[k]
+            values = loads.load[ring, k], angles[ring, k], loads.gap[ring, k], rooms[k], speed[k]
             key = (ring, *(float(f"{value:.7e}") for value in values))
             if key not in known:
-                known[key] = contact_of(table, oil, *values[:3], ring == 0, speed[k], lightest[ring])
+                known[key] = contact_of(table, oil, *values[:4], ring == 0, speed[k], thinnest)
             capacitance[ring, k], breaks[ring, k] = known[key]
     inner, outer = capacitance.reshape(2, -1, loads.balls).sum(axis=1)
     share = outer / (inner + outer)

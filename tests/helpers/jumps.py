@@ -11,13 +11,16 @@ import numpy as np
 
 from ehlectric import evaluate
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import InputError
 
 # Numbers that must not jump.
 NUMBERS = (
     "bearing.capacitance",
     "bearing.capacitance_air",
     "bearing.capacitance_plate",
+    "bearing.capacitance_rough",
     "bearing.shaft_capacitance",
+    "bearing.meter_capacitance",
     "bearing.lambda_ratio",
     "bearing.inner_lambda_ratio",
     "bearing.outer_lambda_ratio",
@@ -30,7 +33,23 @@ NUMBERS = (
     "bearing.max_strength",
     "bearing.film_voltage",
     "bearing.discharge_energy",
+    "mechanics.max_load",
 )
+
+# Factors by which inputs with a wide range are divided and multiplied along a search, and all others.
+_WIDE = {
+    "bearing.radial_load": (20.0, 3.0),
+    "bearing.axial_load": (20.0, 3.0),
+    "bearing.inner_speed": (10.0, 2.0),
+    "bearing.radial_clearance": (10.0, 3.0),
+    "bearing.pair.preload": (20.0, 3.0),
+    "bearing.pair.axial_clearance": (20.0, 3.0),
+    "bearing.composite_rq": (3.0, 1.5),
+}
+_OTHERS = (1.25, 1.25)
+
+# Half of the range of temperatures [K], and how often a range is halved until all of its values are allowed.
+_WARMER, _HALVED = 45.0, 6
 
 # Parts of an interval, and how often it is divided: down to 1e-7 of its length.
 _PARTS, _TIMES = 10, 7
@@ -47,6 +66,30 @@ class Jump:
     place: float
     width: float  # of the interval, over its place
     change: float
+
+
+def search(case: BearingCase, key: str, value: float, points: int = 400) -> tuple[float, list[Jump]]:
+    """Jumps along an input around its value, and the width of the search as a factor of the widest one.
+
+    The width is smaller than 1 if an input has bounds within the range, and 0 if there is no range.
+    """
+    for halved in range(_HALVED + 1):
+        part = 0.5**halved
+        try:
+            return part, jumps_along(case, key, _range(key, value, part, points))
+        except InputError:
+            continue
+    return 0.0, []
+
+
+def _range(key: str, value: float, part: float, points: int) -> np.ndarray:
+    """Values of an input around its own value."""
+    if key.endswith("temperature"):
+        return value + part * _WARMER * np.linspace(-1.0, 1.0, points)
+    low, high = _WIDE.get(key, _OTHERS)
+    if value < 0.0:
+        return -np.geomspace(-value * high**part, -value / low**part, points)
+    return np.geomspace(value / low**part, value * high**part, points)
 
 
 def numbers_at(case: BearingCase, key: str, values: np.ndarray) -> dict[str, np.ndarray]:

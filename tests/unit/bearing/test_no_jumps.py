@@ -1,1 +1,52 @@
-"""Numbers of every kind of bearing along every one of its numeric inputs: none jumps."""
+"""Numbers of every kind of bearing at 400 points along each of its numeric inputs: none jumps."""
+
+import numpy as np
+import pytest
+
+from tests.helpers.each import each
+from tests.helpers.jumps import _suspects, jumps_along, search
+from tests.helpers.kinds_of_bearings import KINDS, bearing_of, numbers_of
+
+# Inputs without a range: no value but the one of the file is allowed.
+FIXED: tuple[str, ...] = ()
+
+
+def test_a_step_is_suspicious_and_a_slope_is_not():
+    changes = np.diff(np.linspace(0.0, 1.0, 50))
+    assert _suspects(changes, 1e-3) == []
+    changes[20] += 1e-3
+    assert _suspects(changes, 1e-3) == [20]
+
+
+@pytest.mark.slow
+@each(
+    "key",
+    ["bearing.radial_load", "bearing.axial_load", "bearing.pair.axial_clearance", "bearing.temperature"],
+)
+def test_no_number_of_a_pair_jumps(key):
+    """Rows of a pair with play lift off element by element along the loads and the play."""
+    case = bearing_of("pair with play")
+    assert search(case, key, numbers_of(case)[key], 100) == (1.0, [])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_number_jumps_along_any_input(kind):
+    case = bearing_of(kind)
+    found = {key: search(case, key, value) for key, value in numbers_of(case).items()}
+    assert {key: jumps for key, (_, jumps) in found.items() if jumps} == {}
+    assert [key for key, (width, _) in found.items() if width == 0.0 and key not in FIXED] == []
+
+
+def test_a_jump_is_found(monkeypatch):
+    """A made-up step of 0.3 % in a capacitance."""
+    case = bearing_of("thrust needle", contacts="formula")
+
+    def stepped(_case, _key, values):
+        return {"bearing.capacitance": np.where(np.asarray(values) < 4321.0, 1.0, 1.003) * values**0.1}
+
+    monkeypatch.setattr("tests.helpers.jumps.numbers_at", stepped)
+    (jump,) = jumps_along(case, "bearing.axial_load", np.linspace(4000.0, 5000.0, 40))
+    assert jump.number == "bearing.capacitance"
+    assert jump.place == pytest.approx(4321.0, rel=1e-6)
+    assert jump.change == pytest.approx(np.log(1.003), rel=1e-3)
