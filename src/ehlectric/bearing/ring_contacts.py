@@ -682,8 +682,8 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
 
 
 # Part of the largest load of a ring below which a contact is light: its film is thick, so that it never
-# breaks down first and hardly changes the circuit of the bearing.
-_LIGHT = 0.02
+# breaks down first and hardly changes the circuit of the bearing. A load of this part is solved, to rounding.
+_LIGHT, _ROUNDED = 0.02, 1.0 - 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -840,7 +840,7 @@ class ContactCurve(Values):
     @property
     def _heavy(self) -> Mask:
         """Loads that are not light."""
-        return self.loads >= _LIGHT * self.loads[..., -1:]
+        return self.loads >= _ROUNDED * _LIGHT * self.loads[..., -1:]
 
     @cached_property
     def interpolation_error(self) -> Numbers:
