@@ -1,10 +1,17 @@
-"""Every number of a bearing of every kind, at several points together: each point is the bearing alone."""
+"""Every number of a bearing of every kind, at several points together: each point is the bearing alone.
+
+Each run takes every number of all kinds together, and a share of the other tests. ``make thorough`` takes
+all of them.
+"""
+
+from itertools import product
 
 import numpy as np
 import pytest
 
 from tests.helpers.each import each
 from tests.helpers.kinds_of_bearings import KINDS, OIL, bearing_of, differences, near, numbers_of
+from tests.helpers.share import share
 
 # Steps of the numbers between points.
 _STEP = 2e-3
@@ -67,7 +74,7 @@ def test_all_numbers_together(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", share(list(KINDS), 4))
 def test_each_number(kind):
     case = bearing_of(kind)
     wrong = {}
@@ -79,7 +86,7 @@ def test_each_number(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", share(list(KINDS), 2))
 def test_points_of_all_regimes_together(kind):
     rng = np.random.default_rng(1)
     case, number = bearing_of(kind), 10
@@ -180,8 +187,7 @@ OILS = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["deep groove", "cylindrical"])
-@pytest.mark.parametrize("name", OILS)
+@pytest.mark.parametrize(("name", "kind"), share(list(product(OILS, ["deep groove", "cylindrical"])), 3))
 def test_each_number_of_an_oil(kind, name):
     discharge = {"dielectric_strength": "15 V/um"}
     case, wrong = bearing_of(kind, lubricant=OILS[name], discharge=discharge), {}
