@@ -55,7 +55,7 @@ def test_summary_has_the_agreed_keys(result, rough_result):
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))
     assert set(summary) == {
         "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs",
-        "lubricant", "groups", "hertz", "film", "field", "film_formulas", "seconds",
+        "lubricant", "groups", "hertz", "film", "field", "film_formulas", "film_formula_ranges", "seconds",
     }  # fmt: skip
     assert summary["schema"] == "ehlectric.summary/1"
     assert (summary["converged"], summary["status"]) == (True, "converged")
