@@ -576,6 +576,15 @@ def contact_of(table, oil, load, angle, gap, room, inner, speed, thinnest):
     return own, oil.strength * apart * (free + (1.0 - free) * least / central)
 
 
+def _rooms(table, loads):
+    """Room of each contact [m]: its gap and the other gap of its element, if nothing holds the element."""
+    other = loads.gap[::-1]
+    if table["kind"] == "four-point contact ball":
+        pressed = loads.load[0].reshape(2, -1).sum(axis=0)
+        other = other / (1.0 + 1e3 * np.tile(pressed, 2) / np.max(loads.load[0]))
+    return loads.gap + other
+
+
 def electric_of(table, oil, loads, largest):
     """Capacitance of a bearing in oil [F], and the voltage at which its first contact breaks down [V].
 
@@ -586,12 +595,12 @@ def electric_of(table, oil, loads, largest):
     capacitance, breaks = np.empty((2, number)), np.empty((2, number))
     # The halves of a groove or an arch are alike.
     angles, known = np.abs(loads.angle), {}
-    speed, rooms = rolling_speed(table, np.mean(angles, axis=0)), np.sum(loads.gap, axis=0)
+    speed, rooms = rolling_speed(table, np.mean(angles, axis=0)), _rooms(table, loads)
     for ring in (0, 1):
         most = np.argmax(loads.load[ring])
         thinnest = _films(table, oil, largest[ring], angles[ring, most], ring == 0, speed[most])[1]
         for k in range(number):
-            values = loads.load[ring, k], angles[ring, k], loads.gap[ring, k], rooms[k], speed[k]
+            values = loads.load[ring, k], angles[ring, k], loads.gap[ring, k], rooms[ring, k], speed[k]
             key = (ring, *(float(f"{value:.7e}") for value in values))
             if key not in known:
                 known[key] = contact_of(table, oil, *values[:4], ring == 0, speed[k], thinnest)

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.physical_bounds import check_bounds
@@ -135,12 +136,31 @@ def _states(
     """Contacts of all elements with a ring at each equilibrium, computed together."""
     loads = [at.ring(inner=ring.inner) for at in equilibria]
     load, gap = (np.concatenate([getattr(one, name) for one in loads], axis=-1) for name in ("load", "gap"))
-    room = np.concatenate([at.inner_gap + at.outer_gap for at in equilibria], axis=-1)
+    tracks = ring.conditions.geometry.tracks
+    room = np.concatenate([_room(at, tracks, inner=ring.inner) for at in equilibria], axis=-1)
     whole, number = ring_state(ring, curve, load=load, gap=gap, room=room), len(equilibria)
     split = partial(np.split, indices_or_sections=number, axis=-1)
     columns = zip(*map(split, whole.values.columns()), strict=True)
     for at, apart, solved, values in zip(split(load), split(gap), split(whole.solved), columns, strict=True):
         yield RingState(at, apart, solved, ContactValues(*values))
+
+
+# Load of an element at the inner ring over the largest one, from which on another track holds the element.
+_HELD = 1e-3
+
+
+def _room(at: Equilibrium, tracks: int, *, inner: bool) -> Array:
+    """Room for the films of elements at a ring [m], shape (..., n).
+
+    A free element has the room of its gaps with both rings. If an element with several tracks is pressed in
+    one of them, it cannot move, and has the own gap in the others.
+    """
+    own, other = at.ring(inner=inner).gap, at.ring(inner=not inner).gap
+    if tracks == 1:
+        return own + other
+    load = at.inner_load.reshape(*at.inner_load.shape[:-1], tracks, -1)
+    held = np.concatenate([np.sum(load, axis=-2)] * tracks, axis=-1)
+    return np.asarray(own + other / (1.0 + held / (_HELD * np.max(load, axis=(-2, -1))[..., np.newaxis])))
 
 
 def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int) -> list[Any]:

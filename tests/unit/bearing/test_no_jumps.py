@@ -19,11 +19,18 @@ def test_a_step_is_suspicious_and_a_slope_is_not():
 
 
 @pytest.mark.slow
-@each("key", ["bearing.radial_load", "bearing.pair.axial_clearance"])
-def test_no_number_of_a_pair_jumps(key):
-    """Rows of a pair with play lift off element by element along the load and the play."""
-    case = bearing_of("pair with play")
-    assert search(case, key, numbers_of(case)[key], 100) == (1.0, [])
+@each(
+    "kind, key, points",
+    [
+        ("pair with play", "bearing.radial_load", 100),
+        ("pair with play", "bearing.pair.axial_clearance", 100),
+        ("four-point contact", "bearing.radial_load", 400),
+    ],
+)
+def test_no_number_of_rows_and_tracks_jumps(kind, key, points):
+    """Rows of a pair with play, and the other diagonal of balls, lift off element by element."""
+    case = bearing_of(kind)
+    assert search(case, key, numbers_of(case)[key], points) == (1.0, [])
 
 
 @pytest.mark.slow
