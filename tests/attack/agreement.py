@@ -273,8 +273,8 @@ def _evaluate(case: BearingCase | DriveCase) -> Mapping[str, Any] | str:
         if f"{end}converged" in found and not bool(found[f"{end}converged"]):
             return str(found[f"{end}reason"].item())
     values = {name: found[name].item() for name in found.data_vars}
-    # The summary of a drive has these numbers of a bearing next to numbers of the simulation.
-    ends = [f"{end}.{key}" for end in ENDS for key in ("capacitance", "touching_time_share")]
+    # The summary of a drive has the capacitance of each bearing next to numbers of the simulation.
+    ends = [f"{end}.capacitance" for end in ENDS]
     return values | {key: values.get(key.replace(".", ".bearing.")) for key in ends}
 
 
