@@ -205,7 +205,7 @@ def _values(
         outside_oil=wider * values.outside_oil + vacuum * permittivity,
         outside_air=wider * values.outside_air + vacuum,
         plate=held * values.plate * area,
-        strength_per_volt=held * values.strength_per_volt / thinner + free / apart,
+        strength_per_volt=1.0 / (held * thinner / values.strength_per_volt + free * apart),
         breakdown_voltage=_part(held, values.breakdown_voltage * thinner) + _part(free, of_gap),
         hertz=held * values.hertz * area,
     )
@@ -481,17 +481,16 @@ def plate_capacitance(solution: BearingSolution) -> Numbers | None:
 def film_error(solution: BearingSolution) -> Numbers:
     """Estimated error of the films of a bearing, relative, at most 1, shape (...).
 
-    For solved contacts it is the largest estimated error of the films and of their interpolation over the
-    load. Contacts from the atlas have the errors that the atlas states, from 2 % of the largest load on;
-    contacts by formula have that of the formula.
+    For solved contacts it is the largest estimated error of the films, and of their interpolation over loads
+    from 2 % of the largest load on: lighter contacts never break down first. Contacts from the atlas have the
+    errors that the atlas states at these loads; contacts by formula have the error of the formula.
     """
     if solution.case.contacts == "formula":
         return formula_factor(solution.case.bearing.kind) - 1.0
-    curves = solution.curves
-    if solution.case.contacts == "atlas":
-        curves = curves[0].counted, curves[1].counted
-    own = np.maximum(*(curve.largest_error for curve in curves))
-    between = np.maximum(*(curve.interpolation_error for curve in curves))
+    counted = [curve.counted for curve in solution.curves]
+    own_of = counted if solution.case.contacts == "atlas" else solution.curves
+    own = np.maximum(*(curve.largest_error for curve in own_of))
+    between = np.maximum(*(curve.interpolation_error for curve in counted))
     return as_float(np.minimum(1.0, own + between))
 
 
