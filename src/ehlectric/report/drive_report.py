@@ -38,6 +38,7 @@ from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.sweep.result import SweepResults
 from ehlectric.tables.drive_tables import (
     AS_IT_IS,
+    RATES,
     end_cells,
     end_rows,
     remedy_cells,
@@ -303,7 +304,7 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     yield Numbers(tuple(chain.from_iterable(numbers)))
     if result.remedies:
         heads, *cells = remedy_rates(summary)
-        yield Table("Remedies", heads, tuple(cells), tuple(range(1, len(heads))))
+        yield Table(f"Remedies: {RATES}", heads, tuple(cells), tuple(range(1, len(heads))))
         told = "; ".join(
             f"{title}: " + ", ".join(f"{name.text} =\xa0{value}" for _, name, _, value in changed)
             for title, changed in groupby(_changes(result), key=lambda row: row[0])

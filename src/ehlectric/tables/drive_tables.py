@@ -145,14 +145,21 @@ def remedy_cells(
         yield printable(title), place, *(_cell(rows.get(key)) for key in keys)
 
 
+_RATE = "end.events_per_second"
+
+# Name of the numbers in the columns of ``remedy_rates``, with their unit.
+RATES = head_of(DRIVE_BOOK[_RATE])
+
+
 def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Heads of the short table of remedies, then a row for each drive: discharges in a second of each bearing
-    and of both, and if there is a duty cycle, discharges of both over the cycle.
+    and of both, as ``RATES`` names them, and if there is a duty cycle, discharges of both over the cycle.
     """
     places = {**NAMES_OF_ENDS, BOTH: BOTH}
-    columns = [("end.events_per_second", end) for end in places]
+    columns = [(_RATE, end) for end in places]
     columns += [("end.duty_discharges", BOTH)] if summary.get("duty") else []
-    yield "remedy", *(f"{head_of(DRIVE_BOOK[key])}, {places[end]}" for key, end in columns)
+    names = (f"{head_of(DRIVE_BOOK[key])}, {places[end]}" for key, end in columns[len(places) :])
+    yield "remedy", *places.values(), *names
     for title, tables in remedied(summary):
         rows = {end: _remedy_rows(tables, end) for end in places}
         yield printable(title), *(_cell(rows[end].get(key)) for key, end in columns)

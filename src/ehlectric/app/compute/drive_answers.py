@@ -45,6 +45,7 @@ from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.worker_processes import cores
 from ehlectric.tables.drive_tables import (
+    RATES,
     Pair,
     drive_rows,
     end_cells,
@@ -90,7 +91,7 @@ def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     if not summary["remedies"]:
         return None
     (_, *heads), *rows = remedy_rates(summary)
-    return Table("Each bearing, and both together", ("", *heads), tuple(rows))
+    return Table(f"Each bearing, and both together: {RATES}", ("", *heads), tuple(rows))
 
 
 def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
