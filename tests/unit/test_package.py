@@ -38,7 +38,7 @@ def test_files_of_results_are_named_without_the_compiler_of_drives():
     loaded = modules_after(
         "from ehlectric.runs.result_folders import files_of_results; files_of_results('.')"
     )
-    assert "ehlectric.drive.run" in loaded
+    assert "ehlectric.figures.figure_names" in loaded
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 

@@ -67,10 +67,8 @@ class Case(CaseFile, book="case_file"):
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
     the keys of its contact by ``Case.line`` or ``Case.point``. Wrong inputs raise an ``InputError`` that
-    names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units.
-
-    ``from_dict``, ``Case.line``, ``Case.point``, ``replace`` and ``with_laws`` also take ``laws``, functions
-    of your own for the oil. They belong to the case, and no file can contain them.
+    names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units. All of
+    these methods except ``from_toml`` accept ``laws``, functions of your own for the oil.
 
     Parameters
     ----------
@@ -202,13 +200,7 @@ class Case(CaseFile, book="case_file"):
         return self._sampled
 
     def with_laws(self, laws: OwnLaws | None) -> Self:
-        """Return the case with laws of your own for its oil, or without them for None.
-
-        >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9, "temperature": "40 degC"}
-        >>> case = Case.line(**steel, max_hertz_pressure="1 GPa", entrainment_speed=4.0, lubricant="paper")
-        >>> case.with_laws(Laws(density=lambda p, T: 870.0 * (1.0 + 1e-10 * p))) == case
-        False
-        """
+        """Return the case with laws of the user's own for its oil, or without them for None."""
         return self._validated(self._without_laws() | {LAWS: laws}, written=False)
 
     def _without_laws(self) -> dict[str, Any]:
@@ -224,8 +216,8 @@ class Case(CaseFile, book="case_file"):
         if self._laws is not None:
             raise InputError.worded(
                 LAWS,
-                f"{_listed(self._laws)} cannot be contained in tables or in a file; with_laws(None) returns "
-                "the case with the laws of its lubricant",
+                f"{_listed(self._laws)} cannot be contained in tables or in a file; replace(laws=None) "
+                "returns the case with the laws of its lubricant",
             )
 
     def described_toml(self) -> str:
@@ -275,8 +267,7 @@ class Case(CaseFile, book="case_file"):
     def point(cls, **keys: Unpack[_PointCaseKeys]) -> PointCase:
         """Make the case of a point contact from the keys of its table ``contact``.
 
-        Its keys (``ehlectric.cases.contact_inputs.PointKeys``) are floats in SI units, texts with units, or
-        quantities of pint; others are tables, ``lubricant`` also a name. Doubtful radii and moduli warn.
+        Its keys (``ehlectric.cases.contact_inputs.PointKeys``) are given as the keys of ``Case.line``.
 
         >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}
         >>> Case.point(**ball, load="20 N", entrainment_speed="2 m/s", lubricant="paper")
@@ -298,10 +289,9 @@ class Case(CaseFile, book="case_file"):
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
         """Return a changed copy of the case; the title stays unless a new one is given.
 
-        A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
-        radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the
-        keys that only the old geometry has, and the lengths, nodes and error of its grid. Laws of your own
-        stay, unless ``laws`` replaces them.
+        A new key replaces its alternative: a Hertz pressure replaces the load, and a new ``lubricant.base``
+        replaces all values of the lubricant. A new geometry removes the keys that only the old geometry has,
+        and the lengths, nodes and error of its grid. ``laws`` replaces laws of your own; None removes them.
 
         Parameters
         ----------

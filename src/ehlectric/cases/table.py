@@ -47,6 +47,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "first_grid",
     "from_written",
     "known_keys",
+    "law_values",
     "own_laws",
     "plain_tables",
     "shape",
@@ -54,6 +55,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "single",
     "toml_text",
     "with_arrays",
+    "with_laws",
     "with_values",
 }
 
@@ -262,9 +264,7 @@ class CaseFile(Tabled, Table):
     """Table of a whole file: a case of a contact, a bearing or a drive."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units; InputError for many points, and for a
-        contact with laws of the user's own, which no table can contain.
-        """
+        """Return the given values as nested tables in SI units; InputError for many points or own laws."""
         self._check_file()
         return self.plain_tables()
 

@@ -164,7 +164,7 @@ def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     text = f"The largest current over the Hertz areas is {1e-6 * most:.3g} A/mm², {beside_limits(most)}"
     if any(end["events"] for end in ends):
         arc = amount(case.breakdown.arc_resistance, "Ω")
-        text += f"; energies and currents follow from an arc of {arc}, which is an assumption"
+        text += f"; energies and currents follow from an assumed arc of {arc}"
     yield f"{text}."
     yield _HARM
 

@@ -188,7 +188,7 @@ class SampledLaws:
             "laws",
             f"this result contains values of {', '.join(self.names.values())} at {self.temperature:.6g} K "
             f"for a Hertz pressure of {self.max_pressure / 1e9:.4g} GPa only, not at {temperature:.6g} K and "
-            f"{max_pressure / 1e9:.4g} GPa; give the functions again, as in case.with_laws(Laws(...))",
+            f"{max_pressure / 1e9:.4g} GPa; give the functions again, as in case.replace(laws=Laws(...))",
             takes="Laws of functions",
         )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ehlectric.bearing.solution import percent
@@ -111,9 +111,12 @@ def ends_table(summary: Summary) -> Table:
 
 def remedies_table(summary: Summary) -> Table:
     """Table of the drive and its remedies for the terminal: each bearing, and both together."""
-    heads, *rows = remedy_cells(remedied(summary), intervals=False)
-    wrapped = ["\n".join(textwrap.wrap(head, _HEAD)) for head in heads]
-    return columns_table(wrapped, rows, left=(0, 1), wrapped=(0,))
+    (head, _, *heads), *cells = remedy_cells(remedied(summary), intervals=False)
+    rows: list[tuple[str, ...]] = []
+    for title, group in groupby(cells, key=lambda row: row[0]):
+        rows += [(title,), *((f"  {place}", *numbers) for _, place, *numbers in group)]
+    wrapped = [head, *("\n".join(textwrap.wrap(name, _HEAD)) for name in heads)]
+    return columns_table(wrapped, rows, left=(0,), wrapped=(0,))
 
 
 AS_IT_IS, BOTH = "as it is", "both"

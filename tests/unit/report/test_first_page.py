@@ -223,7 +223,7 @@ def test_numbers_and_remedies_of_a_drive(pages):
             [own["events_per_second_low"], own["events_per_second_high"]], rel=5e-3
         )
         assert found[f"Energy of a discharge, mean, {place}"][0] == f"{1e9 * own['energy_mean']:.3g} nJ"
-    remedies = tables_of(report)["Remedies"]
+    remedies = tables_of(report)["Remedies: discharges [1/s]"]
     assert [row[0] for row in remedies.rows] == ["as it is", *(one["title"] for one in summary["remedies"])]
     rates = [summary[table]["events_per_second"] for table in ("drive_end", "non_drive_end", "drive")]
     assert [float(text) for text in remedies.rows[0][1:]] == pytest.approx(rates, rel=5e-3)
