@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.bearing.ball_gaps import around_directly
 from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import gap_breakdown
@@ -34,8 +34,7 @@ from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.film.atlas.atlas_films import contact_film, groups_of, in_atlas
-from ehlectric.film.atlas.atlas_groups import Ellipse, Groups
+from ehlectric.film.atlas.atlas_films import contact_film
 from ehlectric.formulas.film_line import LineContact, martin, pan_hamrock
 from ehlectric.formulas.film_point import PointContact, brewe_hamrock_taylor, chittenden
 from ehlectric.formulas.hertz import line_gap
@@ -270,14 +269,19 @@ def quick_curve(
     )
 
 
+def outside_atlas(error: float) -> ResultWarning:
+    """Warning about contacts that the atlas does not have, with the relative error of their films."""
+    return ResultWarning.of("atlas-left", percent=100.0 * min(1.0, error))
+
+
 def quick_warnings(quick: QuickContact) -> list[tuple[ResultWarning, ...]]:
     """Warnings about the contacts of a single bearing, by increasing load."""
     ring, found = quick.contact.ring, []
-    percent = 100.0 * (formula_factor(ring.conditions.bearing.kind) - 1.0)
-    for load, left in zip(quick.load.tolist(), quick.left.tolist(), strict=True):
+    rows = zip(quick.load.tolist(), quick.left.tolist(), quick.error.tolist(), strict=True)
+    for load, left, error in rows:
         contact = replace(quick.contact, load=load)
         warnings = case_warnings(Setup(oil=ring.oil, grid=contact.grid), contact.conditions)
-        of_atlas = (ResultWarning.of("atlas-left", percent=percent),) if left else ()
+        of_atlas = (outside_atlas(error),) if left else ()
         found.append((*of_atlas, *without_regime(warnings)))
     return found
 
@@ -400,10 +404,6 @@ def _around_hertz(contact: Contact, central: Array) -> tuple[Array, Array]:
     return unit * inlet, unit * outlet
 
 
-# Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either
-# way, and how often the last ratio is halved.
-_STEP, _STEPS, _HALVINGS = 1.3, 15, 6
-
 # Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are
 # within 1e-4 of those with three times as many nodes.
 _ATLAS_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
@@ -418,23 +418,18 @@ def by_atlas(contact: Contact) -> QuickContact:
     the error that the atlas states for the films. Raises InputError as ``check_contact`` does for the
     contacts of a single bearing.
 
+    The film of a contact outside the atlas continues the film at its edge by a formula, with an error that
+    grows with the distance.
+
     Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
     pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
     domain of the atlas, it is that of the dry gap plus the central film, times the ratio that the atlas has
     for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the voltage
     over the minimum film thickness.
     """
-    refused = _refused(contact)
-    inside, known = _of_atlas(contact, refused)
-    left = ~known & ~refused
-    return _with_left(inside, left) if np.any(left) else inside
-
-
-def _of_atlas(contact: Contact, refused: Mask) -> tuple[QuickContact, Mask]:
-    """Contacts from the atlas, and which of them it has; those that it does not have are NaN."""
-    oil = contact.ring.oil
+    refused, oil = _refused(contact), contact.ring.oil
     ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
-    film = contact_film(contact.conditions.contact, oil, ellipse)
+    film = contact_film(contact.conditions.contact, oil, ellipse, beyond=True)
     numbers = film.film
     inlet, outlet = _around_hertz(contact, film.central_thickness)
     outside = oil.relative_permittivity * (numbers.inlet * inlet + numbers.outlet * outlet)
@@ -442,129 +437,18 @@ def _of_atlas(contact: Contact, refused: Mask) -> tuple[QuickContact, Mask]:
     mass = film.central_thickness * numbers.mass / numbers.central
     # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
     # the middle, its pressure is not that of the zone.
-    share = np.where(numbers.known, np.minimum(1.0, numbers.central_pressure), 0.0)
+    share = np.minimum(1.0, numbers.central_pressure)
     hertz = (
         numbers.zone * hertz_mean(contact, partial(_permittivity_of_mass, oil), share) * contact.area / mass
     )
     films = film.minimum_thickness, film.central_thickness
     quick = quick_contact(contact, films, inside=hertz + outside, hertz=hertz, refused=refused, wide=True)
     error = np.maximum(film.errors["central"], film.errors["minimum"])
-    return replace(quick, error=error), np.asarray(numbers.known)
+    return replace(quick, error=error, left=~np.asarray(numbers.known) & ~refused)
 
 
 # Functions that compute contacts without solving them, by ``contacts`` of a bearing file.
 QUICK_METHODS: Mapping[str, Callable[[Contact], QuickContact]] = {"atlas": by_atlas, "formula": by_formula}
-
-
-def _with_left(quick: QuickContact, left: Mask) -> QuickContact:
-    """Contacts of which those outside the atlas are by formula, joined to the atlas at the nearest load."""
-    # As many contacts of each point as the most that any point has outside, those outside first.
-    order = np.argsort(~left, axis=0, kind="stable")[: int(left.sum(axis=0).max())]
-
-    def picked(values: Numbers) -> Any:
-        return np.take_along_axis(np.broadcast_to(values, left.shape), order, 0)
-
-    outside = picked(left)
-    contact = replace(quick.contact, load=picked(quick.contact.load))
-    found = _left(contact, outside, picked(quick.refused))
-
-    def joined(values: Numbers, new: Numbers) -> Any:
-        values = np.array(np.broadcast_to(values, left.shape))
-        np.put_along_axis(values, order, np.where(outside, new, picked(values)), 0)
-        return values
-
-    return replace(
-        quick,
-        films=(joined(quick.films[0], found.films[0]), joined(quick.films[1], found.films[1])),
-        inside=joined(quick.inside, found.inside),
-        hertz=joined(quick.hertz, found.hertz),
-        error=np.where(left, formula_factor(quick.contact.ring.conditions.bearing.kind) - 1.0, quick.error),
-        refused=joined(quick.refused, found.refused),
-        left=left,
-    )
-
-
-def _left(contact: Contact, outside: Mask, refused: Mask) -> QuickContact:
-    """Contacts by formula, and where they are ``outside`` the atlas joined to it at the nearest load."""
-    load = _edges(contact, outside)
-    near = np.isfinite(load)
-    edge = replace(contact, load=np.where(near, load, contact.load))
-    # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
-    # there the films change as those of a formula that holds for light contacts, too.
-    last, known = _of_atlas(edge, refused)
-    near &= known
-    trend = contact.film / edge.film
-    by_itself = by_formula(contact, wide=True) if not np.all(near | ~outside) else None
-    films = tuple(np.where(near, one, 1.0) for one in last.films)
-    joined = by_formula(edge, (films[0], films[1]), wide=True)
-    solution = by_formula(contact, (trend * films[0], trend * films[1]), wide=True)
-    inside, hertz = last.inside / joined.inside, last.hertz / joined.hertz
-    solution = replace(
-        solution,
-        inside=inside * solution.inside,
-        hertz=hertz * solution.hertz,
-        refused=solution.refused | joined.refused,
-    )
-    if by_itself is None:
-        return solution
-    return replace(
-        solution,
-        films=(
-            np.where(near, solution.films[0], by_itself.films[0]),
-            np.where(near, solution.films[1], by_itself.films[1]),
-        ),
-        inside=np.where(near, solution.inside, by_itself.inside),
-        hertz=np.where(near, solution.hertz, by_itself.hertz),
-        refused=np.where(near, solution.refused, by_itself.refused),
-    )
-
-
-def _edges(contact: Contact, outside: Mask) -> Array:
-    """Loads nearest to those of contacts ``outside`` the atlas that it has [N]; NaN without any near."""
-    edges = np.array(np.broadcast_to(contact.load, outside.shape))
-    ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
-    groups = groups_of(contact.conditions.contact, contact.ring.oil, ellipse)
-    unit, moes_l = (
-        np.broadcast_to(values, outside.shape)[outside]
-        for values in (groups.moes_m / contact.load, groups.moes_l)
-    )
-    lanes = None if ellipse is None else ellipse.among(outside.shape, outside)
-    edges[outside] = nearest_known(edges[outside], unit, moes_l, lanes)
-    return edges
-
-
-def nearest_known(load: Array, unit: Array, moes_l: Array, ellipse: Ellipse | None = None) -> Array:
-    """Loads nearest to given ones that the atlas has, NaN where it has none near, shape (n,).
-
-    ``load`` [N]; ``unit``, Moes' M under a load of 1 N [1/N]; ``moes_l``, L; ``ellipse``, shape of the dry
-    contact of points.
-    """
-
-    def known(loads: Array, lanes: IntArray) -> Mask:
-        shape = None if ellipse is None else ellipse.among(load.shape, lanes)
-        ratio = None if shape is None else shape.ratio
-        return in_atlas(Groups(unit[lanes] * loads, moes_l[lanes], ratio, shape))
-
-    inside, outer = np.full(load.shape, np.nan), np.full(load.shape, np.nan)
-    factor = np.ones(load.shape)
-    wanted = np.arange(load.size)
-    for number in range(1, _STEPS + 1):
-        for step in (_STEP, 1.0 / _STEP):
-            found = known(load[wanted] * step**number, wanted)
-            lanes = wanted[found]
-            inside[lanes] = load[lanes] * step**number
-            outer[lanes], factor[lanes] = load[lanes] * step ** (number - 1), step
-            wanted = wanted[~found]
-        if not wanted.size:
-            break
-    lanes = np.flatnonzero(np.isfinite(inside))
-    for _ in range(_HALVINGS):
-        factor = np.sqrt(factor)
-        between = outer[lanes] * factor[lanes]
-        found = known(between, lanes)
-        inside[lanes[found]] = between[found]
-        outer[lanes[~found]] = between[~found]
-    return inside
 
 
 def _permittivity_of_mass(oil: Oil, pressure: Array) -> Array:

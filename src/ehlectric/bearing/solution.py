@@ -14,7 +14,7 @@ from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.circuit import Circuit, series
 from ehlectric.bearing.conditions import BearingConditions, gap_breakdown
 from ehlectric.bearing.loads.totals import Equilibrium
-from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.bearing.quick_contacts import formula_factor, outside_atlas
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
@@ -511,15 +511,23 @@ def percent(error: float) -> str:
 
 
 def with_light(curve: ContactCurve) -> tuple[ContactSolution, ...]:
-    """Contacts of a ring; a light one that the atlas does not have has a note in place of its warning."""
+    """Contacts of a ring with equal warnings about those that the atlas does not have; a light contact has a
+    note in place of its warning.
+    """
     heavy = {contact.load for contact in curve.counted.solutions}
+    errors: dict[bool, list[float]] = {True: [0.0], False: [0.0]}
+    for contact in curve.solutions:
+        if any(warning.code == "atlas-left" for warning in contact.warnings):
+            errors[contact.load in heavy].append(contact.error or 0.0)
+    counts, light = (outside_atlas(max(errors[is_heavy])) for is_heavy in (True, False))
+    note = ResultWarning.of("atlas-left-light", atlas_left=light)
 
-    def eased(warning: ResultWarning) -> ResultWarning:
+    def named(contact: ContactSolution, warning: ResultWarning) -> ResultWarning:
         if warning.code != "atlas-left":
             return warning
-        return ResultWarning.of("atlas-left-light", atlas_left=warning)
+        return counts if contact.load in heavy else note
 
     return tuple(
-        contact if contact.load in heavy else replace(contact, warnings=tuple(map(eased, contact.warnings)))
+        replace(contact, warnings=tuple(named(contact, warning) for warning in contact.warnings))
         for contact in curve.solutions
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.atlas_groups import Ellipse, Groups, lubricant_coordinate
+from ehlectric.film.atlas.atlas_groups import SKEW, Ellipse, Groups, lubricant_coordinate
 from ehlectric.film.atlas.atlas_table import NAMES, Table, table
 from ehlectric.film.far_field import left_of_load, lost_by_load, missing_load
 from ehlectric.formulas.film_line import LineContact
@@ -237,14 +237,41 @@ def check_in_atlas(groups: Groups) -> None:
     films.check(*at)
 
 
-def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None = None) -> AtlasFilm:
+def _continued_at(groups: Groups) -> tuple[Numbers, ...]:
+    """Coordinates at which films outside the atlas are continued: the lightest ones at the same group L."""
+    load, _, *ratio = _coordinates(groups)
+    held = np.maximum(load, _films(groups).axes[0][0])
+    return load, lubricant_coordinate(Groups(held, groups.moes_l)), *ratio
+
+
+def _nearest(groups: Groups, *, known: Mask | bool) -> Groups:
+    """Groups of contacts, and for those outside the atlas the nearest ones in its range."""
+    nearest, lubricant, *others = _films(groups).nearest(*_continued_at(groups))
+    load = np.where(known, np.asarray(groups.load_group), np.asarray(nearest))
+    moes_l = np.where(known, groups.moes_l, lubricant / load**SKEW)
+    if groups.ratio is None:
+        return Groups(load, moes_l)
+    ratio: Array = np.asarray(others[0])
+    ellipse = groups.ellipse
+    inside = np.equal(ellipse.ratio, ratio)
+    if not np.all(inside):
+        pairs = zip(vars(ellipse).values(), vars(Ellipse.of(ratio)).values(), strict=True)
+        ellipse = Ellipse(*(np.where(inside, own, limit) for own, limit in pairs))
+    return Groups(load * (ratio**0.75 / ellipse.q**0.25), moes_l, ratio, ellipse)
+
+
+def atlas_film(
+    groups: Groups, laws: Laws | None = None, oil: OilGroups | None = None, *, beyond: bool = False
+) -> AtlasFilm:
     """Film of smooth contacts from their groups.
 
     ``groups``, numbers of one contact, or arrays of many that broadcast to a shape (...), the points of an
     oil of many points last; ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the
     reference oil, with the spread between oils as an error; ``oil``, groups of the oil, where they are known
-    already. Returns numbers of the film with their errors. Raises InputError if a single contact is outside
-    the range of the atlas; of many contacts, those that are outside have no numbers.
+    already; ``beyond``, whether the films of many contacts outside the atlas continue the films at its edge.
+    The formula has their own groups, and the ratio of the film to the formula is the ratio at the edge.
+    Returns numbers of the film with their errors. Raises InputError if a single contact is outside the range
+    of the atlas; of many contacts, those that are outside have no numbers, unless they are ``beyond``.
     """
     given = laws is not None
     laws = reference_laws() if laws is None else laws
@@ -255,11 +282,13 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
         known: Mask | bool = True
     else:
         known = in_atlas(groups)
-        at = tuple(np.where(known, value, middle) for value, middle in zip(at, films.middle, strict=True))
-    stored, errors = films(*at)
+        if not beyond:
+            at = tuple(np.where(known, value, middle) for value, middle in zip(at, films.middle, strict=True))
+    stored, errors, growth = films.continued(*_continued_at(groups)) if beyond else (*films(*at), 0.0)
+    near = _nearest(groups, known=known) if beyond and not np.all(known) else groups
     logs = dict(zip(NAMES, stored, strict=True))
     pressure, number, formula = np.exp(logs["pressure"]), groups.hertz_number, groups.formula
-    reference, change = reference_groups(), OilChange(groups, oil)
+    reference, change = reference_groups(), OilChange(near, oil)
     of_reference = formula * np.exp(logs["central"])
     mass_of_reference = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
     mass = mass_of_reference * change.factor("central")
@@ -276,13 +305,13 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
         "inlet": np.exp(logs["inlet"]) * change.factor("inlet"),
         "outlet": np.exp(logs["outlet"]) * change.factor("outlet"),
     }
-    of_films = _errors(groups, errors, _SPREAD if given else _WHOLE, oil, known=known)
-    if known is not True:
+    of_films = _errors(near, errors, _SPREAD if given else _WHOLE, oil, known=known | np.asarray(beyond))
+    if known is not True and not beyond:
         numbers = {name: np.where(known, value, math.nan) for name, value in numbers.items()}
     # A single contact has floats.
     numbers = {name: as_float(value) for name, value in numbers.items()}
     place = as_float(logs["minimum_x"]), as_float(logs["minimum_y"])
-    of_films = {name: as_float(error) for name, error in of_films.items()}
+    of_films = {name: as_float(error + growth) for name, error in of_films.items()}
     return AtlasFilm(**numbers, minimum_at=place, errors=of_films, known=known)
 
 
@@ -406,14 +435,18 @@ class ContactFilm:
 
 
 def contact_film(
-    contact: LineContact | PointContact, oil: Oil, ellipse: Ellipse | None = None
+    contact: LineContact | PointContact,
+    oil: Oil,
+    ellipse: Ellipse | None = None,
+    *,
+    beyond: bool = False,
 ) -> ContactFilm:
     """Film of smooth, fully flooded, isothermal contacts, interpolated in the atlas.
 
     ``contact``, numbers of one contact, or arrays that broadcast to a shape (...), the points of an oil of
-    many points last; ``ellipse``, shape of the dry contact of points, where it is known. Returns films [m],
-    with the relative error of each; contacts outside the atlas have NaN. Raises InputError if a single
-    contact is outside the atlas.
+    many points last; ``ellipse``, shape of the dry contact of points, where it is known; ``beyond``, as in
+    ``atlas_film``. Returns films [m], with the relative error of each; contacts outside the atlas have NaN,
+    unless they are ``beyond``. Raises InputError if a single contact is outside the atlas.
 
     Examples
     --------
@@ -426,7 +459,7 @@ def contact_film(
     """
     laws = (oil.log_viscosity, oil.density_ratio)
     groups = groups_of(contact, oil, ellipse)
-    film = atlas_film(groups, laws, _groups_of(oil))
+    film = atlas_film(groups, laws, _groups_of(oil), beyond=beyond)
     radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.radius_x
     unit = radius * as_float(np.sqrt(2.0 * contact._u))
     return ContactFilm(unit * film.central, unit * film.minimum, unit * film.mean, groups, film)

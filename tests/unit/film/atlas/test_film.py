@@ -205,11 +205,14 @@ def test_outside_the_atlas_the_range_is_named():
         atlas_film(groups_of(100.0, 10.0, 30.0))
 
 
+GROWTH = ((0.1, 0.1), (0.1, 0.1))
+
+
 def test_a_cell_without_a_film_is_refused():
     axes = (np.array([1.0, 2.0, 4.0]), np.array([1.0, 2.0, 4.0]))
     solved = np.ones((3, 3), dtype=bool)
     solved[2, 2] = False
-    made = Table(("a", "b"), axes, np.ones((3, 3, 2)), np.zeros((3, 3, 2)), solved)
+    made = Table(("a", "b"), axes, np.ones((3, 3, 2)), np.zeros((3, 3, 2)), solved, GROWTH)
     assert made(1.5, 3.0)[0] == pytest.approx([1.0, 1.0])
     with pytest.raises(InputError, match="solve it"):
         made(3.0, 3.0)
@@ -229,6 +232,7 @@ def test_stated_error_of_interpolation_holds_between_nodes():
         values,
         np.zeros_like(values),
         np.ones(x.shape, dtype=bool),
+        GROWTH,
     )
     rng = np.random.default_rng(1)
     kept = 0
