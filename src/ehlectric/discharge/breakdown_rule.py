@@ -34,7 +34,7 @@ STRENGTH_UNKNOWN = 0.2
 # Standard deviations of a normal distribution within which the sampling error is at a confidence of 95 %.
 _CONFIDENCE = 1.959963984540054
 
-# First words of a verdict. The level of all but the first and the last one is "yellow".
+# First words of a verdict. All levels except the first and the last are "yellow".
 EXCLUDED, POSSIBLE, LIKELY, EXPECTED = (
     "No breakdown expected",
     "Breakdown possible",
