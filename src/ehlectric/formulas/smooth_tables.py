@@ -149,7 +149,8 @@ class SmoothTable:
 
 
 def smooth_table(function: Function, low: Array, high: Array, tolerance: float) -> SmoothTable | None:
-    """Polynomial that meets a function in a box to a tolerance; None where that takes too many nodes.
+    """Polynomial that meets a function in a box to a tolerance; None if that takes too many nodes, or if the
+    function has no value at one of the points.
 
     ``function``, analytic function of points of shape (variables, m), two variables or more; ``low`` and
     ``high``, box, shape (variables,); ``tolerance``, largest difference at points between the nodes.
@@ -167,8 +168,10 @@ def smooth_table(function: Function, low: Array, high: Array, tolerance: float) 
     draw[0] = np.repeat(draw[0, :3], _CHECKED // 3)
     draw[box[1] <= box[0]] = 0.0
     expected, large = known.at(draw), _LARGE * tolerance
+    if not np.all(np.isfinite(expected)):
+        return None
     # With all products along the variables, smaller coefficients add none.
-    while len(known.table.numbers) <= _MOST and large > _LEAST * tolerance:
+    while known.complete and len(known.numbers) <= _MOST and large > _LEAST * tolerance:
         if known.grow(large):
             continue
         error = float(np.max(np.abs(known.table(*draw) - expected)))
@@ -203,6 +206,9 @@ class _Known:
         added = sorted(new, key=sum)
         self.numbers += added
         self.values = np.concatenate([self.values, self.at(leja_points()[np.array(added)].T)])
+        self.complete = bool(np.all(np.isfinite(self.values)))
+        if not self.complete:
+            return
         rows, matrix = np.array(self.numbers), np.ones((len(self.numbers),) * 2)
         for number in rows.T:
             nodes = leja_points()[: int(number.max()) + 1]

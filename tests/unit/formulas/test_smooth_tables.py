@@ -61,3 +61,10 @@ def test_leja_points_are_apart():
     assert points[0] == -1.0
     assert points[-1] == 1.0
     assert np.min(np.diff(points)) > 1e-3
+
+
+@pytest.mark.parametrize("least", [-1.0, 0.97])
+def test_a_function_without_a_value_has_no_table(least):
+    """Films that are thicker than a ball have no gap around them."""
+    low, high = np.zeros(2), np.ones(2)
+    assert smooth_table(lambda at: np.where(at[0] > least, np.nan, at[0] + at[1]), low, high, 1e-9) is None
