@@ -48,6 +48,9 @@ _WIDE = {
 }
 _OTHERS = (1.25, 1.25)
 
+# Parts of a range below and above the value of the file: on both sides, or on one.
+_SIDES = ((1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
+
 # Half of the range of temperatures [K], and how often a range is halved until all of its values are allowed.
 _WARMER, _HALVED = 45.0, 6
 
@@ -71,25 +74,28 @@ class Jump:
 def search(case: BearingCase, key: str, value: float, points: int = 400) -> tuple[float, list[Jump]]:
     """Jumps along an input around its value, and the width of the search as a factor of the widest one.
 
-    The width is smaller than 1 if an input has bounds within the range, and 0 if there is no range.
+    The width is smaller than 1 if an input has bounds within the range, and 0 if there is no range. If the
+    value of the file is at a bound, the range is on one side of the value.
     """
-    for halved in range(_HALVED + 1):
-        part = 0.5**halved
-        try:
-            return part, jumps_along(case, key, _range(key, value, part, points))
-        except InputError:
-            continue
+    for below, above in _SIDES:
+        for halved in range(_HALVED + 1):
+            part = 0.5**halved
+            try:
+                return part, jumps_along(case, key, _range(key, value, (part * below, part * above), points))
+            except InputError:
+                continue
     return 0.0, []
 
 
-def _range(key: str, value: float, part: float, points: int) -> np.ndarray:
-    """Values of an input around its own value."""
+def _range(key: str, value: float, parts: tuple[float, float], points: int) -> np.ndarray:
+    """Values of an input around its own value; ``parts`` of the widest range below and above the value."""
+    below, above = parts
     if key.endswith("temperature"):
-        return value + part * _WARMER * np.linspace(-1.0, 1.0, points)
+        return value + _WARMER * np.linspace(-below, above, points)
     low, high = _WIDE.get(key, _OTHERS)
     if value < 0.0:
-        return -np.geomspace(-value * high**part, -value / low**part, points)
-    return np.geomspace(value / low**part, value * high**part, points)
+        return -np.geomspace(-value * high**above, -value / low**below, points)
+    return np.geomspace(value / low**below, value * high**above, points)
 
 
 def numbers_at(case: BearingCase, key: str, values: np.ndarray) -> dict[str, np.ndarray]:

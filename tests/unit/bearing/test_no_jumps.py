@@ -7,9 +7,6 @@ from tests.helpers.each import each
 from tests.helpers.jumps import _suspects, jumps_along, search
 from tests.helpers.kinds_of_bearings import KINDS, bearing_of, numbers_of
 
-# Inputs without a range: no value but the one of the file is allowed.
-FIXED: tuple[str, ...] = ()
-
 
 def test_a_step_is_suspicious_and_a_slope_is_not():
     changes = np.diff(np.linspace(0.0, 1.0, 50))
@@ -39,7 +36,7 @@ def test_no_number_jumps_along_any_input(kind):
     case = bearing_of(kind)
     found = {key: search(case, key, value) for key, value in numbers_of(case).items()}
     assert {key: jumps for key, (_, jumps) in found.items() if jumps} == {}
-    assert [key for key, (width, _) in found.items() if width == 0.0 and key not in FIXED] == []
+    assert [key for key, (width, _) in found.items() if width == 0.0] == []
 
 
 def test_a_jump_is_found(monkeypatch):
