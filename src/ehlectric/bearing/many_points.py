@@ -205,10 +205,11 @@ def _attempt(case: BearingCase, positions: int, detail: Detail) -> tuple[Bearing
 
 def reason_of(case: BearingCase) -> str:
     """Return the error of a single bearing that is beyond the model."""
-    try:
-        solution_of(case, positions=1)
-    except (InputError, ConvergenceError) as error:
-        return str(error)
+    for positions in (1, POSITIONS):
+        try:
+            solution_of(case, positions=positions)
+        except (InputError, ConvergenceError) as error:
+            return str(error)
     return (
         "the bearing is beyond the model, or a number is outside of its physical bounds, at one of the "
         "positions of its cage"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask, Numbers, any_of
 from ehlectric.bearing.bearing_discharges import first_margin
-from ehlectric.bearing.solution import BearingSolution, RingState
+from ehlectric.bearing.solution import BearingSolution, RingState, capacitance
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
 
@@ -36,8 +37,9 @@ def outside_bounds(solution: BearingSolution) -> Mask:
 def check_bounds(solution: BearingSolution) -> None:
     """Refuse numbers of a single bearing that are outside of their physical bounds.
 
-    Raises ConvergenceError for a film above the radius of an element, and for a capacitance above the
-    capacitance of a plate at the minimum film. Raises InputError for a margin above ``MOST_MARGIN``.
+    Raises ConvergenceError for a film, a capacitance or a breakdown voltage without a value, for a film
+    above the radius of an element, and for a capacitance above the capacitance of a plate at the minimum
+    film. Raises InputError for a margin above ``MOST_MARGIN``.
     """
     for bound in _bounds(solution):
         if bound.outside:
@@ -45,7 +47,9 @@ def check_bounds(solution: BearingSolution) -> None:
 
 
 def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
-    """Bounds of films, capacitances, and of the margin."""
+    """Bounds of films, capacitances, breakdown voltages, and of the margin."""
+    for name, unknown in _unknown(solution):
+        yield _Bound(unknown, partial(_no_value, name))
     rings = [ring for position in solution.positions for ring in position.rings]
     thickest = _largest(rings, lambda ring: np.where(ring.solved, ring.values.central_thickness, 0.0))
     radius = 0.5 * solution.case.bearing.element_diameter
@@ -75,6 +79,23 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
                 "and the dielectric strength",
             ),
         )
+
+
+def _unknown(solution: BearingSolution) -> Iterator[tuple[str, Numbers]]:
+    """Names of main numbers, and whether they have no value, shape (...)."""
+    yield "minimum film", ~np.isfinite(solution.least_film)
+    yield "capacitance", ~np.isfinite(capacitance(solution))
+    circuits = solution.circuits()
+    # A breakdown voltage is infinite without a dielectric strength.
+    yield "breakdown voltage", any_of(*(np.isnan(circuit.first_break) for circuit in circuits))
+
+
+def _no_value(name: str) -> ConvergenceError:
+    """Error of a single bearing with a main number that has no value."""
+    return ConvergenceError(
+        f"the {name} of the bearing has no value; the result is not used. Raise the load, or reduce the "
+        "speed or the viscosity"
+    )
 
 
 def _largest(rings: list[RingState], quantity: Callable[[RingState], Array]) -> Numbers:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
@@ -145,9 +145,8 @@ def check_film(contact: Contact) -> None:
         raise InputError(
             "bearing",
             got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
-            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s;",
-            takes=f"a load, a speed and an oil at its temperature for at most {1e6 * most:.3g} um, "
-            "beyond which the bodies leave it no room",
+            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s; the bodies have room for at most {1e6 * most:.3g} um",
+            takes="a thinner film; raise the load or the temperature, or reduce the speed or the viscosity",
         )
 
 
@@ -401,11 +400,18 @@ def least_load(ring: RingContacts[Any]) -> Numbers:
     theirs. It is found to 1e-6, so that it changes with the speed without steps. It is infinite where the
     domain never holds this length.
     """
+    # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
+    return _least_that(ring, lambda contact: np.asarray(contact.fits))
+
+
+def _least_that(ring: RingContacts[Any], condition: Callable[[Contact], Mask]) -> Numbers:
+    """Least load of contacts that meet a condition, which all heavier contacts meet [N]; infinite if none
+    meets it.
+    """
     kind = kind_of(ring)
 
     def holds(exponent: Numbers) -> Mask:
-        # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-        return np.asarray(kind.contact(ring, 10.0**exponent).fits)
+        return condition(kind.contact(ring, 10.0**exponent))
 
     smallest, largest = _EXPONENTS
     always, never = holds(smallest), ~holds(largest)
@@ -426,19 +432,22 @@ def loads_to_solve(
 
     The loads of the kind, or more for quick contacts unless they are ``coarse``, are evenly spaced in their
     logarithm. Lighter loads come before them if any element carries less than 2 % of the largest load, or
-    none. All loads are continuous functions of the loads of the elements.
+    none. No load has a film for which the bodies have no room: lighter contacts have the trend of a formula.
+    All loads are continuous functions of the loads of the elements.
 
     Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with
     fewer loads than others have the least one of them in the places before, which are not in use.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria], axis=-1)
     largest, smallest = np.max(all_loads, axis=-1), np.min(all_loads, axis=-1)
-    alike = ~(largest > _ALIKE * smallest)
-    least = np.where(alike, largest, np.maximum(smallest, _LEAST * largest))
+    least = _with_room(ring, np.maximum(smallest, _LEAST * largest))
+    alike = ~(largest > _ALIKE * least)
+    least = np.where(alike, largest, least)
     number = (_COARSE_LOADS if coarse else _QUICK_LOADS) if quick else kind_of(ring).loads
     loads = np.geomspace(least, largest, number, axis=-1)
     heavy = ~alike[..., np.newaxis] | (np.arange(number) == number - 1)
     lightest = np.maximum(smallest, _least_light(ring, largest, least, quick=quick))
+    lightest = _with_room(ring, lightest)
     lighter, light = _lighter(lightest, least, (_COARSE_LIGHT if coarse else _QUICK_LIGHT) if quick else None)
     loads, used = np.concatenate([lighter, loads], axis=-1), np.concatenate([light, heavy], axis=-1)
     # Places in use last, as few as the point with the most loads has.
@@ -455,6 +464,13 @@ def _least_light(ring: RingContacts[Any], largest: Array, least: Array, *, quick
         return least
     floor = least_load(ring)
     return np.asarray(floor if quick else np.maximum(floor, _LIGHTEST * largest))
+
+
+def _with_room(ring: RingContacts[Any], load: Array) -> Array:
+    """Loads [N], each at least the least load whose film is not too thick for the room, shape (...)."""
+    if not np.any(too_thick(kind_of(ring).contact(ring, load))):
+        return load
+    return np.maximum(load, _least_that(ring, lambda contact: ~too_thick(contact)))
 
 
 def _lighter(lightest: Array, least: Array, number: int | None) -> tuple[Array, Mask]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric import BearingCase, evaluate
+from ehlectric import BearingCase, InputError, evaluate, solve_bearing
 from ehlectric.bearing.solution import ring_state
 from ehlectric.bearing.solving import solution_of
 from tests.helpers.each import each
@@ -121,3 +121,67 @@ def test_a_bearing_is_the_limit_of_its_loads(bearing):
     loads = np.geomspace(200.0, 1000.0, 400)
     found = evaluate(case_of(**bearing), {"bearing.radial_load": loads})
     assert np.max(np.abs(np.diff(np.log(found["bearing.capacitance"].values)))) < 0.004
+
+
+B_7208 = {"base": "7208 B"}
+C3_6314 = {"base": "6314-C3"}
+QJ = {"base": "QJ 208", "radial_clearance": "20 um"}
+
+
+def same_or_refused(bearing, radial, axial, number):
+    """Check of light loads [N]: every point has a capacitance or a reason, as have the first single ones."""
+    case = case_of(**bearing, radial_load=float(radial[0]), axial_load=float(axial[0]))
+    given = {"bearing.radial_load": np.array(radial), "bearing.axial_load": np.array(axial)}
+    found = evaluate(case, given)
+    capacitance, solved = found["bearing.capacitance"].values, found["converged"].values
+    assert np.all(np.isfinite(capacitance) == solved)
+    assert all(bool(reason) != good for reason, good in zip(found["reason"].values, solved, strict=True))
+    for k in range(number):
+        single = case.replace({key: float(values[k]) for key, values in given.items()})
+        if solved[k]:
+            assert solve_bearing(single, workers=1).capacitance() == pytest.approx(capacitance[k], rel=1e-7)
+        else:
+            with pytest.raises(InputError):
+                solve_bearing(single, workers=1)
+    return found
+
+
+@each(
+    "bearing, radial, axial",
+    [
+        (B_7208, [1.0, 0.8, 1.5, 2.0, 3.0], [1.0] * 5),
+        (C3_6314, [4.8], [3.0]),
+        (QJ, [3.0], [3.0]),
+    ],
+)
+def test_films_thicker_than_the_room_at_some_elements(bearing, radial, axial):
+    """Elements with 2 % of the largest load had films of 0.1 to 43 mm by their load, and no capacitance."""
+    found = same_or_refused(bearing, radial, axial, 1)
+    assert found["converged"].values[0]
+
+
+@pytest.mark.slow
+@each(
+    "bearing",
+    [
+        {"base": "6208", "radial_clearance": "10 um"},
+        C3_6314,
+        {"base": "7208-c"},
+        B_7208,
+        QJ,
+        {"base": "7208-c", "pair": {"arrangement": "X", "axial_clearance": "10 um"}},
+    ],
+)
+def test_light_loads_have_a_capacitance_or_a_reason(bearing):
+    rng = np.random.default_rng(6)
+    radial, axial = 10.0 ** rng.uniform(-0.5, 1.5, (2, 12))
+    same_or_refused(bearing, radial, axial, 2)
+
+
+def test_the_refusal_of_a_thick_film_names_the_room_and_the_remedies():
+    """There is room for a tenth of (f - 1/2) D, here of 0.02 times 11.906 mm."""
+    case = case_of(**B_7208, radial_load=0.5, axial_load=1.0)
+    with pytest.raises(
+        InputError, match=r"room for at most 23\.8 um; expected a thinner film; raise the load"
+    ):
+        solve_bearing(case, workers=1)

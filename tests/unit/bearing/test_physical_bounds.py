@@ -59,6 +59,26 @@ def test_the_reason_of_a_single_bearing(name, factor, text):
         check_bounds(with_values(solution, **{name: value}))
 
 
+@each(
+    ("name", "text"),
+    [
+        ("inside", "the capacitance of the bearing has no value"),
+        ("breakdown_voltage", "the breakdown voltage of the bearing has no value"),
+        ("minimum_thickness", "the minimum film of the bearing has no value"),
+    ],
+)
+def test_a_main_number_without_a_value_is_no_result(name, text):
+    """It is refused at one of two points, and for a single bearing."""
+    both = of_two_points()
+    wrong = with_values(both, **{name: scaled(both, name, [1.0, np.nan])})
+    assert outside_bounds(wrong).tolist() == [False, True]
+    solution = solve_bearing(bearing_case(ROLLERS, contacts="formula"), workers=1).solution
+    values = getattr(solution.positions[0].inner.values, name)
+    wrong = with_values(solution, **{name: np.where(np.arange(values.size) == 0, np.nan, values)})
+    with pytest.raises(ConvergenceError, match=text):
+        check_bounds(wrong)
+
+
 def test_a_margin_of_a_million():
     """The margin is in inverse proportion to the common-mode voltage."""
     case = bearing_case(ROLLERS, contacts="formula")
