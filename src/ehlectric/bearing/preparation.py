@@ -20,7 +20,7 @@ from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, check_balance, mirrored
 from ehlectric.bearing.mounted_clearance import mounted_clearance
 from ehlectric.bearing.quick_contacts import check_quick, is_quick
-from ehlectric.bearing.ring_contacts import Contact, RingContacts
+from ehlectric.bearing.ring_contacts import BallContact, Contact, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.discharge_inputs import Discharge
@@ -432,7 +432,7 @@ def loads_to_solve(
 
     The loads of the kind, or more for quick contacts unless they are ``coarse``, are evenly spaced in their
     logarithm. Lighter loads come before them if any element carries less than 2 % of the largest load, or
-    none. No load has a film for which the bodies have no room: lighter contacts have the trend of a formula.
+    none. The evenly spaced loads of balls have no film that is too thick for the room between the bodies.
     All loads are continuous functions of the loads of the elements.
 
     Returns loads and mask, shape (..., m), or (m,) for one bearing, whose loads are all in use. Points with
@@ -447,7 +447,6 @@ def loads_to_solve(
     loads = np.geomspace(least, largest, number, axis=-1)
     heavy = ~alike[..., np.newaxis] | (np.arange(number) == number - 1)
     lightest = np.maximum(smallest, _least_light(ring, largest, least, quick=quick))
-    lightest = _with_room(ring, lightest)
     lighter, light = _lighter(lightest, least, (_COARSE_LIGHT if coarse else _QUICK_LIGHT) if quick else None)
     loads, used = np.concatenate([lighter, loads], axis=-1), np.concatenate([light, heavy], axis=-1)
     # Places in use last, as few as the point with the most loads has.
@@ -467,8 +466,10 @@ def _least_light(ring: RingContacts[Any], largest: Array, least: Array, *, quick
 
 
 def _with_room(ring: RingContacts[Any], load: Array) -> Array:
-    """Loads [N], each at least the least load whose film is not too thick for the room, shape (...)."""
-    if not np.any(too_thick(kind_of(ring).contact(ring, load))):
+    """Loads [N], of balls at least the least load whose film is not too thick for the room, shape (...)."""
+    contact = kind_of(ring).contact(ring, load)
+    # Rollers have a gap at every film, also at films that build up beyond a parabola.
+    if not isinstance(contact, BallContact) or not np.any(too_thick(contact)):
         return load
     return np.maximum(load, _least_that(ring, lambda contact: ~too_thick(contact)))
 
