@@ -12,20 +12,12 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.runtime.values import is_number
+from tests.helpers.bearings import OIL as SHEET_OIL
+from tests.helpers.bearings import OTHERS
 
-OIL = {
-    "base": "paper",
-    "temperature": {
-        "kinematic_viscosity_40": "46 mm^2/s",
-        "kinematic_viscosity_100": "6.8 mm^2/s",
-        "density_15": "870 kg/m^3",
-        "thermal_conductivity": "0.137 W/m/K",
-    },
-}
+OIL = {**SHEET_OIL, "temperature": SHEET_OIL["temperature"] | {"thermal_conductivity": "0.137 W/m/K"}}
 MOTOR = {
-    "common_mode_voltage": "300 V",
-    "winding_rotor_capacitance": "20 pF",
-    "rotor_frame_capacitance": "1 nF",
+    **OTHERS["motor"],
     "second_bearing_capacitance": "150 pF",
     "switching_frequency": "10 kHz",
     "rise_time": "0.2 us",

@@ -6,22 +6,10 @@ import pytest
 from ehlectric import BearingCase, InputError, evaluate, solve_bearing
 from ehlectric.bearing.solution import ring_state
 from ehlectric.bearing.solving import solution_of
+from tests.helpers.bearings import OTHERS
 from tests.helpers.each import each
+from tests.helpers.kinds_of_bearings import OIL
 
-OIL = {
-    "base": "paper",
-    "temperature": {
-        "kinematic_viscosity_40": "46 mm^2/s",
-        "kinematic_viscosity_100": "6.8 mm^2/s",
-        "density_15": "870 kg/m^3",
-        "thermal_conductivity": "0.137 W/m/K",
-    },
-}
-MOTOR = {
-    "common_mode_voltage": "300 V",
-    "winding_rotor_capacitance": "20 pF",
-    "rotor_frame_capacitance": "1 nF",
-}
 PLAY = {"arrangement": "O", "axial_clearance": "20 um"}
 PRELOAD = {"arrangement": "O", "preload": "500 N"}
 NU = {"base": "NU 208", "radial_clearance": "30 um", "profile": "logarithmic", "radial_load": "330.4 N"}
@@ -38,7 +26,7 @@ def case_of(**bearing):
             "bearing": table | bearing,
             "lubricant": OIL,
             "discharge": {"dielectric_strength": "15 V/um"},
-            "motor": MOTOR,
+            "motor": OTHERS["motor"],
         }
     )
 
