@@ -18,6 +18,7 @@ from ehlectric.bearing.loads.life import LOWEST_RATIO
 from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored import number
 
 _TURN = 2.0 * math.pi
@@ -91,7 +92,7 @@ def cycle_life(
     }
     return CycleLife(
         mean_speed=float(np.sum(speed * duration) / total),
-        equivalent_load=_known(mean),
+        equivalent_load=plain(mean),
         **found,
         **{name: float(np.sum(turns[within]) / np.sum(turns)) for name, within in rows.items()},
     )
@@ -103,8 +104,5 @@ def _miner(total: float, duration: Array, life: Any, counted: Mask) -> float | N
     """
     if life is None:
         return None
-    return _known(total / np.sum((duration / life)[counted]) if np.any(counted) else math.nan)
-
-
-def _known(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
+    found: float | None = plain(total / np.sum((duration / life)[counted])) if np.any(counted) else None
+    return found

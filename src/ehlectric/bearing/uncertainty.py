@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
@@ -24,6 +23,7 @@ from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
 
 # Points of the design, a power of 2, and the seed of its random shifts.
@@ -151,7 +151,7 @@ class MarginSpread:
         return {
             "margin_median": self.median,
             "margin_low": low,
-            "margin_high": high if math.isfinite(high) else None,
+            "margin_high": plain(high),
             "breakdown_probability": self.probability,
             "breakdown_probability_low": least,
             "breakdown_probability_high": most,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -13,6 +12,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.discharge.breakdown_rule import bounds_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.rows import value_at
+from ehlectric.runtime.files import plain
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import numbers_of
 from ehlectric.sweep.sweep_inputs import breakdown_of
@@ -228,7 +228,7 @@ def _bounds(samples: Array, failed: int, q: float) -> tuple[float | None, float 
     high = float(np.quantile(np.concatenate([samples, np.full(failed, np.inf)]), q, method="higher"))
     if not failed:
         low = high = float(np.quantile(samples, q))
-    return (low if math.isfinite(low) else None), (high if math.isfinite(high) else None)
+    return plain(low), plain(high)
 
 
 def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
