@@ -27,11 +27,7 @@ def line_radius(contact: Contact) -> tuple[float, float]:
     r1, r2 = contact.radius_1, contact.radius_2
     assert r1 is not None and r2 is not None
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
-        raise InputError(
-            "contact.radius_1",
-            got=f"{r1:g} m with radius_2 {r2:g} m",
-            takes="radii with 1/radius_1 + 1/radius_2 above 0: a concave body must be wider than the other",
-        )
+        raise _gapless("radius_1", f"{r1:g} m with radius_2 {r2:g} m", "1/radius_1 + 1/radius_2")
     radius = hertz.reduced_radius(r1, r2)
     return radius, radius / r1
 
@@ -43,14 +39,16 @@ def point_radius(contact: Contact, key: str) -> float:
         return reduced
     r1, r2 = (contact.value(f"{body}.{key}") for body in ("body_1", "body_2"))
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
-        raise InputError(
-            f"contact.body_1.{key}",
-            got=f"{r1:g} m with {r2:g} m of body_2",
-            takes="radii with 1/radius of body_1 + 1/radius of body_2 above 0: a concave body must be "
-            "wider than the other",
-        )
+        curvatures = "1/radius of body_1 + 1/radius of body_2"
+        raise _gapless(f"body_1.{key}", f"{r1:g} m with {r2:g} m of body_2", curvatures)
     radius: float = hertz.reduced_radius(r1, r2)
     return radius
+
+
+def _gapless(key: str, got: str, curvatures: str) -> InputError:
+    """Error of two bodies whose curvatures leave no gap."""
+    takes = f"radii with {curvatures} above 0: a concave body must be wider than the other"
+    return InputError(f"contact.{key}", got=got, takes=takes)
 
 
 def line_load(contact: Contact) -> float:
