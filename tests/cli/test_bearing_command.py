@@ -8,6 +8,7 @@ import re
 import pytest
 
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 
 ROLLERS = """\
 title = "Rollers"
@@ -218,3 +219,14 @@ def test_not_converged(ehlectric, bearing_file, tmp_path):
     assert done.returncode == 0, done.stderr
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert '<tr class="alarm"><th scope="row">NOT CONVERGED</th>' in page
+
+
+@pytest.mark.slow
+def test_a_load_with_two_readings_warns_in_one_line(ehlectric, tmp_path):
+    text = (EXAMPLES / "bearing_6208.toml").read_text("utf-8").replace('"1800 N"', '"1.800 kN"')
+    (tmp_path / "bearing.toml").write_text(text, "utf-8")
+    lines = ehlectric("check", "bearing.toml").stderr.splitlines()
+    assert [line for line in lines if "1.800 kN" in line] == [
+        "warning: '1.800 kN' is read as 1.8 kN, not as 1800 kN"
+    ]
+    assert not any(".py" in line for line in lines)

@@ -6,6 +6,7 @@ import logging
 import os
 import signal
 import sys
+import warnings
 from typing import Annotated
 
 import typer
@@ -109,6 +110,11 @@ class _OneLine(logging.Handler):
         say(f"note: {record.getMessage()}", err=True)
 
 
+def _show(message: Warning | str, *_: object) -> None:
+    """Print a warning of Python, such as a doubt about an input, as one line on stderr."""
+    say(f"warning: {message}", err=True)
+
+
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
     for number in not_ignored():
@@ -117,6 +123,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    warnings.showwarning = _show  # type: ignore[assignment]
     handler = _OneLine(logging.WARNING)
     MACHINE.addHandler(handler)
     status = _status()
