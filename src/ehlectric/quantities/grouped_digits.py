@@ -17,9 +17,8 @@ _GROUPED = re.compile(
 )
 
 # Units of quantities that people give in whole numbers, in small letters and without spaces.
-_WHOLE = frozenset(
-    (*("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1"), "n", "n/m", "h")
-)
+_SPEEDS = ("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1")
+_WHOLE = frozenset((*_SPEEDS, "n", "n/m", "lbf", "kgf", "h"))
 
 # Units in which both readings of a load occur, so that a warning states the chosen reading.
 _BOTH = frozenset({"kn"})
