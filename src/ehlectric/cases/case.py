@@ -7,7 +7,7 @@ computes the operating conditions from them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Required, Self, TypedDict, TypeVar, Unpack
 
@@ -23,6 +23,7 @@ from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_gr
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.meter_inputs import Meter
+from ehlectric.cases.replaced_keys import refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
 from ehlectric.cases.table import CaseFile, Title, read_toml
 from ehlectric.errors import InputError, short, shown
@@ -311,7 +312,11 @@ class Case(CaseFile, book="case_file"):
             drop_geometry(table, self.contact.geometry)
         displace_alternatives(table, flat, geometry)
         set_keys(table, flat)
-        return self.from_dict(table | {LAWS: laws})
+        changed = self.from_dict(table | {LAWS: laws})
+        if changed.own_laws is not None:
+            before = flattened(self._without_laws())
+            check_changes(changed, {key: (before.get(key),) for key in flattened(flat)})
+        return changed
 
 
 class LineCase(Case):
@@ -331,6 +336,15 @@ class PointCase(Case):
 
 
 C = TypeVar("C", bound=Case)
+
+
+def check_changes(case: Case, changes: Mapping[str, Iterable[Any]]) -> None:
+    """Raise an InputError if one of the values of a key differs from the value in a case, and a law of the
+    user's own replaces this value. Keys are dotted, and values in SI units.
+    """
+    if case.own_laws is not None:
+        given = flattened(case._without_laws())
+        refuse_replaced(case.lubricant, case.own_laws.names, given, changes)
 
 
 def _of_keys(kind: type[C], geometry: str, keys: Mapping[str, Any]) -> C:

@@ -23,7 +23,7 @@ from ehlectric.sweep.engine import Outcome, Planned, Task, run_points, task_of
 from ehlectric.sweep.point_groups import Inputs, plan_together
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
-from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep.sweep_inputs import Sweep, check_own_laws
 from ehlectric.sweep.sweep_verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
@@ -97,7 +97,9 @@ def _with_laws(sweep: Sweep, laws: Laws | None) -> Sweep:
     """Sweep whose base case has laws of the user's own; unchanged for None."""
     if laws is None:
         return sweep
-    return sweep.model_copy(update={"case": case_with_laws(sweep.case, laws)})
+    changed = sweep.model_copy(update={"case": case_with_laws(sweep.case, laws)})
+    check_own_laws(changed)
+    return changed
 
 
 def crew(executor: Executor | None, workers: int | None) -> AbstractContextManager[Crew]:

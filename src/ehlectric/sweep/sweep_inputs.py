@@ -19,7 +19,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.uncertainty import LEAST_SAMPLES, MOST_SAMPLES
 from ehlectric.cases.amounts import WRITTEN, Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.case import Case
+from ehlectric.cases.case import Case, check_changes
 from ehlectric.cases.drive_case import (
     DriveCase,
     SweptCase,
@@ -343,6 +343,7 @@ class Sweep(Tabled, Table):
             raise InputError("vary", got=f"{self.size} points", takes=f"at most {MOST_POINTS}")
         if self.uncertainty_samples is not None:
             self._check_uncertainty(self.uncertainty_samples)
+        check_own_laws(self)
         return self
 
     def _check_uncertainty(self, samples: int) -> None:
@@ -459,6 +460,18 @@ class Sweep(Tabled, Table):
             whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
             return sobol(self.ranges, self.samples or 0, self.seed, whole)
         return {"grid": grid, "paired": paired}[self.design](self.axes)
+
+
+def check_own_laws(sweep: Sweep) -> None:
+    """Raise an InputError if a varied value has no effect, because a law of the user's own replaces it."""
+    if isinstance(sweep.case, Case):
+        check_changes(
+            sweep.case,
+            {
+                key: (axis.start, axis.stop) if isinstance(axis, Range) else axis
+                for key, axis in sweep.vary.items()
+            },
+        )
 
 
 def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
