@@ -555,8 +555,9 @@ def contact_of(table, oil, load, angle, gap, room, inner, speed, thinnest):
     """
 
     def rigid(apart):
-        of = rigid_roller_capacitance(table, oil, apart, inner=inner) if has_rollers(table) else None
-        return rigid_ball_capacitance(table, oil, angle, apart, inner=inner) if of is None else of
+        if has_rollers(table):
+            return rigid_roller_capacitance(table, oil, apart, inner=inner)
+        return rigid_ball_capacitance(table, oil, angle, apart, inner=inner)
 
     if load <= 0.0:
         apart = _room(gap, thinnest)

@@ -71,8 +71,8 @@ def test_line_at_rest_is_the_dry_rough_contact(table):
 
 
 SLOW = [
-    pytest.param(sinusoid("100 nm", "40 um"), id="sinusoid"),
-    pytest.param(gaussian("50 nm", "20 um"), id="gaussian"),
+    pytest.param(sinusoid("150 nm", "40 um"), id="sinusoid"),
+    pytest.param(gaussian("150 nm", "20 um", seed=4), id="gaussian"),
 ]
 
 

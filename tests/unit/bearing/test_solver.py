@@ -145,7 +145,7 @@ def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contac
     case = bearing_case(BALLS, contacts=contacts, bearing__radial_load="200 kN")
     reasons = []
     for refuse in (check_bearing, partial(solve_bearing, workers=1)):
-        with pytest.raises(InputError, match=r"^bearing: (inner|outer) contact at .* N: .*wide") as caught:
+        with pytest.raises(InputError, match=r"^bearing: outer contact at .* N: .*wide") as caught:
             refuse(case)
         reasons.append(str(caught.value))
     assert reasons[0] == reasons[1]

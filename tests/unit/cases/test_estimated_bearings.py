@@ -252,6 +252,7 @@ def test_ratings_of_other_makers_keep_the_balls(name, dynamic, static, elements,
     assert 1e3 * found.element_diameter == pytest.approx(ball, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_higher_dynamic_ratings_and_rounding_change_no_balls():
     """Other makers print dynamic ratings up to 15 % higher, and static ones with another rounding."""
     for bearing in (one for one in ALL if one.kind in ("deep-groove ball", "angular-contact ball")):

@@ -111,6 +111,7 @@ def test_a_loaded_result_keeps_the_values_of_its_laws(result, tmp_path):
     assert film(solve(loaded.case.replace({"contact.temperature": "60 degC"}, laws=LAWS))) > 0.0
 
 
+@pytest.mark.slow
 def test_a_report_names_the_laws(result, tmp_path):
     save(result, tmp_path)
     (page,) = write_report(tmp_path, tmp_path / "report.html")

@@ -5,12 +5,10 @@ import pytest
 
 import ehlectric
 from ehlectric import BearingCase, DriveCase, InputError, evaluate, solve_bearing
-from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.changes import flattened
-from ehlectric.runtime.values import is_number
 from tests.helpers.bearings import OIL as SHEET_OIL
 from tests.helpers.bearings import OTHERS
 from tests.helpers.each import each
+from tests.helpers.kinds_of_bearings import differences
 from tests.helpers.places import EXAMPLES
 
 MOTOR = OTHERS["motor"]
@@ -59,21 +57,7 @@ def test_points_are_those_of_each_bearing_alone(base):
     found = evaluate(case, given)
     solved = np.flatnonzero(found["converged"].values)
     assert solved.size > 0.8 * POINTS
-    for k in solved[:: max(1, solved.size // 5)].tolist():
-        changes = {key: float(values[k]) for key, values in given.items()}
-        summary = summary_of(solve_bearing(case.replace(changes), workers=1).solution)
-        alone = flattened({name: summary[name] for name in ("lubricant", "bearing", "mechanics")})
-        assert set(found["warning_codes"].values[k].split("; ")) == set(summary["warning_codes"])
-        for key, values in found.data_vars.items():
-            if key not in alone or key in ("mechanics.residual", "bearing.interpolation_error"):
-                continue
-            value = alone[key]
-            if is_number(value):
-                assert values.values[k] == pytest.approx(value, rel=1e-8, abs=1e-12), key
-            elif value is None:
-                assert values.values[k] == "" or np.isnan(values.values[k]), key
-            else:
-                assert values.values[k] == value, key
+    assert differences(case, given, points=solved[:: max(1, solved.size // 5)].tolist()) == []
 
 
 def test_points_beyond_the_model_have_the_reason_of_the_bearing_alone():

@@ -17,15 +17,11 @@ from tests.helpers.share import share
 _STEP = 2e-3
 
 
-def test_lengths_of_rollers():
-    case = bearing_of("thrust needle", contacts="formula")
-    assert differences(case, {"bearing.roller_length": [7e-3, 7.5e-3, 8e-3]}) == []
-
-
 @pytest.mark.slow
 @each(
     ("kind", "key", "values"),
     [
+        ("thrust needle", "bearing.roller_length", [7e-3, 7.5e-3, 8e-3]),
         ("tapered pair", "bearing.roller_length", [15e-3, 16e-3]),
         ("thrust ball", "bearing.inner_groove", [0.53, 0.54]),
         ("thrust ball", "bearing.outer_groove", [0.53, 0.54]),
@@ -120,18 +116,11 @@ TAIT = {
     "tait_beta_k": 6.1e-3,
     "tait_expansion": 7.7e-4,
     "reference_temperature": 298.15,
-    "density": 850.0,
 }
 MURNAGHAN = {key.replace("tait", "murnaghan"): value for key, value in TAIT.items()} | {
     "density_law": "murnaghan"
 }
-DOWSON_HIGGINSON = {
-    "density_law": "dowson-higginson",
-    "density_c1": 5.9e8,
-    "density_c2": 1.34,
-    "density": 850.0,
-}
-TABLE = [280.0, 320.0, 360.0]
+TEMPERATURES = [280.0, 320.0, 360.0]
 OILS = {
     "library with a law of temperature": {"base": "fva-3"},
     "library with tables": {"base": "m100"},
@@ -139,10 +128,11 @@ OILS = {
     "one viscosity": {"base": "paper"},
     "barus": {**OIL, "viscosity_law": "barus", "pressure_viscosity_coefficient": "20 1/GPa"},
     "incompressible": {**OIL, "density_law": "incompressible"},
-    "tait": {**OIL, **{key: value for key, value in TAIT.items() if key != "density"}},
-    "murnaghan": {**OIL, **{key: value for key, value in MURNAGHAN.items() if key != "density"}},
+    "tait": {**OIL, **TAIT},
+    "murnaghan": {**OIL, **MURNAGHAN},
     "doolittle": {
         **TAIT,
+        "density": 850.0,
         "relative_permittivity": 2.2,
         "viscosity_law": "doolittle",
         "doolittle_viscosity": 0.02,
@@ -171,10 +161,10 @@ OILS = {
     "tables over temperature": {
         **OIL,
         "permittivity_table": {
-            "temperature": [280.0, 320.0, 360.0],
+            "temperature": TEMPERATURES,
             "relative_permittivity": [2.4, 2.3, 2.2],
         },
-        "conductivity_table": {"temperature": [280.0, 320.0, 360.0], "conductivity": [1e-13, 1e-12, 1e-11]},
+        "conductivity_table": {"temperature": TEMPERATURES, "conductivity": [1e-13, 1e-12, 1e-11]},
     },
     "arrhenius": {
         **OIL,
