@@ -22,16 +22,14 @@ from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, reach_of
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
+from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
-from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.film.far_field import MOST_OUTSIDE
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import FilmProblem
-from ehlectric.formulas.film_line import pan_hamrock
-from ehlectric.formulas.film_point import PointContact, chittenden
 from ehlectric.lubricant.python_laws import Laws, Recorder, SampledLaws
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
@@ -120,14 +118,10 @@ def _check_margin(case: Case, conditions: Conditions | PointConditions) -> None:
 
     The check omits strengths that need the field in the whole film.
     """
-    discharge = case.discharge
-    table = None if discharge is None else discharge.strength_table
-    if discharge is None or not discharge.has_strength or (table is not None and table.over == "pressure"):
+    estimate = breakdown_by_formula(case, conditions)
+    if estimate is None:
         return
-    groups = conditions.contact
-    formula = chittenden(groups) if isinstance(groups, PointContact) else pan_hamrock(groups)
-    strength = float(dielectric_strength(discharge, np.zeros(())))
-    least = strength * float(formula.minimum_thickness) / MOST_MARGIN
+    least = estimate["breakdown_voltage"] / MOST_MARGIN
     if case.electric.voltage < least:
         raise InputError(
             "electric.potential_2",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import heat_summary
@@ -12,9 +14,11 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_solution import Solution
 from ehlectric.contact.problems import Setup
 from ehlectric.discharge.discharge_laws import conductivity_of
+from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.errors import texts_and_codes
 from ehlectric.film.film_solver import Starvation
 from ehlectric.formulas.film_line import Thickness
+from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS
 from ehlectric.runtime.files import plain
 
 SCHEMA = "ehlectric.summary/1"
@@ -145,6 +149,36 @@ def ranges_of(conditions: Conditions | PointConditions) -> dict[str, dict[str, s
     """Reason why a contact is outside the range of each published formula, for each film."""
     formulas = KINDS[conditions.geometry].formulas
     return {name: formula.ranges(conditions.contact) for name, formula in formulas.items()}
+
+
+def breakdown_by_formula(
+    case: Case | Setup, conditions: Conditions | PointConditions
+) -> dict[str, Any] | None:
+    """Breakdown voltage of the minimum film of a formula; None without a strength that is known beforehand,
+    and for an oil whose viscosity does not grow with pressure.
+
+    A strength over pressure and a Weibull law need the field in the whole film.
+    """
+    discharge = case.discharge
+    if discharge is None or not discharge.has_strength:
+        return None
+    if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
+        return None
+    formula = KINDS[conditions.geometry].formulas[BREAKDOWN_FORMULAS[conditions.geometry]]
+    film = formula(conditions.contact).minimum_thickness
+    if film is None:
+        return None
+    strength = float(dielectric_strength(discharge, np.zeros(())))
+    voltage, applied = strength * float(film), case.electric.voltage
+    return {
+        "formula": formula.name,
+        "outside_range": formula.ranges(conditions.contact)["minimum_thickness"],
+        "minimum_thickness": float(film),
+        "dielectric_strength": strength,
+        "breakdown_voltage": voltage,
+        "applied_voltage": applied,
+        "margin": voltage / applied if applied else None,
+    }
 
 
 def _supply(starvation: Starvation | None) -> dict[str, Any]:

@@ -22,13 +22,11 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
-from ehlectric.quantities.sheets import BREAKDOWN_FORMULAS
 from ehlectric.quantities.units import rpm
 from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
     from ehlectric.contact.check import PreparedContact
-    from ehlectric.contact.conditions import Conditions, PointConditions
     from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.sweep.engine import Planned
 
@@ -70,7 +68,7 @@ def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
 @check.register
 def _check_contact(case: Case) -> Meaning:
     from ehlectric.contact.check import check_case
-    from ehlectric.contact.summary import case_summary
+    from ehlectric.contact.summary import breakdown_by_formula, case_summary
     from ehlectric.motion.moving_contact import TransientContact
     from ehlectric.tables.contact_tables import case_rows
     from ehlectric.tables.motion_tables import schedule_rows
@@ -78,7 +76,7 @@ def _check_contact(case: Case) -> Meaning:
     contact = check_case(case)
     summary = case_summary(case, contact.conditions)
     rows = case_rows(case, summary)
-    estimate = _breakdown_by_formula(case, contact.conditions)
+    estimate = breakdown_by_formula(case, contact.conditions)
     if estimate is not None:
         summary["breakdown_by_formula"] = estimate
         rows += _breakdown_rows(estimate)
@@ -92,18 +90,8 @@ def _check_contact(case: Case) -> Meaning:
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
-def _film_by_formula(
-    conditions: Conditions | PointConditions, *, line: str, point: str
-) -> tuple[str, Any, Mapping[str, str | None]]:
-    """Name and film thicknesses of a formula, chosen by its key for line and for point contacts, and why the
-    contact is outside its ranges.
-    """
-    from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
-    from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
-
-    formulas: Mapping[str, Any] = LINE_FORMULAS if conditions.geometry == "line" else POINT_FORMULAS
-    formula = formulas[line if conditions.geometry == "line" else point]
-    return formula.name, formula(conditions.contact), formula.ranges(conditions.contact)
+# Formula by geometry of the central film that is compared with the roughness, for all lubrication regimes.
+_OF_LAMBDA = {"line": "moes", "point": "nijenbanning_venner_moes"}
 
 
 def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
@@ -113,9 +101,9 @@ def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | Non
     rq = contact.composite_roughness()
     if rq is None or rq < FLAT:
         return None
-    name, thickness, _ = _film_by_formula(contact.conditions, line="moes", point="nijenbanning_venner_moes")
-    film = thickness.central_thickness
-    return {"formula": name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
+    formula = contact.kind.formulas[_OF_LAMBDA[contact.conditions.geometry]]
+    film: Any = formula(contact.conditions.contact).central_thickness
+    return {"formula": formula.name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
 
 
 def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
@@ -124,35 +112,6 @@ def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
     likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "hardly touch"
     note = f", central film ({estimate['formula']}) / combined Rq: the surfaces {likely}"
     yield _row("lambda_by_formula.lambda_ratio", ratio, note)
-
-
-def _breakdown_by_formula(
-    case: Case, conditions: Conditions | PointConditions
-) -> dict[str, str | float | None] | None:
-    """Breakdown voltage of the minimum film of a formula; None without a strength that is known beforehand.
-
-    A strength over pressure and a Weibull law need the field in the whole film.
-    """
-    from ehlectric.discharge.film_breakdown import dielectric_strength
-
-    discharge = case.discharge
-    if discharge is None or not discharge.has_strength:
-        return None
-    if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
-        return None
-    name, thickness, ranges = _film_by_formula(conditions, **BREAKDOWN_FORMULAS)
-    film = thickness.minimum_thickness
-    strength = float(dielectric_strength(discharge, np.zeros(())))
-    applied = abs(case.electric.voltage)
-    return {
-        "formula": name,
-        "outside_range": ranges["minimum_thickness"],
-        "minimum_thickness": film,
-        "dielectric_strength": strength,
-        "breakdown_voltage": strength * film,
-        "applied_voltage": applied,
-        "margin": strength * film / applied if applied else None,
-    }
 
 
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:

@@ -103,7 +103,9 @@ def _is_quick(case: Case) -> bool:
 
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
-_NOT_BY_FORMULA = "No verdict before solving: a dielectric strength over the pressure needs the solved film."
+_NOT_BY_FORMULA = (
+    "No verdict before solving: the dielectric strength depends on pressure, or the viscosity does not."
+)
 _OUTSIDE = (
     "No verdict before solving: the contact is outside the range of the formula ({formula}): {outside_range}."
 )
