@@ -507,12 +507,14 @@ class Note:
     warning: PageWarning
     letter: str = ""
     names: tuple[str, ...] = ()
+    further: tuple[str, ...] = ()  # texts of further warnings of this meaning, such as of the other ring
 
 
 def notes_of(
     numbers: Sequence[Number], warnings: Iterable[PageWarning], said: Collection[str] = ()
 ) -> tuple[Note, ...]:
     """Notes below the numbers of a page, in the order of the warnings, without those with ``said`` codes.
+    Warnings with one code and one meaning are one note.
 
     Examples
     --------
@@ -521,13 +523,17 @@ def notes_of(
     >>> [(one.letter, one.names) for one in notes_of(numbers, [PageWarning("other", "note", ""), thin])]
     [('', ()), ('a', ('margin',))]
     """
+    groups: dict[tuple[str, str], list[PageWarning]] = {}
+    for one in warnings:
+        if one.code not in said:
+            groups.setdefault((one.code, one.meaning or one.text), []).append(one)
     letters = iter(ascii_lowercase)
     found = []
-    for one in warnings:
+    for one, *others in groups.values():
         near = [number for number in numbers if one.code in {each.code for each in number.warnings}]
         names = tuple(f"{number.name[:1].lower()}{number.name[1:]}" for number in near)
-        if one.code not in said:
-            found.append(Note(one, next(letters) if names else "", names))
+        letter = next(letters) if names else ""
+        found.append(Note(one, letter, names, tuple(other.text for other in others)))
     return tuple(found)
 
 

@@ -176,9 +176,10 @@ def told(note: Note) -> str:
     head = f"{letter}<b>{SEVERITY_WORDS[one.severity]}</b> {names}"
     if not one.meaning:
         return f'<div class="told {one.severity}" data-code="{one.code}">{head}{escape(one.text)}</div>'
+    texts = "<br>".join(map(escape, (one.text, *note.further)))
     return (
         f'<details class="told {one.severity}" data-code="{one.code}">'
-        f"<summary>{head}{escape(one.meaning)}</summary>{escape(one.text)}</details>"
+        f"<summary>{head}{escape(one.meaning)}</summary>{texts}</details>"
     )
 
 
