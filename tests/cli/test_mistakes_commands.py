@@ -108,7 +108,7 @@ assert NO_DISCHARGE != BEARING != SLOW
     ("text", "says"),
     [
         pytest.param(NO_DISCHARGE, "no dielectric strength given, no breakdown voltage", id="E17"),
-        pytest.param(SLOW, "warning: breakdown is expected: shaft voltage ", id="E23"),
+        pytest.param(SLOW, "warning: the margin is below 1: shaft voltage ", id="E23"),
     ],
 )
 def test_a_bearing_without_an_answer_or_with_a_bad_one_says_so(ehlectric, files, text, says):

@@ -477,7 +477,7 @@ class MarginAnalysis:
 
     @property
     def critical_speed(self) -> float | None:
-        """Speed of the inner ring below which breakdown is expected [rad/s]; None where there is none."""
+        """Speed of the inner ring below which the margin is below 1 [rad/s]; None where there is none."""
         return None if self.speeds is None else self.speeds.critical
 
     def summary(self) -> dict[str, Any]:
@@ -639,7 +639,7 @@ def _judged(
         f"{lead}: shaft voltage {shaft:.3g} V, first breakdown at "
         f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
     )
-    speeds = list(_speeds(analysis.speeds, level))
+    speeds = list(_speeds(analysis.speeds))
     shares, leaks = _coating(solution, shaft), _leaks(solution)
     sentences = filter(None, [text, shares, *speeds, *reasons, leaks, _assumptions(solution)])
     return Verdict(level, " ".join(sentences), margin)
@@ -778,16 +778,16 @@ def _widths(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
         yield f"Films may be {error_text(solution)} off."
 
 
-def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:
-    """Sentences about the speeds at which breakdown is expected; none where no other speed was computed."""
+def _speeds(speeds: SpeedRange | None) -> Iterator[str]:
+    """Sentences about the speeds at which the margin is below 1 or surfaces touch; none where no other speed
+    was computed. Only the first words of a verdict state how likely a breakdown is.
+    """
     if speeds is None or speeds.lowest >= speeds.highest:
         return
     lowest, highest = max(speeds.lowest, speeds.touching or 0.0), speeds.highest
     within = f"at all speeds computed, {rpm_text(lowest)} to {rpm_text(highest)} rpm"
     if speeds.crossings:
-        # A verdict that is not sure at the speed of the case is not sure at others.
-        word = "likely" if level == "yellow" else "expected"
-        yield f"{_intervals(speeds.broken)} breakdown is {word}."
+        yield f"{_intervals(speeds.broken)} the margin is below 1."
     elif not speeds.above:
         yield f"The margin is below 1 {within}."
     elif speeds.minimum is not None:

@@ -202,7 +202,7 @@ class BearingResult(Shown):
 
     @cached_property
     def verdict(self) -> Verdict:
-        """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
+        """Verdict: whether breakdown is expected at the shaft voltage, and where the margin is below 1."""
         found, why = self._uncertainty_or_reason
         chance = None if found is None else found.chance
         return bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)

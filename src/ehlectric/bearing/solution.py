@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -510,24 +510,27 @@ def percent(error: float) -> str:
     return f"{100.0 * error:.2g} %"
 
 
-def with_light(curve: ContactCurve) -> tuple[ContactSolution, ...]:
-    """Contacts of a ring with equal warnings about those that the atlas does not have; a light contact has a
-    note in place of its warning.
+def with_light(curves: Iterable[ContactCurve]) -> list[tuple[ContactSolution, ...]]:
+    """Contacts of each ring with equal warnings on all rings about those that the atlas does not have; a
+    light contact has a note in place of its warning.
     """
-    heavy = {contact.load for contact in curve.counted.solutions}
+    rings = [(curve.solutions, {contact.load for contact in curve.counted.solutions}) for curve in curves]
     errors: dict[bool, list[float]] = {True: [0.0], False: [0.0]}
-    for contact in curve.solutions:
-        if any(warning.code == "atlas-left" for warning in contact.warnings):
-            errors[contact.load in heavy].append(contact.error or 0.0)
-    counts, light = (outside_atlas(max(errors[is_heavy])) for is_heavy in (True, False))
-    note = ResultWarning.of("atlas-left-light", atlas_left=light)
+    for contacts, heavy in rings:
+        for contact in contacts:
+            if any(warning.code == "atlas-left" for warning in contact.warnings):
+                errors[contact.load in heavy].append(contact.error or 0.0)
+    counts, light = (outside_atlas(max(errors[is_heavy]), light=not is_heavy) for is_heavy in (True, False))
 
-    def named(contact: ContactSolution, warning: ResultWarning) -> ResultWarning:
+    def named(contact: ContactSolution, heavy: set[float], warning: ResultWarning) -> ResultWarning:
         if warning.code != "atlas-left":
             return warning
-        return counts if contact.load in heavy else note
+        return counts if contact.load in heavy else light
 
-    return tuple(
-        replace(contact, warnings=tuple(named(contact, warning) for warning in contact.warnings))
-        for contact in curve.solutions
-    )
+    return [
+        tuple(
+            replace(contact, warnings=tuple(named(contact, heavy, warning) for warning in contact.warnings))
+            for contact in contacts
+        )
+        for contacts, heavy in rings
+    ]

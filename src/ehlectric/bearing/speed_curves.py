@@ -181,7 +181,7 @@ class Curves:
     values: Mapping[str, Array]
     # Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
     scaled: Mapping[str, float]
-    # Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
+    # Speed of the summary of the bearing itself below which the margin is below 1 [rad/s].
     critical: float | None = None
     touching: float | None = None  # speed of this summary below which the surfaces touch [rad/s]
     summit_height: float = 0.0  # of the highest summits, in units of the composite Rq

@@ -75,9 +75,7 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
     """Warnings that tell where the result of a bearing is unreliable, each once."""
     warnings = [
         *raised(flags_of(solution)),
-        *contact_warnings(
-            {"inner": with_light(solution.inner_curve), "outer": with_light(solution.outer_curve)}
-        ),
+        *contact_warnings(dict(zip(("inner", "outer"), with_light(solution.curves), strict=True))),
     ]
     return list(dict.fromkeys(warnings))
 

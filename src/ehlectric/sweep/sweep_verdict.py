@@ -53,11 +53,10 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     count = str(below) if below else "none"
     span = f"{ratio_text(lowest)} to {ratio_text(highest)}"
     doubts = list(_doubts(results, usable))
-    # A verdict that is not sure at its points is not sure between them.
     word = "likely" if doubts and below else "expected"
     sentences = [
         f"Breakdown is {word} at {count} of {known.size} points: the margin is {span}.",
-        *_crossings(results, usable, word),
+        *_crossings(results, usable),
     ]
     if missing:
         have = "point has" if missing == 1 else "points have"
@@ -217,7 +216,7 @@ def _why(results: SweepPoints, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-def _crossings(results: SweepPoints, margins: Array, word: str) -> list[str]:
+def _crossings(results: SweepPoints, margins: Array) -> list[str]:
     """Sentences about the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
         return []
@@ -232,7 +231,7 @@ def _crossings(results: SweepPoints, margins: Array, word: str) -> list[str]:
     )
     return [
         f"{'Below' if low[1] < high[1] else 'Above'} about "
-        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1: breakdown is {word}."
+        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1."
         for low, high in pairwise(rows)
         if (low[1] < 1.0) != (high[1] < 1.0)
     ]

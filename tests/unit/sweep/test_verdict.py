@@ -62,7 +62,7 @@ def test_a_margin_that_falls_with_the_input():
     # Half of the logarithms: sqrt(343.15*353.15) K = 348.11 K.
     # A strength that differs by 20 % takes 1.2 across 1.
     assert verdict.text.startswith("Breakdown is likely at 1 of 3 points: ")
-    assert "Above about 75 °C the margin is below 1: breakdown is likely." in verdict.text
+    assert "Above about 75 °C the margin is below 1." in verdict.text
 
 
 @each(
@@ -100,7 +100,7 @@ def test_films_of_the_atlas_are_as_sure_as_their_results_state(error, level):
 
 def test_contacts_have_their_own_margin():
     verdict = sweep_verdict(sweep({"contact.entrainment_speed": (1.0, 4.0)}, [0.5, 2.0], case=CONTACT))
-    assert verdict.text.endswith("Below about 2 m/s the margin is below 1: breakdown is expected.")
+    assert verdict.text.endswith("Below about 2 m/s the margin is below 1.")
 
 
 def test_margins_of_boundary_films_are_named_and_leave_no_green_verdict():

@@ -228,16 +228,10 @@ def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
     return tuple(Line(row.name, row.text, row.alarm) for row in rows)
 
 
-def page_warnings_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[PageWarning, ...]:
-    """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
-
-    Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
-    says.
-    """
+def page_warnings_of(warnings: Iterable[ResultWarning]) -> tuple[PageWarning, ...]:
+    """Warnings of a result with the keys of the quantities that they concern, the severe ones first."""
     found = []
     for one in dict.fromkeys(warnings):
         about = CODES[one.code]
-        likely = level == "yellow" and one.code == "breakdown-expected"
-        meaning = "The margin is below 1: breakdown is likely." if likely else about.meaning
-        found.append(PageWarning(one.code, one.severity, one.text, about.concerns, meaning))
+        found.append(PageWarning(one.code, one.severity, one.text, about.concerns, about.meaning))
     return tuple(sorted(found, key=lambda warning: SEVERITIES.index(warning.severity)))

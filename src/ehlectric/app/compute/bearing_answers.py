@@ -77,19 +77,18 @@ from ehlectric.tables.bearing_tables import contact_cells, contact_heads, input_
 
 EFFECT_HEADS = ("one input changed", "lowest margin", "with", "highest margin", "with")
 
-_CAPTION = "Margin if one input changes and all others stay, largest effect first; below 1 breakdown is {}"
+_CAPTION = "Margin if one input changes and all others stay, largest effect first; breakdown below 1"
 
 
-def effects_table(summary: Mapping[str, Any], level: str) -> Table | None:
+def effects_table(summary: Mapping[str, Any]) -> Table | None:
     """Table of the inputs that change the margin, with the value of each that belongs to either end. Returns
     None without any effect.
     """
     effects = (summary.get("margin") or {}).get("effects")
     if not effects:
         return None
-    caption = _CAPTION.format("likely" if level == "yellow" else "expected")
     bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
-    return Table(caption, EFFECT_HEADS, tuple(tuple(_cells(effect, bound)) for effect in effects))
+    return Table(_CAPTION, EFFECT_HEADS, tuple(tuple(_cells(effect, bound)) for effect in effects))
 
 
 def _cells(effect: Mapping[str, Any], bound: str) -> Iterator[str]:
@@ -385,7 +384,7 @@ def answer_of(
         bound = capacitance_is_bound(result.solution)
         over = OverSpeed.of(points, own)
         figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
-    placed = limited_to(page_warnings_of(warnings, verdict.level), BEARING_CARDS)
+    placed = limited_to(page_warnings_of(warnings), BEARING_CARDS)
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,
@@ -407,7 +406,7 @@ def answer_of(
         warnings=placed,
         seconds=summary["seconds"],
         differences=changes,
-        effects=effects_table(summary, verdict.level),
+        effects=effects_table(summary),
         duty=shown_duty(result.duty, summary) if whole and result.duty is not None else None,
     )
 

@@ -51,7 +51,7 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
         deciding=decides,
         number=_number(rows, decides.key),
         results=tuple(_results(rows)),
-        warnings=page_warnings_of(result.warnings, verdict.level),
+        warnings=page_warnings_of(result.warnings),
         films=tuple(_over_position(summary)),
         voltages=tuple(_over_speed(result.case, summary)) if whole else (),
         method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",

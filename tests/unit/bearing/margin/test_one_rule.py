@@ -172,3 +172,20 @@ def test_an_extrapolated_viscosity_is_not_called_a_possible_breakdown():
     assert "The viscosity is extrapolated to below 0 °C." in verdict.text
     assert "The probability of breakdown, which does not contain this, is below 0.09 %" in verdict.text
     assert math.isfinite(result.margin)
+
+
+@pytest.mark.slow
+def test_a_margin_just_below_one_is_a_possible_breakdown_in_every_sentence():
+    """A 32208 with a margin of 0.98, which breaks down in about half of all cases."""
+    tapered = {"base": "32208", "radial_load": "4 kN", "axial_load": "1.5 kN", "inner_speed": "3000 rpm"}
+    tapered |= {"composite_rq": "0.09 um", "temperature": "70 degC"}
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").to_dict()
+    result = solve_bearing(BearingCase.from_dict(case | {"bearing": tapered, "contacts": "atlas"}), workers=1)
+    assert 0.95 < result.margin < 1.0
+    verdict = result.verdict
+    likely = result.uncertainty.probability > 0.5
+    assert verdict.lead == ("Breakdown likely" if likely else "Breakdown possible")
+    assert re.search(r"Below about 30[0-9]{2} rpm the margin is below 1\.", verdict.text)
+    (told,) = (str(one) for one in result.warnings if one.code == "breakdown-expected")
+    for text in (verdict.text.removeprefix(verdict.lead), told):
+        assert re.findall(r"breakdown is (?:likely|expected|possible)", text, re.IGNORECASE) == []
