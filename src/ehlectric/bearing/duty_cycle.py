@@ -36,7 +36,7 @@ from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
-from ehlectric.discharge.breakdown_rule import ratio_text
+from ehlectric.discharge.breakdown_rule import mean_text, ratio_text
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.formats import scale_of
@@ -209,6 +209,18 @@ class DutyResult(Values):
             known = np.isfinite(counted)
             means.append(float(np.average(counted[known], weights=rows.duration[known])))
         return means[0], means[1], means[2]
+
+    @property
+    def sentence(self) -> str:
+        """Sentence of the verdict about the cycle: probability of breakdown, share of time with breakdown."""
+        probability, low, high = self._means(whole=True)
+        if probability is None or low is None or high is None:
+            return ""
+        share = 100.0 * self.rows.share(self.rows.breaks)
+        return (
+            f"Over the duty cycle the mean probability of breakdown is {mean_text(probability, low, high)}; "
+            f"the margin is below 1, or surfaces touch, {share:.2g} % of the time."
+        )
 
     def _probabilities(self) -> dict[str, float | None]:
         """Probabilities of breakdown with their bounds by their keys."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -205,7 +205,9 @@ class BearingResult(Shown):
         """Verdict: whether breakdown is expected at the shaft voltage, and where the margin is below 1."""
         found, why = self._uncertainty_or_reason
         chance = None if found is None else found.chance
-        return bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
+        verdict = bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
+        cycle = "" if self.duty is None else self.duty.sentence
+        return replace(verdict, text=f"{verdict.text} {cycle}") if cycle else verdict
 
     @cached_property
     def capacitive_speed(self) -> float | None:

@@ -252,6 +252,11 @@ def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
     return "red", TOUCHING_EXPECTED if least > CERTAIN else TOUCHING
 
 
+def at_an_end(probability: float, error: float) -> bool:
+    """Whether a probability differs from 0 or from 1 by less than its sampling error."""
+    return min(probability, 1.0 - probability) < error
+
+
 def chance_text(probability: float, error: float) -> str:
     """Probability with its sampling error as text.
 
@@ -260,11 +265,26 @@ def chance_text(probability: float, error: float) -> str:
     >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
     ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
     """
+    if not at_an_end(probability, error):
+        return f"{100.0 * probability:.2g} % (sampling error {100.0 * error:.2g} %)"
     if probability < error:
         return f"below {100.0 * (probability + error):.1g} %"
-    if 1.0 - probability < error:
-        return f"above {100.0 * (probability - error):.3g} %"
-    return f"{100.0 * probability:.2g} % (sampling error {100.0 * error:.2g} %)"
+    return f"above {100.0 * (probability - error):.3g} %"
+
+
+# Difference of the bounds of a probability below which they are one number.
+ONE_NUMBER = 1e-9
+
+
+def mean_text(probability: float, low: float, high: float) -> str:
+    """Mean probability as text, or its bounds if points without a result leave it open.
+
+    Examples
+    --------
+    >>> mean_text(0.694, 0.694, 0.694), mean_text(0.5, 0.165, 0.5664)
+    ('69 %', 'between 16 and 57 %')
+    """
+    return f"{100.0 * probability:.2g} %" if high - low < ONE_NUMBER else bounds_text(low, high)
 
 
 def bounds_text(low: float, high: float) -> str:

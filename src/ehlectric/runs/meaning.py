@@ -155,6 +155,13 @@ def _check_bearing(case: BearingCase) -> Meaning:
             notes={"bearing.first_break": lambda _: ", needs solved contacts for this strength"},
         )
     rows = check_rows(summary, words)
+    if case.duty is not None:
+        rows.append(
+            Row(
+                "duty cycle",
+                note="the file is checked; ehlectric bearing computes its films, margins and life",
+            )
+        )
     return Meaning(case.title, tuple(rows), summary, result.all_warnings, result.verdict)
 
 

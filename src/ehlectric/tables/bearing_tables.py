@@ -12,7 +12,7 @@ from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.discharge.breakdown_rule import ratio_text
+from ehlectric.discharge.breakdown_rule import ONE_NUMBER, at_an_end, chance_text, ratio_text
 from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
@@ -376,8 +376,11 @@ def _probability(key: str) -> Callable[[Summary], Any]:
         found = value_at(summary, key)
         low, high = (value_at(summary, f"{key}_{end}") for end in ("low", "high"))
         # Results of earlier versions have no bounds.
-        if low is None or high is None or high - low < _EQUAL:
-            return found
+        if low is None or high is None or high - low < ONE_NUMBER:
+            error = value_at(summary, f"{key}_error")
+            if found is None or error is None or not at_an_end(found, error):
+                return found
+            return chance_text(found, error).removesuffix(" %"), "%"
         return " to ".join(f"{100.0 * end:.2g}" for end in (low, high)), "%"
 
     return value
@@ -387,6 +390,8 @@ def _probability_note(summary: Summary) -> str:
     found = summary["uncertainty"]
     if found.get("failed"):
         return f", {found['failed']} of {found['samples']} points have no result"
+    if at_an_end(found["breakdown_probability"], found["breakdown_probability_error"]):
+        return ""
     return f", sampling error {100.0 * found['breakdown_probability_error']:.2g} %"
 
 
@@ -455,9 +460,6 @@ def input_range(effect: Mapping[str, Any]) -> str:
 # Units that are printed whatever the size of a value, by their SI units.
 _SCALES = {UNITS[unit][0]: scale_of(unit) for unit in ("°C", "deg", "V/µm", "N", "mm²/s")}
 
-
-# Difference of bounds of a probability that is none.
-_EQUAL = 1e-9
 
 # Least share of the spread of an input that has a row.
 _LEAST_SHARE = 0.005

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ehlectric.discharge.breakdown_rule import ONE_NUMBER
 from ehlectric.quantities.rows import Row
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
@@ -54,10 +55,6 @@ def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
         yield others, "other reasons, see sweep.csv"
 
 
-# Difference of bounds of a share that is none.
-_EQUAL = 1e-9
-
-
 def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     """Rows of the spread of a value over its samples, all in one unit."""
     label, spread = label_of(sensitivity.value, results.case), sensitivity.spread
@@ -77,7 +74,7 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     if share is not None:
         voltage = breakdown.voltage_name
         low, high = sensitivity.share_below_voltage_bounds or (share, share)
-        shown = share if high - low < _EQUAL else f"{100.0 * low:.3g} to {100.0 * high:.3g}"
+        shown = share if high - low < ONE_NUMBER else f"{100.0 * low:.3g} to {100.0 * high:.3g}"
         rows.append(Row(f"samples below the {voltage}", shown, "%", digits=".3g"))
     return rows
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric import BearingCase, evaluate, solve_bearing
+from ehlectric import BearingCase, evaluate, load, save, solve_bearing
 from ehlectric.bearing.cycle_rows import LEFT_OUT, STANDSTILL, TOUCHING
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.input_changes import changes_of, proportional_to_strength
@@ -50,6 +50,21 @@ def test_the_probability_rises_with_the_roughness(tenth):
             (1.0 - still) * one["turning_breakdown_probability"]
         )
         assert one["breakdown_share"] == pytest.approx(one["low_margin_share"] + one["touching_share"])
+
+
+@pytest.mark.slow
+def test_the_verdict_has_one_sentence_on_the_cycle(tenth, tmp_path):
+    """The numbers of the sentence are those of the table, and a loaded result has the same verdict."""
+    result = solve_bearing(tenth, workers=1)
+    duty = result.summary()["duty"]
+    probability, share = (100.0 * duty[key] for key in ("breakdown_probability", "breakdown_share"))
+    assert " at the operating point of " in result.verdict.text
+    assert result.verdict.text.endswith(
+        f" Over the duty cycle the mean probability of breakdown is {probability:.2g} %; "
+        f"the margin is below 1, or surfaces touch, {share:.2g} % of the time."
+    )
+    save(result, tmp_path / "saved")
+    assert load(tmp_path / "saved").verdict == result.verdict
 
 
 @pytest.mark.slow
