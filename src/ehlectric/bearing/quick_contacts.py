@@ -273,7 +273,8 @@ def outside_atlas(error: float, *, light: bool = False) -> ResultWarning:
     """Warning about contacts that the atlas does not have, with the relative error of their films; a note
     about ``light`` contacts.
     """
-    return ResultWarning.of("atlas-left-light" if light else "atlas-left", percent=100.0 * min(1.0, error))
+    code = "atlas-left-light" if light else "atlas-left"
+    return ResultWarning.of(code, percent=100.0 * min(1.0, error))
 
 
 def quick_warnings(quick: QuickContact) -> list[tuple[ResultWarning, ...]]:

@@ -104,7 +104,8 @@ def _is_quick(case: Case) -> bool:
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
 _NOT_BY_FORMULA = (
-    "No verdict before solving: the dielectric strength depends on pressure, or the viscosity does not."
+    "No verdict before solving: the breakdown voltage needs the solved film, because the dielectric strength "
+    "depends on pressure, or the viscosity does not."
 )
 _OUTSIDE = (
     "No verdict before solving: the contact is outside the range of the formula ({formula}): {outside_range}."
