@@ -40,6 +40,7 @@ from ehlectric.cases.table import (
     parser_of,
     read_toml,
     table_of,
+    with_name_keys,
 )
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
@@ -469,7 +470,8 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Return a changed copy of the case; the title stays unless a new one is given.
 
         A new key replaces its alternative. A new ``lubricant.base`` replaces all values of the lubricant, and
-        a new ``bearing.base`` all dimensions of the bearing. A range of a replaced value is left out.
+        a new ``bearing.base`` all dimensions of the bearing; ``lubricant="fva-3"`` and ``bearing="6209"`` are
+        such bases. A range of a replaced value is removed.
 
         Parameters
         ----------
@@ -480,14 +482,15 @@ class BearingCase(CaseFile, book="bearing_file"):
             ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
         """
         refuse_deep({**tables, "changes": changes})
-        changes = _with_named_class(_with_class(_flat_changes(tables) | dict(changes or {})))
+        named = with_name_keys(_flat_changes(tables) | dict(changes or {}), BearingCase)
+        changes = _with_named_class(_with_class(named))
         table = open_tables(self)
         if "lubricant.base" in changes:
             table["lubricant"] = {}
         if changes.get("bearing.base") is not None:
             _drop_dimensions(table["bearing"])
         if changes.get("bearing.coating.base") is not None:
-            _drop_coating(table["bearing"])
+            _drop_coating(table["bearing"], changes["bearing.coating.base"])
         displace_oil(table["lubricant"], nested(changes, "lubricant"))
         displace(table, changes, _ALTERNATIVES)
         set_keys(table, changes)
@@ -497,9 +500,11 @@ class BearingCase(CaseFile, book="bearing_file"):
                 for key, ends in table["ranges"].items()
                 if key not in changes and is_number(value_at(table, key))
             }
-        if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
+        bearing = table["bearing"]
+        classed = isinstance(bearing, Mapping) and bearing.get("clearance_class") is not None
+        if classed and "bearing.radial_clearance" not in changes:
             # It follows from the class, and anew where the class or the bore changes.
-            table["bearing"].pop("radial_clearance", None)
+            bearing.pop("radial_clearance", None)
         return self.from_dict(table)
 
 
@@ -563,9 +568,12 @@ def _drop_dimensions(bearing: dict[str, Any]) -> None:
         bearing.pop(key, None)
 
 
-def _drop_coating(bearing: dict[str, Any]) -> None:
-    """Remove the values of a coating that are those of its base in the library."""
+def _drop_coating(bearing: dict[str, Any], base: Any) -> None:
+    """Remove the values of a coating that its base or a new base in the library gives."""
     coating = bearing.get("coating", {})
-    if coating.get("base"):
-        for key in library.coating(coating["base"]):
-            coating.pop(key, None)
+    names = [name for name in (coating.get("base"), base) if name in library.coating_names()]
+    keys = {key for name in names for key in library.coating(name)}
+    # Both state when the coating breaks down.
+    keys |= {"strength"} if "breakdown_voltage" in keys else set()
+    for key in keys:
+        coating.pop(key, None)

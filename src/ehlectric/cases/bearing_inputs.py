@@ -275,7 +275,7 @@ def _given_ratings(life: Any) -> Iterator[float | None]:
             yield None if value is None else amount_at(f"bearing.life.{key}").parse(value)
 
 
-class Bearing(Table, book="bearing"):
+class Bearing(Table, book="bearing", named_by="base"):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
     base: str | None = None
@@ -330,6 +330,7 @@ class Bearing(Table, book="bearing"):
     @classmethod
     def _from_base(cls, table: Any) -> Any:
         """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
+        table = cls.of_name(table)
         if not isinstance(table, Mapping):
             return table
         table = with_class(table)
@@ -575,7 +576,7 @@ class BearingKeys(TypedDict, total=False):
     supply: float | str
     fits: Keys
     parallel_capacitance: Value
-    coating: Keys
+    coating: Keys | str
     life: Keys
 
 

@@ -25,7 +25,7 @@ from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.replaced_keys import refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
-from ehlectric.cases.table import CaseFile, Title, read_toml
+from ehlectric.cases.table import CaseFile, Title, read_toml, with_name_keys
 from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
@@ -291,8 +291,9 @@ class Case(CaseFile, book="case_file"):
         """Return a changed copy of the case; the title stays unless a new one is given.
 
         A new key replaces its alternative: a Hertz pressure replaces the load, and a new ``lubricant.base``
-        replaces all values of the lubricant. A new geometry removes the keys that only the old geometry has,
-        and the lengths, nodes and error of its grid. ``laws`` replaces laws of your own; None removes them.
+        replaces all values of the lubricant; ``lubricant="fva-3"`` is such a base. A new geometry removes the
+        keys that only the old geometry has, and the lengths, nodes and error of its grid. ``laws`` replaces
+        laws of your own; None removes them.
 
         Parameters
         ----------
@@ -304,7 +305,7 @@ class Case(CaseFile, book="case_file"):
             in ``title="A"``. Other keys of a table stay.
         """
         refuse_deep({**tables, "changes": changes})
-        flat = {**flattened(tables), **(changes or {})}
+        flat = with_name_keys({**flattened(tables), **(changes or {})}, Case)
         laws = flat.pop(LAWS, self._laws)
         table = self._without_laws()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)

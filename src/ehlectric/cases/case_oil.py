@@ -648,7 +648,7 @@ def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
 def _of_file(path: Path) -> NamedOil:
     """Oil of a file, at its temperatures and with the conductivity of its discharge."""
     tables = read_toml(path)
-    table = tables.get("lubricant")
+    table = Lubricant.of_name(tables.get("lubricant"))
     if not isinstance(table, Mapping):
         raise InputError(path, "has no table [lubricant]", takes="a case, a bearing file or a file of an oil")
     kelvins = [

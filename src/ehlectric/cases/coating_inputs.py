@@ -29,7 +29,7 @@ def _named(name: str) -> str:
     return name
 
 
-class Coating(Table, book="bearing.coating"):
+class Coating(Table, book="bearing.coating", named_by="base"):
     """Insulating coating between a ring and its seat; no property of it has a default."""
 
     base: str | None = None
@@ -49,8 +49,7 @@ class Coating(Table, book="bearing.coating"):
 
         A text in place of the table is such a name.
         """
-        if isinstance(table, str):
-            table = {"base": _named(table)}
+        table = cls.of_name(table if not isinstance(table, str) else _named(table))
         if not isinstance(table, Mapping) or table.get("base") is None:
             return table
         base = library.coating(library_name(table["base"], library.coating_names()))

@@ -65,7 +65,7 @@ _THERMAL = library_choice(
 )
 
 
-class Body(Table, book="contact.body"):
+class Body(Table, book="contact.body", named_by="material"):
     """Elastic and thermal properties of one body and, for a point contact, its radii in both planes."""
 
     youngs_modulus: float | None = None
@@ -76,6 +76,11 @@ class Body(Table, book="contact.body"):
     thermal_conductivity: float | None = None
     heat_capacity: float | None = None
     density: float | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, table: Any) -> Any:
+        return cls.of_name(table)
 
 
 # Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
@@ -188,8 +193,8 @@ class _ContactKeys(TypedDict, total=False):
     """Keys that the constructors of line and point contacts share."""
 
     reduced_modulus: Value
-    body_1: Keys
-    body_2: Keys
+    body_1: Keys | str
+    body_2: Keys | str
     max_hertz_pressure: Value
     entrainment_speed: Value
     temperature: Value

@@ -14,7 +14,16 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.oil_inputs import law_parameters
-from ehlectric.cases.table import Table, annotation_of, any_of, meant, nearest, number_of, table_of
+from ehlectric.cases.table import (
+    Table,
+    annotation_of,
+    any_of,
+    meant,
+    name_key,
+    nearest,
+    number_of,
+    table_of,
+)
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import (
     BOTH,
@@ -160,6 +169,22 @@ def input_field(key: str) -> FieldInfo:
             key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.known_keys()))}"
         )
     return field
+
+
+def key_of_names(key: str, values: Any) -> str:
+    """Dotted key of values of many points: for names of the library that stand for a table, the key in it.
+
+    Examples
+    --------
+    >>> key_of_names("bearings.lubricant", ["paper", "fva-3"]), key_of_names("lubricant", [1.0])
+    ('bearings.lubricant.base', 'lubricant')
+    """
+    listed = isinstance(values, list | tuple) or getattr(values, "ndim", 0) == 1
+    if not listed or not all(isinstance(value, str) for value in values):
+        return key
+    end, own = end_and_key(key)
+    name = name_key(own, BearingCase if end else _model_of(own.partition(".")[0]))
+    return f"{end}.{name}" if end else name
 
 
 def _with_number(key: str, within: list[str]) -> str:

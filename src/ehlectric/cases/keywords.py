@@ -68,7 +68,7 @@ def keys_of(keys: type) -> Sequence[str]:
 
 
 def split(keywords: Mapping[str, Any], names: type) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Keywords that a ``TypedDict`` names, and all others; the name of a lubricant becomes its table.
+    """Keywords that a ``TypedDict`` names, and all others.
 
     Keywords of the ``TypedDict`` that are None are left out.
 
@@ -77,9 +77,7 @@ def split(keywords: Mapping[str, Any], names: type) -> tuple[dict[str, Any], dic
     >>> from typing import TypedDict
     >>> Tables = TypedDict("Tables", {"lubricant": str, "discharge": None})
     >>> split({"lubricant": "paper", "discharge": None, "load": 1.0}, Tables)
-    ({'lubricant': {'base': 'paper'}}, {'load': 1.0})
+    ({'lubricant': 'paper'}, {'load': 1.0})
     """
     tables = {name: keywords[name] for name in keys_of(names) if keywords.get(name) is not None}
-    if isinstance(tables.get("lubricant"), str):
-        tables["lubricant"] = {"base": tables["lubricant"]}
     return tables, {name: value for name, value in keywords.items() if name not in names.__annotations__}

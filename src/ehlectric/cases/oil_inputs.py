@@ -360,7 +360,7 @@ def _has_viscosity(name: Any) -> bool:
     return law is not None and any(parameter.name == "viscosity" for parameter in law.parameters)
 
 
-class Properties(Table, book="lubricant"):
+class Properties(Table, book="lubricant", named_by="base"):
     """Keys of a lubricant: its properties, the names of its laws, and the parameters of these laws.
 
     The parameters of the laws are keys of this table, but not fields of the class. Their names, units and
@@ -482,7 +482,7 @@ class Properties(Table, book="lubricant"):
 
         Errors of fields and of parameters are raised together, in the order of ``known_keys``.
         """
-        table = with_base(source)
+        table = with_base(cls.of_name(source))
         if not isinstance(table, Mapping):
             return handler(table)
         parsed, errors = _parsed(cls, table)

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "BOOK",
+    "NAMED_BY",
     "arrays",
     "check_one_of",
     "check_over",
@@ -48,6 +49,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "from_written",
     "known_keys",
     "law_values",
+    "of_name",
     "own_laws",
     "plain_tables",
     "shape",
@@ -99,10 +101,22 @@ else:
     class _Listed(type(BaseModel)):
         """Class of tables, of which ``dir`` and ``help`` list what is theirs and not what is pydantic's.
 
-        ``book`` is the name of the table in the book of inputs, which has units and bounds of its numbers.
+        ``book`` is the name of the table in the book of inputs, which has units and bounds of its numbers;
+        ``named_by`` is the key with a name of the library that a text instead of the table stands for.
         """
 
-        def __new__(mcs, name: str, bases: Any, namespace: dict[str, Any], *, book: str = "", **kwargs: Any):
+        def __new__(
+            mcs,
+            name: str,
+            bases: Any,
+            namespace: dict[str, Any],
+            *,
+            book: str = "",
+            named_by: str = "",
+            **kwargs: Any,
+        ):
+            if named_by:
+                namespace["NAMED_BY"] = named_by
             if book:
                 namespace["BOOK"] = book
                 annotations = namespace["__annotations__"]
@@ -119,8 +133,9 @@ class Table(BaseModel, metaclass=_Listed):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    # Name of the table in the book of inputs.
+    # Name of the table in the book of inputs, and key that a text instead of the table stands for.
     BOOK: ClassVar[str] = ""
+    NAMED_BY: ClassVar[str] = ""
 
     def __init__(self, /, **table: Any) -> None:
         refuse_deep(table)
@@ -134,7 +149,7 @@ class Table(BaseModel, metaclass=_Listed):
 
     if TYPE_CHECKING:
 
-        def __init_subclass__(cls, *, book: str = "", **kwargs: Any) -> None: ...
+        def __init_subclass__(cls, *, book: str = "", named_by: str = "", **kwargs: Any) -> None: ...
 
     else:
 
@@ -248,6 +263,11 @@ class Table(BaseModel, metaclass=_Listed):
     def single(self, index: int) -> Self:
         """Table of one of many points, with its numbers as floats, which are not checked."""
         return self.with_values({key: float(array[index]) for key, array in self.arrays().items()})
+
+    @classmethod
+    def of_name(cls, table: Any) -> Any:
+        """Table with the name of the library, if a text stands for the table; otherwise the given value."""
+        return {cls.NAMED_BY: table} if cls.NAMED_BY and isinstance(table, str) else table
 
     @classmethod
     def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
@@ -418,7 +438,9 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
         case "literal_error":
             return InputError(key, got=value, takes=detail["ctx"]["expected"])
         case "model_type" | "model_attributes_type" | "dict_type":
-            return InputError(key, got=value, takes="a table")
+            named = name_key(key, model) != key
+            takes = "a table, or a name of the library as a string" if named else "a table"
+            return InputError(key, got=value, takes=takes)
         case "string_type":
             return InputError(key, got=value, takes="a string")
         case "missing" | "tuple_type" | "too_long" | "too_short":
@@ -522,6 +544,60 @@ def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
         if inner is not None:
             fields |= fields_within(inner, f"{prefix}{name}.")
     return fields
+
+
+def name_key(key: str, model: type[Table]) -> str:
+    """Dotted key of the name that a text stands for: for a table, the key in it; otherwise the same key.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.case import Case
+    >>> name_key("lubricant", Case), name_key("grid", Case), name_key("title", Case)
+    ('lubricant.base', 'grid', 'title')
+    """
+    inner: type[Table] | None = model
+    for name in key.split("."):
+        field = None if inner is None else inner.model_fields.get(name)
+        inner = None if field is None else table_of(field.annotation)
+    return key if inner is None or not inner.NAMED_BY else f"{key}.{inner.NAMED_BY}"
+
+
+def with_name_keys(changes: Mapping[str, Any], model: type[Table]) -> dict[str, Any]:
+    """Values by dotted key, in which a name of the library that stands for a table is a key of it. Raises
+    InputError if a name is also given by its own key.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.case import Case
+    >>> with_name_keys({"lubricant": "paper", "title": "A"}, Case)
+    {'lubricant.base': 'paper', 'title': 'A'}
+    """
+    found: dict[str, Any] = {}
+    for key, value in changes.items():
+        name = name_key(key, model) if isinstance(value, str) else key
+        if name != key and name in changes:
+            raise InputError.worded(name, f"is given twice, also as {key}", takes="one of the two")
+        found[name] = value
+    return found
+
+
+def opened_names(tables: Mapping[str, Any], model: type[Table]) -> dict[str, Any]:
+    """Nested tables, in which a name of the library that stands for a table is the key of this table.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.case import Case
+    >>> opened_names({"contact": {"body_1": "steel"}, "title": "A"}, Case)
+    {'contact': {'body_1': {'material': 'steel'}}, 'title': 'A'}
+    """
+    found = dict(tables)
+    for key, value in tables.items():
+        field = model.model_fields.get(key)
+        inner = None if field is None else table_of(field.annotation)
+        if inner is not None:
+            table = inner.of_name(value)
+            found[key] = opened_names(table, inner) if isinstance(table, Mapping) else table
+    return found
 
 
 def _kind(key: str, model: type[Table]) -> str:

@@ -14,7 +14,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import TABLES, descriptions, phrase
-from ehlectric.cases.table import Table
+from ehlectric.cases.table import Table, name_key
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.example_files import examples_folder
@@ -68,7 +68,7 @@ def schema_of(kind: str) -> dict[str, Any]:
     tables = {name: _tidied(table) for name, table in whole["$defs"].items()}
     tagged: list[tuple[str, type[Table]]] = [*described.items(), *_ALIKE]
     for name, one in tagged:
-        _describe(tables[_named(places[one, "validation"])], name)
+        _describe(tables[_named(places[one, "validation"])], name, one)
     root = _named(places[model, "validation"])
     schema = {**tables.pop(root), "definitions": tables}
     _as_written(schema, kind)
@@ -113,7 +113,7 @@ def _says_something(default: Any) -> bool:
     return default not in (None, "") and not isinstance(default, dict | list)
 
 
-def _describe(table: dict[str, Any], name: str) -> None:
+def _describe(table: dict[str, Any], name: str, model: type[Table]) -> None:
     """Put the descriptions of the book of inputs before what the keys take."""
     for key in descriptions(name):
         if key in table.get("properties", {}):
@@ -121,7 +121,9 @@ def _describe(table: dict[str, Any], name: str) -> None:
             takes = own.get("description", "")
             if "$ref" in own:
                 # Beside a reference, draft 7 reads nothing else.
-                own["allOf"] = [{"$ref": own.pop("$ref")}]
+                inner = {"$ref": own.pop("$ref")}
+                named = name_key(key, model) != key
+                own |= {"anyOf": [{"type": "string"}, inner]} if named else {"allOf": [inner]}
                 takes = ""
             own["description"] = "\n".join(filter(None, (phrase(name, key), takes)))
 

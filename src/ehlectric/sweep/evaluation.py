@@ -12,7 +12,7 @@ from ehlectric.bearing.many_points import Columns, columns_of, many_of
 from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.cases.input_keys import is_quantity
+from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact.check import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
@@ -76,7 +76,12 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
     """
     if laws is not None:
         case_with_laws(case, laws)
-    given = {key: _values(key, values) for key, values in inputs.items()}
+    given: dict[str, Any] = {}
+    for key, values in inputs.items():
+        name = key_of_names(key, values)
+        if name in given:
+            raise InputError.worded(name, "is given twice")
+        given[name] = _values(key, values)
     if not given:
         raise InputError("inputs", got="none", takes="at least one key with an array")
     lengths = {key: len(values) for key, values in given.items()}

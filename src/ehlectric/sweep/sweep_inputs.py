@@ -27,7 +27,7 @@ from ehlectric.cases.drive_case import (
     swept_case_of_file,
     with_found_files,
 )
-from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of
+from ehlectric.cases.input_keys import input_field, is_of_drive, key_of_names, kind_of
 from ehlectric.cases.table import Table, Title, nearest, nearest_key, number_of, parser_of, read_toml
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
@@ -504,7 +504,8 @@ def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
                 got=f"a table of {short(', '.join(map(str, value))) or 'nothing'}",
                 takes=_RANGE,
             )
-        inner = _flattened(value, f"{prefix}{key}.") if table else {f"{prefix}{key}": value}
+        name = key_of_names(f"{prefix}{key}", value)
+        inner = _flattened(value, f"{name}.") if table else {name: value}
         for name in inner.keys() & flat.keys():
             raise InputError.worded(name, "is given twice")
         flat |= inner

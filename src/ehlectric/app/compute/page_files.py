@@ -22,7 +22,10 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
-from ehlectric.cases.table import tables_of_text
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.table import Table, opened_names, tables_of_text
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.quantities.inputs import ENDS
@@ -69,6 +72,7 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
         else:
             missing.append(inner)
     kind = kind_of(table)
+    table = _with_opened_names(table)
     missing += [*_with_bearings(table, contents), *_missing(table, contents, folder)]
     if missing:
         return Uploaded(name, kind, table, tuple(dict.fromkeys(missing)))
@@ -85,6 +89,14 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
             path.unlink(missing_ok=True)
         raise
     return Uploaded(name, kind, table)
+
+
+def _with_opened_names(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables in which a name of the library that stands for a table is a key of this table."""
+    if isinstance(table.get("case"), Mapping):
+        return {**table, "case": _with_opened_names(table["case"])}
+    kinds: dict[str, type[Table]] = {"drive": DriveCase, "bearing": BearingCase}
+    return opened_names(table, kinds.get(kind_of(table), Case))
 
 
 def _with_bearings(table: dict[str, Any], contents: Mapping[str, bytes]) -> list[str]:
