@@ -16,6 +16,7 @@ from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt
 from ehlectric.quantities.inputs import input_at
 from ehlectric.quantities.quantity import Bounds
+from ehlectric.quantities.unit_spelling import typed
 
 # Temperatures without a unit whose size is below this are meant in degC [K].
 _COLDEST_BARE = 200.0
@@ -116,7 +117,7 @@ class Amount(Bounds):
 
     def _number(self, entry: object) -> float:
         if self.difference and units.on_scale(entry):
-            raise ValueError("it is a difference of temperatures, not a temperature")
+            raise ValueError("it is a difference of temperatures, not a temperature: write K or delta_degF")
         if isinstance(entry, str) and self.unit:
             return self._of_text(entry)
         if isinstance(entry, str) and self.fraction:
@@ -124,7 +125,7 @@ class Amount(Bounds):
         if isinstance(entry, str) and len(entry) <= units.LONGEST and (advice := units.comma_advice(entry)):
             raise ValueError(advice)
         if units.is_pint(entry):
-            return units.from_pint(entry, self.unit)
+            return units.from_pint(entry, self.unit, difference=self.difference)
         if isinstance(entry, bool) or not isinstance(entry, numbers.Real):
             raise ValueError("it is not a number")
         try:
@@ -136,15 +137,17 @@ class Amount(Bounds):
         """Value in SI units of a number with its unit. Raises ValueError also for a number that may be meant
         with a separator of thousands.
         """
+        if self.difference:
+            return units.difference(text)
         value = units.to_si(text, self.unit)
-        advice = None if self.unit == "K" else doubt(text, self, self.factor)
+        advice = None if self.unit == "K" else doubt(typed(text), self, self.factor)
         if advice is not None:
             raise ValueError(advice)
         return value
 
     def factor(self, unit: str) -> float:
         """Factor from a unit, as a person writes it, to the SI unit. Raises ValueError for another unit."""
-        return units.factor(units.plain(unit), self.unit)
+        return units.factor(unit, self.unit)
 
     @property
     def takes(self) -> str:

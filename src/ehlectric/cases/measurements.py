@@ -22,6 +22,7 @@ from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.unit_spelling import typed
 from ehlectric.runtime.reading import read_bytes
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ class Column:
             if self.uncertainty:
                 return 0.01
             raise ValueError("the value of 100 % is unknown")
-        return _factor(_plain(self.unit), self.book.columns[self.name].unit)
+        return _factor(self.unit, self.book.columns[self.name].unit)
 
     def value(self, number: float) -> float:
         """Value in SI units of a number in the unit of the column; an uncertainty stays a difference. Raises
@@ -144,7 +145,7 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     >>> column_of("remark") is None
     True
     """
-    text = " ".join(head[: _LONGEST + 1].strip().strip("\"'").split())
+    text = " ".join(typed(head[: _LONGEST + 1]).strip().strip("\"'").split())
     if len(text) > _LONGEST:
         return None
     name, unit = _parts(text)
@@ -192,12 +193,6 @@ def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
         f"has the unit {shown(unit)} ({short(reasons[0])})",
         takes=f"values in {book.columns[name].usual} or another unit of this quantity",
     )
-
-
-def _plain(unit: str) -> str:
-    """Unit in the spelling of pint: people write Ohm, and a degree sign for an angle."""
-    text = units.plain(unit).replace("Ohm", "ohm").replace("Ω", "ohm").replace("\u2126", "ohm")
-    return "deg" if text == "°" else text
 
 
 # Quantities of an impedance, all three of which give a capacitance.
@@ -542,9 +537,12 @@ def _uncertainties(
 
 def _absolute(source: str, column: Column, name: str, numbers: Array) -> Array:
     """Uncertainties in the SI unit of a quantity, from numbers in the unit of the column."""
-    unit = {"degC": "K", "°C": "K", "C": "K"}.get(column.unit, column.unit)
+    absolute = column.book.columns[name].unit == "K"
+    degree = units.degree(column.unit) if absolute else None
     try:
-        factor = Column(name, column.head, unit, book=column.book).factor()
+        factor = (
+            Column(name, column.head, column.unit, book=column.book).factor() if degree is None else degree
+        )
     except ValueError as error:
         takes = f"per cent or a unit of {name.replace('_', ' ')}"
         raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None

@@ -17,7 +17,6 @@ _AROUND = re.compile(r"(?P<value>.+?)\s*(?:\+-|\+/-|±)\s*(?P<part>.+)", re.DOTA
 _BETWEEN = re.compile(r"(?P<low>.+?)\s+to\s+(?P<high>.+)", re.DOTALL)
 
 _PERCENT = re.compile(r"(?P<number>[^%]+?)\s*(?:%|percent)")
-_TEMPERATURE = re.compile(r"(?P<number>.+?)\s*(?:degC|°C|deltadegC|delta_degC|K)")
 
 
 def with_stated_ranges(
@@ -99,9 +98,10 @@ def _difference(key: str, text: str, value: float, part: str, quantity: Amount) 
     takes = "a difference above 0 behind +-, with the unit of the value or in %"
     percent = _PERCENT.fullmatch(part)
     if quantity.unit == "K":
-        takes = "a difference above 0 behind +-, in K or degC"
-        kelvin = _TEMPERATURE.fullmatch(part)
-        found = None if kelvin is None else _number(kelvin["number"])
+        takes = "a difference above 0 behind +-, in K or degC, or in degF"
+        number_and_unit = units.split(part)
+        degree = None if number_and_unit is None else units.degree(number_and_unit[1])
+        found = None if number_and_unit is None or degree is None else degree * number_and_unit[0]
     elif percent is not None:
         number = _number(percent["number"])
         found = None if number is None else 0.01 * number * abs(value)

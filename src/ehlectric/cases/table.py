@@ -375,7 +375,9 @@ def tables_of_text(text: str, name: object) -> dict[str, Any]:
 _PLACE = re.compile(r"\(at line (\d+), column \d+\)")
 _QUOTED = re.compile(r'"[^"]*"|\'[^\']*\'')
 _COMMA_NUMBER = re.compile(r"=\s*([-+]?\d+,\d+\b[^,\]#]*)")
-_UNIT_NUMBER = re.compile(r"[=\[,]\s*([-+]?\d[\d.]*(?:[eE][-+]?\d+)?\s*[A-Za-zµμ°%/][^,\]#]*)")
+_UNIT_NUMBER = re.compile(
+    r"[=\[,]\s*([-+]?\d[\d.]*(?:[eE][-+]?\d+)?\s*(?:[^\W\d_]|[°%/\u2100-\u214f\u3300-\u33ff])[^,\]#]*)"
+)
 
 
 def _syntax(message: str, text: str) -> str:

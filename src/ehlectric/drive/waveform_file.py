@@ -26,6 +26,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.errors import InputError, ResultWarning, printable, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.unit_spelling import typed
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_memory_for, check_size
 
@@ -533,9 +534,10 @@ def _unit(text: str) -> tuple[str, float]:
     >>> _unit("mV"), _unit("MV"), _unit("Volt"), _unit("furlong")
     (('V', 0.001), ('V', 1000000.0), ('V', 1.0), ('', 1.0))
     """
+    text = typed(text)
     # Capitals count in mV and MV, and in ms and Ms.
     large = len(text) == 2 and text[0] == "M"
-    found = _UNIT.fullmatch(text.lower().replace("\u03bc", "µ")[large:])
+    found = _UNIT.fullmatch(text.lower()[large:])
     scale = 1e6 if large else 1.0
     if found is None:
         return "", scale
@@ -550,7 +552,7 @@ def _parts(head: str) -> tuple[str, str]:
     >>> _parts("Time (us)"), _parts("C1 in V"), _parts("time_ms"), _parts("Channel A")
     (('Time', 'us'), ('C1', 'V'), ('time', 'ms'), ('Channel A', ''))
     """
-    text = " ".join(head.split())
+    text = " ".join(typed(head).split())
     for opening, closing in ("[]", "()"):
         start = text.rfind(opening)
         if start >= 0 and text.endswith(closing):
@@ -746,7 +748,7 @@ def _factor_of(source: object, unit: str, base: str, says: str) -> float:
     if known == base:
         return factor
     try:
-        return units.factor(units.plain(unit), base)
+        return units.factor(unit, base)
     except ValueError as error:
         raise InputError(source, f"{says} ({error})", takes=_USUAL[base]) from None
 

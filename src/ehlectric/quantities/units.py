@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeGuard
 
 from ehlectric.errors import InputError, short, shown
 from ehlectric.quantities.grouped_digits import is_grouped, readings
+from ehlectric.quantities.unit_spelling import plain, typed
 
 if TYPE_CHECKING:
     import pint
@@ -19,16 +20,14 @@ RPM = math.pi / 30.0
 
 # Products and quotients of up to eight named units with one-digit exponents. No quantity here needs other
 # units, and pint would compute for ever on nested exponents, and on long names and products.
-_NAME = r"[A-Za-zµμΩ°]{1,40}+(?:(?:\*\*|\^)?[-+]?[1-9])?"
+_LETTER = "[A-Za-zµΩ°ÅΔ_]"
+_NAME = rf"{_LETTER}{{1,40}}+(?:(?:\*\*|\^)?[-+]?[1-9])?"
 _UNIT = re.compile(rf"(?:1?\s*+/\s*+)?{_NAME}(?:(?:\s*+[*/·]\s*+|\s++){_NAME}){{0,7}}")
-_EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ°])(?:\*\*|\^)?([-+]?[1-9])")
+_EXPONENT = re.compile(rf"(?<={_LETTER})(?:\*\*|\^)?([-+]?[1-9])")
 _ANGLE = re.compile("rad|rpm|rev|turn|deg")
 
-# Superscript exponents as in GPa⁻¹, and the minus sign that is no hyphen.
-_SUPERSCRIPT = re.compile("[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-_PLAIN = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 _RAISED = str.maketrans("+-0123456789", "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_WORD = re.compile(r"[A-Za-z°µμΩ]+")
+_WORD = re.compile(rf"{_LETTER}+")
 
 # Revolutions per minute as catalogues and machines print them, in small letters and without spaces.
 _TURNS = ("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1")
@@ -38,10 +37,21 @@ _HINTS = {
     "Pa*s": ("m**2/s", "multiply a kinematic viscosity by the density"),
     "m/s": ("1/s", "multiply a rotational speed, in rad/s, by the radius"),
     "N/m": ("N", "divide a load by the length of the line"),
+    "N": ("kg", "a mass is not a force: write N, lbf or kgf"),
 }
 
-# Units of an absolute temperature, and the zero point of each unit [K].
-_ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15, "C": 273.15}
+# Temperature scales, in the spelling of ``plain``: minus the number of the scale at 0 K, and size of
+# a degree [K].
+_SCALES = {
+    "K": (0.0, 1.0),
+    "degC": (273.15, 1.0),
+    "degF": (459.67, 5.0 / 9.0),
+    "degR": (0.0, 5.0 / 9.0),
+}
+_EXAMPLES = "K, °C or °F"
+
+# Letters that mean coulomb and farad, except in a temperature.
+_LETTERS = {"C": "degC", "F": "degF"}
 
 # Units that are read without pint, which takes half a second to load: factor to SI units as a number times a
 # power of ten, and the exponents of m, kg, s, A, K, rad and mol. Those of the first table take prefixes.
@@ -72,6 +82,19 @@ _PREFIXED: dict[str, tuple[float, int, tuple[int, ...]]] = {
 _PLAIN_NAMES: dict[str, tuple[float, int, tuple[int, ...]]] = {
     "inch": (0.0254, 0, (1, 0, 0, 0, 0, 0, 0)),
     "in": (0.0254, 0, (1, 0, 0, 0, 0, 0, 0)),
+    "thou": (2.54, -5, (1, 0, 0, 0, 0, 0, 0)),
+    "microinch": (2.54, -8, (1, 0, 0, 0, 0, 0, 0)),
+    "uin": (2.54, -8, (1, 0, 0, 0, 0, 0, 0)),
+    "µin": (2.54, -8, (1, 0, 0, 0, 0, 0, 0)),
+    "ft": (0.3048, 0, (1, 0, 0, 0, 0, 0, 0)),
+    "micron": (1.0, -6, (1, 0, 0, 0, 0, 0, 0)),
+    "angstrom": (1.0, -10, (1, 0, 0, 0, 0, 0, 0)),
+    "Å": (1.0, -10, (1, 0, 0, 0, 0, 0, 0)),
+    "lbf": (4.4482216152605, 0, (1, 1, -2, 0, 0, 0, 0)),
+    "kgf": (9.80665, 0, (1, 1, -2, 0, 0, 0, 0)),
+    "psi": (6894.757293168361, 0, (-1, 1, -2, 0, 0, 0, 0)),
+    "ksi": (6894.757293168361, 3, (-1, 1, -2, 0, 0, 0, 0)),
+    "atm": (101325.0, 0, (-1, 1, -2, 0, 0, 0, 0)),
     "min": (60.0, 0, (0, 0, 1, 0, 0, 0, 0)),
     "h": (3600.0, 0, (0, 0, 1, 0, 0, 0, 0)),
     "deg": (math.pi / 180.0, 0, (0, 0, 0, 0, 0, 1, 0)),
@@ -80,7 +103,7 @@ _PLAIN_NAMES: dict[str, tuple[float, int, tuple[int, ...]]] = {
 _POWERS = {"G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "µ": -6, "n": -9, "p": -12}
 
 # Sign, name and exponent of each factor of a unit.
-_FACTOR = re.compile(r"([*/·\s]*)([A-Za-zµΩ]+)(?:(?:\*\*|\^)?([-+]?[1-9]))?")
+_FACTOR = re.compile(rf"([*/·\s]*)({_LETTER}+)(?:(?:\*\*|\^)?([-+]?[1-9]))?")
 
 # Prefixes by their factor.
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
@@ -122,19 +145,6 @@ def registry() -> pint.UnitRegistry[float]:
     return pint.UnitRegistry()
 
 
-def plain(text: str) -> str:
-    """Text with its superscripts as exponents and with ordinary minus signs.
-
-    Examples
-    --------
-    >>> plain("22 GPa⁻¹")
-    '22 GPa^-1'
-    """
-    return _SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_PLAIN), text).replace(
-        "\N{MINUS SIGN}", "-"
-    )
-
-
 def comma_advice(text: str) -> str | None:
     """Advice for a number with a decimal comma; None for other texts.
 
@@ -145,7 +155,7 @@ def comma_advice(text: str) -> str | None:
     >>> comma_advice("1,000 mm")
     'decimal comma: write 1 mm, or 1000 mm if the comma separates thousands'
     """
-    found = _COMMA.fullmatch(text)
+    found = _COMMA.fullmatch(typed(text))
     if found is None:
         return None
     whole, part, rest = found.groups()
@@ -165,6 +175,7 @@ def known_factor(written: str, unit: str) -> float | None:
     >>> known_factor("kN/mm", "MN/m"), known_factor("r/min", "rpm"), known_factor("furlong", "m")
     (1.0, 1.0, None)
     """
+    written = plain(written)
     if unit in (ROTATION, "rpm") and written.replace(" ", "").lower() in _TURNS:
         written = "rpm"
     found, wanted = _known(written), _known(unit)
@@ -177,7 +188,7 @@ def known_factor(written: str, unit: str) -> float | None:
 @cache
 def _known(unit: str) -> tuple[float, int, tuple[int, ...]] | None:
     """Number, power of ten and dimensions of a unit in SI units; None where a name in it is not known."""
-    text = plain(unit).replace("μ", "µ").strip()
+    text = plain(unit)
     if _UNIT.fullmatch(text) is None:
         return None
     number, power = 1.0, 0
@@ -216,8 +227,11 @@ def factor(written: str, unit: str) -> float:
     >>> round(factor("min^-1", "rad/s"), 6)
     0.10472
     """
+    written = plain(written)
     if unit == ROTATION:
         written = _rotation(written)
+    if unit == "K" and _SCALES.get(written, (0.0, 1.0))[0]:
+        raise ValueError(f"{short(written)} is a temperature, not a difference of temperatures")
     known = known_factor(written, unit)
     if known is not None:
         return known
@@ -270,10 +284,64 @@ def _rotation(written: str) -> str:
 def absolute(number: float, written: str) -> float:
     """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K. Raises
     ValueError if ``written`` is not a unit of an absolute temperature.
+
+    Examples
+    --------
+    >>> absolute(70.0, "°C"), absolute(158.0, "degF")
+    (343.15, 343.15)
     """
-    if written not in _ZEROS:
-        raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
-    return float(f"{number + _ZEROS[written]:.15g}")
+    zero, degree = _scale(written)
+    return float(f"{(number + zero) * degree:.15g}")
+
+
+@cache
+def _scale(written: str) -> tuple[float, float]:
+    """Zero point of a temperature scale, and the size of its degree [K]; scales without an entry are those of
+    pint.
+    """
+    name = plain(written)
+    if found := _known_scale(name):
+        return found
+    if "delta" in name:
+        raise ValueError(f"{shown(written)} is a difference of temperatures")
+    try:
+        return 0.0, factor(name, "K")
+    except ValueError:
+        raise ValueError(
+            f"{shown(written)} is not a unit of an absolute temperature, such as {_EXAMPLES}"
+        ) from None
+
+
+def _known_scale(name: str) -> tuple[float, float] | None:
+    """Entry of ``_SCALES`` for a temperature unit in the spelling of ``plain``; None without an entry."""
+    return _SCALES.get(_LETTERS.get(name, name))
+
+
+def difference(text: str) -> float:
+    """Convert a difference of temperatures to kelvin: 36 delta_degF are 20 K. Raises ValueError if the text
+    is not such a difference.
+
+    Examples
+    --------
+    >>> difference("20 K"), difference("20 delta_degC"), difference("36 delta_degF")
+    (20.0, 20.0, 20.0)
+    """
+    number, written = _split(text)
+    if not written:
+        raise ValueError("it has no unit")
+    return float(f"{number * factor(written, 'K'):.15g}")
+
+
+def degree(written: str) -> float | None:
+    """Return the size of the degree of a temperature [K] or of a difference; None for another unit.
+
+    Examples
+    --------
+    >>> degree("K"), degree("°C"), round(degree("delta_degF"), 4), degree("m")
+    (1.0, 1.0, 0.5556, None)
+    """
+    found = _known_scale(plain(written).removeprefix("delta_"))
+    return None if found is None else found[1]
 
 
 def is_pint(entry: object) -> TypeGuard[pint.Quantity[float]]:
@@ -289,23 +357,23 @@ def is_pint(entry: object) -> TypeGuard[pint.Quantity[float]]:
     return isinstance(entry, pint.Quantity)
 
 
-# Parts of the names of temperature scales, in small letters.
-_SCALES = ("degc", "°c", "celsius", "degree_c", "degf", "°f", "fahrenheit", "degree_f")
-
-
 def on_scale(entry: object) -> bool:
     """Whether an entry is a temperature in degrees of a scale that has a zero of its own.
 
     Examples
     --------
-    >>> on_scale("48 degC"), on_scale("48 K"), on_scale(48.0)
-    (True, False, False)
+    >>> on_scale("48 degC"), on_scale("48 ℃"), on_scale("48 K"), on_scale(48.0)
+    (True, True, False, False)
     """
-    unit = entry if isinstance(entry, str) else str(entry.units) if is_pint(entry) else ""
-    return "delta" not in unit and any(scale in unit.casefold() for scale in _SCALES)
+    if isinstance(entry, str):
+        found = split(entry)
+        unit = "" if found is None else found[1]
+    else:
+        unit = str(entry.units) if is_pint(entry) else ""
+    return _SCALES.get(plain(unit), (0.0, 1.0))[0] != 0.0
 
 
-def from_pint(entry: pint.Quantity[float], unit: str) -> float:
+def from_pint(entry: pint.Quantity[float], unit: str, *, difference: bool = False) -> float:
     """Convert a quantity of pint, of any registry, to a value in an SI unit. ``unit``, SI unit of the
     quantity, as pint writes it; empty for a dimensionless quantity. Raises ValueError if the quantity has
     another dimension, or leaves open what is meant.
@@ -313,7 +381,7 @@ def from_pint(entry: pint.Quantity[float], unit: str) -> float:
     import pint
 
     written = str(entry.units)
-    if unit == "K" and "delta" in written:
+    if unit == "K" and "delta" in written and not difference:
         raise ValueError(f"{written} is a difference of temperatures")
     if not unit and written not in ("dimensionless", "percent"):
         raise ValueError(f"{written} is a unit, and this number has none")
@@ -351,7 +419,6 @@ def to_si(text: str, unit: str) -> float:
     number, written = _split(text)
     if not written:
         raise ValueError("it has no unit")
-    written = plain(written)
     if unit == "K":
         return absolute(number, written)
     ratio = factor(written, unit)
@@ -362,13 +429,34 @@ def to_si(text: str, unit: str) -> float:
 
 def _split(text: str, otherwise: str = "it is not a number with a unit") -> tuple[float, str]:
     """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
+    number, unit = _parts(text, otherwise)
+    return float(number), unit
+
+
+def _parts(text: str, otherwise: str) -> tuple[str, str]:
+    """Texts of the number and of the unit in a text, which ``typed`` reads."""
     if len(text) > LONGEST:
         raise ValueError(f"it has {len(text)} characters, which is too long")
-    found = _NUMBER_AND_UNIT.fullmatch(text.replace("\N{MINUS SIGN}", "-").strip())
-    advice = comma_advice(text)
+    read = typed(text)
+    found = _NUMBER_AND_UNIT.fullmatch(read.strip())
+    advice = comma_advice(read)
     if found is None or advice:
         raise ValueError(advice or otherwise)
-    return float(found[1]), found[2]
+    return found[1], found[2]
+
+
+def parts(text: str) -> tuple[str, str] | None:
+    """Texts of the number and of the unit in a text; None if the text is no number.
+
+    Examples
+    --------
+    >>> parts("1.80 kN"), parts("70 ℃"), parts("1,8 kN")
+    (('1.80', 'kN'), ('70', '°C'), None)
+    """
+    try:
+        return _parts(text, "")
+    except ValueError:
+        return None
 
 
 def split(text: str) -> tuple[float, str] | None:
@@ -379,10 +467,8 @@ def split(text: str) -> tuple[float, str] | None:
     >>> split("1.8 kN"), split("46 mm²/s"), split("1,8 kN")
     ((1.8, 'kN'), (46.0, 'mm²/s'), None)
     """
-    try:
-        return _split(text)
-    except ValueError:
-        return None
+    found = parts(text)
+    return None if found is None else (float(found[0]), found[1])
 
 
 def in_unit(text: str, unit: str) -> float | None:
@@ -399,9 +485,10 @@ def in_unit(text: str, unit: str) -> float | None:
     number, written = found
     if written == unit:
         return number
-    if unit in _ZEROS:
-        zero = _ZEROS.get(written)
-        return None if zero is None else float(f"{number + zero - _ZEROS[unit]:.12g}")
+    if wanted := _SCALES.get(plain(unit)):
+        known = _known_scale(plain(written))
+        kelvin = None if known is None else (number + known[0]) * known[1]
+        return None if kelvin is None else float(f"{kelvin / wanted[1] - wanted[0]:.12g}")
     ratio = known_factor(written, unit)
     return None if ratio is None else float(f"{number * ratio:.12g}")
 
@@ -414,7 +501,9 @@ def si_unit(unit: str) -> str:
     >>> si_unit("mm^2/s"), si_unit("degC"), si_unit("V/um"), si_unit("rpm")
     ('m^2/s', 'K', 'V/m', 'rad/s')
     """
-    names = {**dict.fromkeys(_ZEROS, "K"), "rpm": ROTATION, "deg": "rad"}
+    if plain(unit) in _SCALES:
+        return "K"
+    names = {"rpm": ROTATION, "deg": "rad"}
     return names.get(unit) or _WORD.sub(lambda found: _si_name(found[0]), unit)
 
 
@@ -428,16 +517,16 @@ def printed(unit: str) -> str:
 
     Examples
     --------
-    >>> printed("mm^2/s"), printed("V/um"), printed("degC"), printed("1/m**2"), printed("Pa*s")
-    ('mm²/s', 'V/µm', '°C', '1/m²', 'Pa s')
+    >>> printed("mm^2/s"), printed("V/um"), printed("degF"), printed("1/m**2"), printed("Pa*s")
+    ('mm²/s', 'V/µm', '°F', '1/m²', 'Pa s')
     """
     raised = _EXPONENT.sub(lambda found: found[1].translate(_RAISED), unit)
     return _WORD.sub(lambda found: _sign(found[0]), raised.replace("*", " "))
 
 
 def _sign(name: str) -> str:
-    if name == "degC":
-        return "°C"
+    if name in ("degC", "degF"):
+        return f"°{name[-1]}"
     name = name.removesuffix("ohm") + "Ω" if name.endswith("ohm") else name
     return f"µ{name[1:]}" if name[0] == "u" and name[1:] in _PREFIXED else name
 

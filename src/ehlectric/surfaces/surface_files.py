@@ -29,7 +29,8 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning, shown, within
-from ehlectric.quantities.units import length_unit, to_si
+from ehlectric.quantities.unit_spelling import typed
+from ehlectric.quantities.units import known_factor, length_unit, to_si
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.runtime.sizes import check_memory_for
@@ -153,12 +154,12 @@ _WHOLE_PAIR = re.compile(r"\s*+[-+]?[0-9]++,[0-9]++\s*+")
 # Line with a single number.
 _SINGLE = re.compile(r"\s*+[-+]?(?:[0-9]++[.,]?[0-9]*+|[.,][0-9]++)(?:[eE][-+]?[0-9]++)?[;,]?\s*+")
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-_UNITS = dict.fromkeys(("m", "mm", "um", "nm")) | {"µm": "um", "μm": "um"}
+_UNITS = ("m", "mm", "um", "µm", "nm", "Å")
 _UNIT_WORDS = {
     prefix + ending: unit
     for prefix, unit in (("", "m"), ("milli", "mm"), ("micro", "um"), ("nano", "nm"))
     for ending in ("metre", "meter", "metres", "meters")
-}
+} | {"micron": "um", "microns": "um", "angstrom": "Å"}
 _BRACKETED = re.compile(r"[\[(]([^\[\]()]*)[\])]")
 _BRACKETED_FIELD = re.compile(r"[^\[\]()]*+[\[(][^\[\]()]*+[\])]")
 _BRACKETED_FIELDS = re.compile(rf"(?:{_BRACKETED_FIELD.pattern})++")
@@ -385,6 +386,7 @@ def _unit_in(field: str) -> str | None:
 
     A unit after a number does not count, as it belongs to a value.
     """
+    field = typed(field)
     brackets = _BRACKETED.findall(field)
     if brackets:
         candidates = [inner.strip() for inner in brackets]
@@ -395,7 +397,8 @@ def _unit_in(field: str) -> str | None:
     else:
         candidates = re.findall(r"[^\W\d_]+", field)
     units = [_UNIT_WORDS.get(word.lower(), word) for word in candidates]
-    units = [_UNITS[unit] or unit for unit in units if unit in _UNITS]
+    # Without brackets, "in" is a word; in brackets, it is an inch.
+    units = [unit for unit in units if (known_factor(unit, "m") is not None if brackets else unit in _UNITS)]
     return units[0] if len(units) == 1 else None
 
 

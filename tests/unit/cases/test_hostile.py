@@ -15,7 +15,7 @@ from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import _OF_UNIT
-from ehlectric.quantities import units
+from ehlectric.quantities import unit_spelling, units
 from ehlectric.quantities.units import ROTATION, length_unit
 from ehlectric.runs import result_folders
 from ehlectric.runtime.files import _FORMULA
@@ -140,7 +140,12 @@ PATTERNS = {
     "number and unit": units._NUMBER_AND_UNIT.fullmatch,
     "unit": units._UNIT.fullmatch,
     "exponent": units._EXPONENT.findall,
-    "superscript": units._SUPERSCRIPT.findall,
+    "superscript": unit_spelling._SUPERSCRIPT.findall,
+    "not raised": unit_spelling._NOT_RAISED.findall,
+    "product in brackets": unit_spelling._BRACKETS.findall,
+    "product": unit_spelling._PRODUCT.findall,
+    "dot": unit_spelling._DOT.findall,
+    "words": lambda text: [pattern.findall(text) for pattern, _ in unit_spelling._WORDS],
     "comma": units._COMMA.fullmatch,
     "token": key_names._TOKENS.findall,
     "place": table._PLACE.findall,

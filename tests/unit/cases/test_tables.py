@@ -140,7 +140,8 @@ def test_bounds_are_the_same_in_any_unit(key):
                 and abs(value - kind.least) > 1e-12 * abs(value)
             ):
                 assert refusal(key, f"{value!r} {written}").startswith(f"{key}: got ")
-        kind_of = "an absolute temperature" if kind.unit == "K" else "this quantity"
+        absolute = kind.unit == "K" and not kind.difference
+        kind_of = "an absolute temperature" if absolute else "this quantity"
         assert f"is not a unit of {kind_of}" in refusal(key, "1 kg")
 
 

@@ -14,7 +14,7 @@ from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.quantities import units
-from ehlectric.quantities.units import comma_advice, plain
+from ehlectric.quantities.units import comma_advice
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 from tests.helpers.each import each
@@ -108,12 +108,6 @@ def test_decimal_commas(text, advice):
 def test_decimal_commas_of_every_kind_of_number(quantity, text):
     with pytest.raises(InputError, match=r"decimal comma: write \d+\.\d+"):
         quantity.parse(text)
-
-
-@given(st.text())
-def test_plain_text_stays(text):
-    if not set(text) & set("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹\N{MINUS SIGN}"):
-        assert plain(text) == text
 
 
 @each(

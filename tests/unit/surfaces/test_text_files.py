@@ -185,3 +185,20 @@ def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
     path.write_text("\n" * 51 + "1;2\n")
     with pytest.raises(InputError, match=r"a\.csv: .* 52 .* 50$"):
         read_surface(path)
+
+
+@each(
+    "head, metres",
+    [
+        ("x [mil];z [µin]", (25.4e-6, 25.4e-9)),
+        ("x [㎛];z [㎚]", (1e-6, 1e-9)),
+        ("x［um］;z［Å］", (1e-6, 1e-10)),
+        ("x microns;z angstrom", (1e-6, 1e-10)),
+    ],
+)
+def test_units_of_length_in_heads(tmp_path, head, metres):
+    """Spacing 2 and heights -1 and 1 in the units of the head; an inch is 25.4 mm."""
+    rows = [f"{2 * k};{(-1) ** k}" for k in range(40)]
+    surface = read_surface(written(tmp_path / "a.txt", [head], rows))
+    assert surface.spacing_x == pytest.approx(2.0 * metres[0])
+    assert np.ptp(surface.heights) == pytest.approx(2.0 * metres[1])

@@ -52,7 +52,7 @@ from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
-from ehlectric.quantities.units import in_unit, rpm, split
+from ehlectric.quantities.units import in_unit, rpm, si_unit, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -472,7 +472,7 @@ def _ends(text: str, value: float, key: str) -> tuple[str, str] | None:
 
 
 def _around(number: float, unit: str, ratio: float) -> tuple[float, float]:
-    if unit in ("degC", "°C", "K"):
+    if si_unit(unit) == "K":
         return number - 10.0 * ratio, number + 10.0 * ratio
     low, high = sorted((number / ratio, number * ratio))
     return (low, high) if low < high else (0.0, 1.0)

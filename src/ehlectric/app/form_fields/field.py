@@ -17,7 +17,7 @@ from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import form, input_at
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
+from ehlectric.quantities.units import in_unit, parts, printed, rounded, si_unit, split
 
 
 @cache
@@ -363,10 +363,10 @@ def shown_text(field: Field, text: str) -> str:
     >>> shown_text(speed, "181.37993642342187 rad/s"), shown_text(speed, "300 rad/s")
     ('1732.0508 rpm', '300 rad/s')
     """
-    found = split(text) if field.kind == "number" and field.unit else None
+    found = parts(text) if field.kind == "number" and field.unit else None
     if found is None or not found[1]:
         return text
-    written = text.strip().removesuffix(found[1]).strip()
+    written = found[0]
     number = in_unit(text, field.unit)
     if number is not None and sum(letter.isdigit() for letter in written.split("e")[0]) > _MOST_DIGITS + 2:
         return certain(f"{rounded(number, _MOST_DIGITS)} {printed(field.unit)}")
@@ -381,10 +381,10 @@ def written_text(field: Field, text: str) -> str:
     >>> written_text(Field("bearing.temperature", "Temperature", "degC"), "70 °C")
     '70 degC'
     """
-    found = split(text)
+    found = parts(text)
     if found is None or not field.unit or found[1] != printed(field.unit):
         return text
-    return f"{text.strip().removesuffix(found[1]).strip()} {field.unit}"
+    return f"{found[0]} {field.unit}"
 
 
 def in_field_unit(field: Field, text: str) -> str:
