@@ -115,8 +115,20 @@ def _show(message: Warning | str, *_: object) -> None:
     say(f"warning: {message}", err=True)
 
 
+def _free_of_the_display() -> None:
+    """Keep settings of the user for figures on a screen from this process, which only writes files.
+
+    The kernel of a notebook hands MPLBACKEND on to all commands. Another environment may lack the backend.
+    Errors in a matplotlibrc, which changes no figure, are not reported.
+    """
+    os.environ["MPLBACKEND"] = "agg"
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    logging.getLogger("matplotlib.font_manager").setLevel(logging.WARNING)
+
+
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
+    _free_of_the_display()
     for number in not_ignored():
         if number != signal.SIGINT:  # Python raises KeyboardInterrupt.
             signal.signal(number, _stop)

@@ -19,22 +19,20 @@ from ehlectric.figures.figure_names import (
 )
 from ehlectric.runtime.files import prepare
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+from ehlectric.runtime.undrawn import Drawn, kept_going
 from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
     from ehlectric.sweep.result import SweepResults
 
-# Files and warnings of figures.
-Files = tuple[tuple[Path, ...], tuple[ResultWarning, ...]]
-
 
 def load_and_draw(
     path: str | Path, folder: str | Path, formats: Sequence[str] = ("png",), style: str = "screen"
-) -> Files:
+) -> Drawn:
     """Draw the figures of a stored result again.
 
-    ``folder``, folder of the figures; it is made if it does not exist. Returns ``files``, files written;
-    ``warnings``, warnings of the result and of its figures. Raises InputError if the file is not a result,
+    ``folder``, folder of the figures; it is made if it does not exist. Returns files, warnings of the result
+    and of its figures, and figures that failed. Raises InputError if the file is not a result,
     the folder cannot be used, another command draws into it, or a sweep varies too many keys for a map.
     """
     from ehlectric.runs.result_folders import stored_result
@@ -46,13 +44,13 @@ def load_and_draw(
 
 def draw_sweep(
     results: SweepResults, folder: Path, formats: Sequence[str] = ("png",), style: str = "screen"
-) -> Files:
+) -> Drawn:
     """Draw the figures of a sweep into its folder, as ``load_and_draw`` does and with its errors."""
     with alone_in(folder, locks=[FIGURE_LOCK]) as target:
         return _draw_sweep(results, target, folder, formats, style)
 
 
-def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Files:
+def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the figures of a result from its NetCDF file or database."""
     from ehlectric.bearing.result import BearingResult
     from ehlectric.drive.result import DriveResult
@@ -84,38 +82,47 @@ def _draw(
     warnings: Sequence[ResultWarning],
     formats: Sequence[str],
     style: str,
-) -> Files:
-    """Draw figures of these names; files, and the warnings with those of the figures."""
+) -> Drawn:
+    """Draw figures of these names; warnings of the figures follow the warnings of the result."""
     folder = prepare(folder, in_formats(names, formats))
-    from ehlectric.figures.result_figures import draw_figures
+    drawn = Drawn(())
+    with kept_going() as undrawn:
+        from ehlectric.figures.result_figures import draw_figures
 
-    drawn = draw_figures(result, folder, formats=formats, style=style)
-    return drawn.files, (*warnings, *drawn.warnings)
+        drawn = draw_figures(result, folder, formats=formats, style=style)
+    return Drawn(drawn.files, (*warnings, *drawn.warnings), tuple(undrawn))
 
 
-def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequence[str], style: str) -> Files:
+def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the maps and lines of a sweep over one or two keys, or the sensitivity of a Sobol design."""
-    from ehlectric.figures.style import style as styled
-    from ehlectric.figures.sweep_figures import save_maps, save_sensitivity, save_speeds
     from ehlectric.sweep.sensitivity import sensitivity
     from ehlectric.sweep.slices import take
     from ehlectric.sweep.sweep_inputs import main_value, ranked_value
     from ehlectric.sweep.warnings import sensitivity_warnings
 
+    files: list[Path] = []
     if results.ranges:
         indices = sensitivity(results, ranked_value(results.case))
         prepare(folder, in_formats([SENSITIVITY_FIGURE], formats))
-        with styled(style):
-            files = save_sensitivity(results, indices, folder / SENSITIVITY_FIGURE, formats)
-        return tuple(files), tuple(sensitivity_warnings(indices))
+        with kept_going(SENSITIVITY_FIGURE) as undrawn:
+            from ehlectric.figures.style import style as styled
+            from ehlectric.figures.sweep_figures import save_sensitivity
+
+            with styled(style):
+                files += save_sensitivity(results, indices, folder / SENSITIVITY_FIGURE, formats)
+        return Drawn(tuple(files), tuple(sensitivity_warnings(indices)), tuple(undrawn))
     value = main_value(results.case)
     x, y = _axes(results, home)
     taken = take(results, x, y, value)
     prepare(folder, in_formats((*map_files(value), *SPEED_FIGURE_FILES), formats))
-    with styled(style):
-        files = save_maps(results, x, y, value, folder, formats=formats)
-        files += save_speeds(results, taken, folder, formats)
-    return tuple(files), ()
+    with kept_going() as undrawn:
+        from ehlectric.figures.style import style as styled
+        from ehlectric.figures.sweep_figures import save_maps, save_speeds
+
+        with styled(style):
+            files += save_maps(results, x, y, value, folder, formats=formats)
+            files += save_speeds(results, taken, folder, formats)
+    return Drawn(tuple(files), undrawn=tuple(undrawn))
 
 
 def _axes(results: SweepResults, home: Path) -> tuple[str, str | None]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,8 @@ from ehlectric.commands.options import (
     figure_options,
     files_ending,
 )
-from ehlectric.commands.terminal import echo_files, print_table, say, user_errors, warn
+from ehlectric.commands.terminal import echo_files, print_table, refuse_undrawn, say, user_errors, warn
+from ehlectric.runtime.undrawn import Undrawn, kept_going
 
 if TYPE_CHECKING:
     from ehlectric.cases.oil_report import OilReport
@@ -79,7 +79,7 @@ def oil(
         from ehlectric.cases.oil_report import oil_report
 
         report = oil_report(name, temperature or (), pressure or ())
-        files = [] if output is None else _write(report, output, look, draw=plots)
+        files, undrawn = ([], []) if output is None else _write(report, output, look, draw=plots)
     if as_json:
         typer.echo(json.dumps(report.summary(), indent=2))
     elif not quiet:
@@ -88,6 +88,7 @@ def oil(
             echo_files(files)
     if not quiet:
         warn(report.warnings)
+    refuse_undrawn(undrawn)
 
 
 def _print(report: OilReport) -> None:
@@ -104,21 +105,24 @@ def _print(report: OilReport) -> None:
         say(line)
 
 
-def _write(report: OilReport, folder: Path, look: Look, *, draw: bool) -> Sequence[Path]:
-    """Write the table of an oil as CSV, and its figures."""
+def _write(
+    report: OilReport, folder: Path, look: Look, *, draw: bool
+) -> tuple[Sequence[Path], Sequence[Undrawn]]:
+    """Write the table of an oil as CSV, and its figures. Returns files, and figures that failed."""
     from ehlectric.figures.figure_names import OIL_FIGURE_FILES, in_formats
     from ehlectric.runtime.files import write
     from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
     from ehlectric.tables.oil_tables import CSV_FILE, csv_content
 
     names = [CSV_FILE, *(in_formats(OIL_FIGURE_FILES, look["formats"]) if draw else ())]
-    with ExitStack() as stack:
-        stack.enter_context(alone_in(folder, names, locks=[FIGURE_LOCK]))
-        write(folder / CSV_FILE, csv_content(report))
-        if not draw:
-            return [folder / CSV_FILE]
-        from ehlectric.figures.oil_figures import save_oil
-        from ehlectric.figures.style import style as styled
+    with alone_in(folder, names, locks=[FIGURE_LOCK]):
+        files = [folder / CSV_FILE]
+        write(files[0], csv_content(report))
+        with kept_going() as undrawn:
+            if draw:
+                from ehlectric.figures.oil_figures import save_oil
+                from ehlectric.figures.style import style as styled
 
-        stack.enter_context(styled(look["style"]))
-        return [folder / CSV_FILE, *save_oil(report, folder, look["formats"])]
+                with styled(look["style"]):
+                    files += save_oil(report, folder, look["formats"])
+    return files, undrawn

@@ -13,9 +13,11 @@ from ehlectric.commands.terminal import (
     in_natural_order,
     print_table,
     progress_bar,
+    refuse_undrawn,
     user_errors,
 )
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.undrawn import collected
 
 
 @command("reproduce")
@@ -38,7 +40,7 @@ def reproduce(
         from ehlectric.paper.reproduce import reproduce as reproduced
 
         look = figure_options(formats, style)
-        with progress_bar(shown=not quiet) as progress:
+        with progress_bar(shown=not quiet) as progress, collected() as undrawn:
             made = reproduced(
                 output,
                 figure=_number("figure", figure),
@@ -55,9 +57,12 @@ def reproduce(
             for films in films_tables(made.tables["table_3"]):
                 print_table(films)
         echo_files(in_natural_order(made.files))
-    if not made.converged:
-        typer.echo("error: not converged: some films of the study", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+    try:
+        refuse_undrawn(undrawn)
+    finally:
+        if not made.converged:
+            typer.echo("error: not converged: some films of the study", err=True)
+            raise typer.Exit(NOT_CONVERGED)
 
 
 def _meant(words: list[str]) -> str:

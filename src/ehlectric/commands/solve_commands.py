@@ -24,6 +24,7 @@ from ehlectric.commands.terminal import (
     print_verdict,
     progress_bar,
     progress_line,
+    refuse_undrawn,
     report,
     say,
     user_errors,
@@ -188,10 +189,11 @@ def plot(
 
         refuse_input(result)
         file = stored_result(result)
-        files, warnings = load_and_draw(file, file.parent if output is None else output, **look)
+        drawn = load_and_draw(file, file.parent if output is None else output, **look)
     if not quiet:
-        echo_files(files)
-        warn(warnings)
+        echo_files(drawn.files)
+        warn(drawn.warnings)
+    refuse_undrawn(drawn.undrawn)
 
 
 # Designations that are understood beside the bearings of the library.

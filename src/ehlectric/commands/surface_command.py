@@ -12,8 +12,9 @@ from ehlectric.commands.options import (
     command,
     figure_options,
 )
-from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
+from ehlectric.commands.terminal import echo_files, print_table, refuse_undrawn, user_errors, warn
 from ehlectric.errors import InputError, shown
+from ehlectric.runtime.undrawn import Undrawn, kept_going
 
 
 @command("surface")
@@ -57,13 +58,16 @@ def surface(
         files = [] if output is None else _files(output, "map" if whole else "profile", formats)
         roughness = Roughness.from_dict({"surface": 1, "file": str(file)} | keys)
         rough = whole_map(roughness) if whole else measured(roughness)
+        undrawn: Sequence[Undrawn] = ()
         if files:
-            from ehlectric.figures.style import style as styled
-            from ehlectric.figures.surface_figures import save_surface
+            names, endings = [file.name for file in files], [file.suffix[1:] for file in files]
+            with alone_in(files[0].parent, names, locks=[FIGURE_LOCK]), kept_going(names[0]) as undrawn:
+                file, files = files[0], []
+                from ehlectric.figures.style import style as styled
+                from ehlectric.figures.surface_figures import save_surface
 
-            names = [file.name for file in files]
-            with alone_in(files[0].parent, names, locks=[FIGURE_LOCK]), styled(look["style"]):
-                files = save_surface(rough.steps, files[0], [file.suffix[1:] for file in files])
+                with styled(look["style"]):
+                    files = save_surface(rough.steps, file, endings)
     described = rough.describe()
     summits = summit_statistics(rough.steps[-1][1])
     if as_json:
@@ -76,6 +80,7 @@ def surface(
         warn(rough.warnings)
         if files:
             echo_files(files)
+    refuse_undrawn(undrawn)
 
 
 def _files(output: Path, name: str, formats: Sequence[str] | None) -> list[Path]:

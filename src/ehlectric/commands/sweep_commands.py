@@ -7,6 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,13 +25,15 @@ from ehlectric.commands.terminal import (
     print_table,
     print_verdict,
     refuse_failure,
+    refuse_undrawn,
     say,
     user_errors,
     warn,
 )
-from ehlectric.errors import InputError, LostError, ResultWarning, WriteError, shown
+from ehlectric.errors import InputError, LostError, WriteError, shown
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.undrawn import Drawn, Undrawn, kept_going
 
 if TYPE_CHECKING:
     from ehlectric.sweep.result import SweepResults
@@ -78,18 +81,18 @@ def sweep(
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
             outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
         wanted = (plots or bool(formats)) and outcome.converged
-        drawn, told = _drawn(outcome.result, output, look) if wanted else ((), ())
+        drawn, why = _drawn(outcome.result, output, look) if wanted else (Drawn(()), "")
     if not quiet:
         from ehlectric.sweep.sweep_verdict import sweep_verdict
         from ehlectric.tables.sweep_summary import sweep_rows
 
         print_rows(sweep_rows(outcome.result))
-        echo_files((*outcome.files, *drawn))
-        warn((*outcome.warnings, *told))
+        echo_files((*outcome.files, *drawn.files))
+        warn((*outcome.warnings, *drawn.warnings, *filter(None, [why])))
         print_verdict(sweep_verdict(outcome.result))
     elif outcome.converged:
         warn(_in_short(outcome.result))
-    refuse_failure(outcome)
+    refuse_failure(replace(outcome, undrawn=drawn.undrawn))
 
 
 def _tell_what_lacks(sweep: Sweep) -> None:
@@ -104,18 +107,16 @@ def _tell_what_lacks(sweep: Sweep) -> None:
         warn([f"{lacking}; points like it will fail"])
 
 
-def _drawn(
-    results: SweepResults, folder: Path, look: Look
-) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:
-    """Figures of a sweep and their warnings; without figures, the reason as a warning."""
+def _drawn(results: SweepResults, folder: Path, look: Look) -> tuple[Drawn, str]:
+    """Figures of a sweep and their warnings; if the sweep has no figures, the reason as a warning."""
     from ehlectric.commands.draw_commands import draw_sweep
 
     try:
-        return draw_sweep(results, folder, **look)
-    except WriteError:
-        raise
+        return draw_sweep(results, folder, **look), ""
+    except WriteError as error:
+        return Drawn((), undrawn=(Undrawn("figures", error),)), ""
     except InputError as error:
-        return (), (f"no figures: {error}",)
+        return Drawn(()), f"no figures: {error}"
 
 
 def _workers(text: str | None, scheduler: str | None) -> int | None:
@@ -274,8 +275,6 @@ def draw_maps(
         held, look = _held(at or []), figure_options(formats, style)
 
         from ehlectric.figures.figure_names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
-        from ehlectric.figures.style import style as styled
-        from ehlectric.figures.sweep_figures import save_maps, save_speeds
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.sweep.slices import take
         from ehlectric.sweep.store import read_sweep
@@ -287,15 +286,21 @@ def draw_maps(
         names = in_formats(
             (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
         )
-        with alone_in(output or folder, names, locks=[FIGURE_LOCK]) as target, styled(style):
-            files = save_maps(results, x, y, value, target, at=held, formats=forms)
-            files += save_speeds(results, taken, target, forms, at=held)
+        files: list[Path] = []
+        with alone_in(output or folder, names, locks=[FIGURE_LOCK]) as target, kept_going() as undrawn:
+            from ehlectric.figures.style import style as styled
+            from ehlectric.figures.sweep_figures import save_maps, save_speeds
+
+            with styled(style):
+                files += save_maps(results, x, y, value, target, at=held, formats=forms)
+                files += save_speeds(results, taken, target, forms, at=held)
     if not quiet:
         from ehlectric.figures.sweep_points import held_text
 
         if taken.at or taken.free:
             say("at " + held_text(results, taken).removeprefix("at "))
         echo_files(files)
+    refuse_undrawn(undrawn)
 
 
 @command("sensitivity")
@@ -316,8 +321,6 @@ def sensitivity(
         look = figure_options(formats, style)
 
         from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats
-        from ehlectric.figures.style import style as styled
-        from ehlectric.figures.sweep_figures import save_sensitivity
         from ehlectric.runs.result_folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
@@ -328,10 +331,15 @@ def sensitivity(
         results = read_sweep(folder)
         indices = sensitivity_of(results, value or ranked_value(results.case))
         names = in_formats([SENSITIVITY_FIGURE], look["formats"])
-        with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target, styled(style):
-            write_json(target / SENSITIVITY, indices.to_dict())
-            drawn = save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
-        files = [target / SENSITIVITY, *drawn]
+        with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target:
+            files = [target / SENSITIVITY]
+            write_json(files[0], indices.to_dict())
+            with kept_going(SENSITIVITY_FIGURE) as undrawn:
+                from ehlectric.figures.style import style as styled
+                from ehlectric.figures.sweep_figures import save_sensitivity
+
+                with styled(style):
+                    files += save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
     if not quiet:
         from ehlectric.sweep.warnings import sensitivity_warnings
         from ehlectric.tables.sweep_summary import indices_table, spread_rows
@@ -340,6 +348,7 @@ def sensitivity(
         print_table(indices_table(results, indices))
         echo_files(files)
         warn(sensitivity_warnings(indices))
+    refuse_undrawn(undrawn)
 
 
 def _held(options: Sequence[str]) -> dict[str, str]:

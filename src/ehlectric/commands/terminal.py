@@ -6,7 +6,7 @@ import json
 import re
 import sys
 import textwrap
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ import typer
 from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning, printable
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.undrawn import lines_of
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -24,11 +25,13 @@ if TYPE_CHECKING:
     from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.quantities.rows import Row
     from ehlectric.runtime.progress import RunOutcome
+    from ehlectric.runtime.undrawn import Undrawn
 
 
 # Exit status.
 WRONG_INPUT = 2
 NOT_CONVERGED = 3
+UNDRAWN = 4
 
 # Width of lists of names [characters].
 _WIDTH = 90
@@ -124,8 +127,8 @@ def report(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Print the tables and files of a run, its warnings, its verdict, and why it failed. Raises Exit: with
-    status 3 where the run failed.
+    """Print the tables and files of a run, its warnings, its verdict, and why it failed. Raises Exit as
+    ``refuse_failure`` raises it.
     """
     if as_json:
         typer.echo(json.dumps(outcome.summary, indent=2))
@@ -141,10 +144,26 @@ def report(
 
 
 def refuse_failure(outcome: RunOutcome[Any]) -> None:
-    """Print why a run failed, and end with exit status 3; nothing where it succeeded."""
-    if outcome.failure is not None:
-        say(f"error: {outcome.failure}", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+    """Print why a run failed, and which figures are missing; nothing where it succeeded. Raises Exit: with
+    status 3 where the run failed, else with the status of ``refuse_undrawn``.
+    """
+    try:
+        refuse_undrawn(outcome.undrawn)
+    finally:
+        if outcome.failure is not None:
+            say(f"error: {outcome.failure}", err=True)
+            raise typer.Exit(NOT_CONVERGED)
+
+
+def refuse_undrawn(undrawn: Sequence[Undrawn]) -> None:
+    """Print which figures could not be drawn, and why; nothing where all were drawn. Raises Exit: with status
+    2 where files cannot be written, else with status 4.
+    """
+    for line in lines_of(undrawn):
+        say(f"error: {line}", err=True)
+    if undrawn:
+        refused = all(isinstance(one.error, InputError) for one in undrawn)
+        raise typer.Exit(WRONG_INPUT if refused else UNDRAWN)
 
 
 def print_rows(rows: Iterable[Row], title: str = "") -> None:

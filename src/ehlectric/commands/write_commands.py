@@ -8,8 +8,16 @@ from pathlib import Path
 import typer
 
 from ehlectric.commands.options import chosen, command
-from ehlectric.commands.terminal import echo_files, progress_bar, progress_line, say, user_errors
+from ehlectric.commands.terminal import (
+    echo_files,
+    progress_bar,
+    progress_line,
+    refuse_undrawn,
+    say,
+    user_errors,
+)
 from ehlectric.errors import InputError
+from ehlectric.runtime.undrawn import collected, kept_going
 
 
 @command("export")
@@ -35,13 +43,17 @@ def export(result: Path, output: Path, quiet: bool = False) -> None:
 def animate(folder: Path, output: Path | None = None, fps: int = 25, quiet: bool = False) -> None:
     """Animate a moving-roughness run, as a GIF or MP4."""
     with user_errors():
+        from ehlectric.runtime.values import import_matplotlib
+
+        import_matplotlib()
         from ehlectric.figures.animation import save_animation
         from ehlectric.motion.stored_run import read_motion
 
         dataset = read_motion(folder)
         output = (folder if folder.is_dir() else folder.parent) / "motion.gif" if output is None else output
-        with progress_bar(shown=not quiet) as progress:
+        with progress_bar(shown=not quiet) as progress, kept_going(output.name) as undrawn:
             save_animation(dataset, output, fps=fps, progress=progress)
+    refuse_undrawn(undrawn)
     if not quiet:
         say(f"written: {output}")
 
@@ -67,13 +79,16 @@ def report(
     with user_errors():
         wanted = _wanted(output, formats)
 
+        from ehlectric.runtime.values import import_matplotlib
+
+        import_matplotlib()
         from ehlectric.report.written_report import write_report
         from ehlectric.runs.file_kinds import refuse_input
         from ehlectric.runs.result_folders import stored_result
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 
         refuse_input(result)
-        with progress_line(shown=not quiet) as progress:
+        with progress_line(shown=not quiet) as progress, collected() as undrawn:
             progress(0, 0, "drawing figures")
             if output is not None:
                 files = write_report(result, output, summary=summary)
@@ -84,6 +99,7 @@ def report(
                     files = write_report(file, *(folder / name for name in names), summary=summary)
     if not quiet:
         echo_files(files)
+    refuse_undrawn(undrawn)
 
 
 def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:

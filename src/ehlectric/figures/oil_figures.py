@@ -32,11 +32,12 @@ from ehlectric.figures.style import (
     line_colours,
     name_over,
     new_panels,
-    save_each,
+    save_figure,
     scale_axis,
     style,
 )
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
+from ehlectric.runtime.undrawn import drawing
 
 # Pressure up to which an oil is drawn at least [Pa]; a higher one of the user is drawn with some room.
 _PRESSURE, _ROOM = 2e9, 1.1
@@ -275,7 +276,10 @@ def save_oil(report: OilReport, folder: Path, formats: Sequence[str] = ("png",))
     does not depend on temperature has no figure over it.
     """
     draws = [over_pressure, *([over_temperature] if depends_on_temperature(report.named.table) else [])]
+    files = []
     with style():
-        drawn = {name: draw(report) for name, draw in zip(OIL_FIGURE_FILES, draws, strict=False)}
-        figures = {name: figure_of(axes[0]) for name, axes in drawn.items() if axes}
-        return save_each(figures.__getitem__, figures, folder, formats)
+        for name, draw in zip(OIL_FIGURE_FILES, draws, strict=False):
+            with drawing(name):
+                if axes := draw(report):
+                    files += save_figure(figure_of(axes[0]), folder / name, formats)
+    return files

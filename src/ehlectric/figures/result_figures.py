@@ -39,6 +39,7 @@ from ehlectric.figures.style import style as styled
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+from ehlectric.runtime.undrawn import Drawn
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import known_values
@@ -125,14 +126,6 @@ _DEFAULTS: Mapping[type, Callable[[Any], str]] = {
 AnyResult = (
     Result | PointResult | BearingResult | DriveResult | xr.Dataset | MotionRun | SweepResults | FilmFactors
 )
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """Figures of a result as files."""
-
-    files: tuple[Path, ...]
-    warnings: tuple[ResultWarning, ...] = ()  # warnings about what the figures leave out
 
 
 def figure(result: AnyResult, name: str, *, style: str = "screen", **options: Any) -> Figure:

@@ -41,11 +41,12 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
-from ehlectric.figures.tones import Outline, toned_figure
+from ehlectric.figures.tones import Outline, exchange_colours
 from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
 from ehlectric.runtime.files import write
 from ehlectric.runtime.threads import Turn, own_filters
+from ehlectric.runtime.undrawn import drawing
 
 D = TypeVar("D")
 
@@ -112,7 +113,8 @@ class OfContact(Protocol):
 def style(name: str | None = None) -> Iterator[None]:
     """Context manager in which figures have the text sizes, line widths and page sizes of a style.
 
-    The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
+    Each style starts from the defaults of matplotlib: a matplotlibrc of the user changes no figure. The
+    settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
     take turns, so that none restores the settings of another.
 
     ``name``, name of the style, "screen", "journal" or "dark"; the style of the context around this one if
@@ -121,7 +123,8 @@ def style(name: str | None = None) -> Iterator[None]:
     name = _style.get() if name is None else name
     if name not in _LOOKS:
         raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
-    with _turn.taken(), mpl.rc_context(_LOOKS[name].settings), own_filters():  # type: ignore[arg-type]
+    with _turn.taken(), mpl.rc_context(), own_filters():
+        _set_all(_LOOKS[name].settings)
         # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         token = _style.set(name)
@@ -129,6 +132,15 @@ def style(name: str | None = None) -> Iterator[None]:
             yield
         finally:
             _style.reset(token)
+
+
+def _set_all(settings: Mapping[str, Any]) -> None:
+    """Set all settings of matplotlib that belong to figures: to these values, and else to their defaults."""
+    program = mpl.rcParams[
+        "animation.ffmpeg_path"
+    ]  # it names a program of the machine, and belongs to no look
+    mpl.rcdefaults()
+    mpl.rcParams.update(cast("Any", {**settings, "animation.ffmpeg_path": program}))
 
 
 def page_width(width: float, panels: int = 1) -> float:
@@ -156,10 +168,28 @@ def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: boo
 
 def new_figure(size: tuple[float, float]) -> Figure:
     """Empty figure of a width and height [inches], with the colours of the style that is in use."""
-    tones = _LOOKS[_style.get()].tones
-    figure = toned_figure(tones, size) if tones else Figure(figsize=size)
+    figure = _StyledFigure(_style.get(), size)
     FigureCanvasAgg(figure)
     return figure
+
+
+class _StyledFigure(Figure):
+    """Figure that is drawn with the settings of its style, also outside of the context of the style.
+
+    Matplotlib makes ticks and measures texts only when it draws a figure. The settings of a notebook would
+    change them.
+    """
+
+    def __init__(self, name: str, size: tuple[float, float]) -> None:
+        super().__init__(figsize=size)
+        self._look = name
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the figure, in the colours of its page."""
+        with style(self._look):
+            if tones := _LOOKS[self._look].tones:
+                exchange_colours(self, tones)
+            super().draw(renderer)
 
 
 def outlined(width: float, colour: str = WHITE) -> list[AbstractPathEffect]:
@@ -349,8 +379,15 @@ def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -
 def save_each(
     figure_by: Callable[[str], Figure], names: Iterable[str], folder: Path, formats: Sequence[str] = ("png",)
 ) -> list[Path]:
-    """Draw the figures of some names, and write each as a file of each format."""
-    return [file for name in names for file in save_figure(figure_by(name), folder / name, formats)]
+    """Draw the figures of some names, and write each as a file of each format.
+
+    Within ``collected``, a figure that fails does not end the others.
+    """
+    files = []
+    for name in names:
+        with drawing(name):
+            files += save_figure(figure_by(name), folder / name, formats)
+    return files
 
 
 def drawing_of(drawings: Mapping[str, D], name: str) -> D:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -25,27 +24,15 @@ _FEW = 8
 _MORE, _FAINT = 1.6, 0.5
 
 
-def toned_figure(tones: Mapping[str, str], size: tuple[float, float]) -> Figure:
-    """Empty figure of a width and height [inches] that is drawn in the colours of another palette.
+def exchange_colours(figure: Figure, tones: Mapping[str, str]) -> None:
+    """Exchange the colours of all artists of a figure for those of another palette.
 
     Functions that draw name the colours of paper, and need not know the page. ``tones`` are the colours of
-    the page by those of paper; colours that are not in it stay, as those of maps do.
+    the page by those of paper; colours that are not in it stay, as those of maps do. A second exchange
+    changes nothing.
     """
-    return _TonedFigure(tones, size)
-
-
-class _TonedFigure(Figure):
-    """Figure that exchanges the colours of all artists in it before it is drawn."""
-
-    def __init__(self, tones: Mapping[str, str], size: tuple[float, float]) -> None:
-        super().__init__(figsize=size)
-        self._tones = tones
-
-    def draw(self, renderer: Any) -> None:
-        """Exchange the colours, which changes nothing the second time, and draw."""
-        for artist in self.findobj():
-            _exchange(artist, self._tones)
-        super().draw(renderer)
+    for artist in figure.findobj():
+        _exchange(artist, tones)
 
 
 class Outline(withStroke):

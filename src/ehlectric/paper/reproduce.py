@@ -19,6 +19,7 @@ from ehlectric.paper.paper_tables import TABLES, PaperTable
 from ehlectric.paper.study import run_study
 from ehlectric.runtime.files import clear, write
 from ehlectric.runtime.folders import alone_in
+from ehlectric.runtime.undrawn import drawing
 
 REPORT = "report.html"
 
@@ -73,18 +74,21 @@ def reproduce(
             paper_table.save(folder / f"{name}.csv")
         copies: dict[int, bytes] = {}
         with styled(style):
-            for number in figures:
-                drawn = FIGURES[number].draw(study)
-                save_figure(drawn, folder / f"figure_{number}.png", formats)
-                if whole_report:
-                    copies[number] = _png(drawn)
+            for done, number in enumerate(figures):
                 if progress is not None:
-                    progress(number, max(figures), f"figure {number}")
+                    progress(done, len(figures), "drawing figures")
+                with drawing(f"figure_{number}"):
+                    drawn = FIGURES[number].draw(study)
+                    save_figure(drawn, folder / f"figure_{number}.png", formats)
+                    if whole_report:
+                        copies[number] = _png(drawn)
         verdicts = {}
         if whole_report:
             verdicts = paper_report.verdicts(made)
             write(folder / REPORT, paper_report.html(study, made, copies).encode())
-    return Reproduced([folder / name for name in names], made, verdicts, study.converged)
+        # A figure that could not be drawn has no files.
+        files = [folder / name for name in names if (folder / name).exists()]
+    return Reproduced(files, made, verdicts, study.converged)
 
 
 def _png(figure: Figure) -> bytes:

@@ -20,6 +20,7 @@ from ehlectric.quantities.rows import Row, value_at
 from ehlectric.report.background import worded
 from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
+from ehlectric.runtime.undrawn import drawing
 from ehlectric.runtime.values import is_number
 
 if TYPE_CHECKING:
@@ -206,15 +207,20 @@ def pictures_of(
     the result is converged; captions say so where it is not.
     """
     for name in figure_names(result) if names is None else names:
-        try:
-            drawn = figure(result, name, style="screen")
-        except InputError as error:
-            yield Text(_EMPTY.get(name) or f"The figure {name} is not drawn: {error.text}.")
-            continue
-        title = title_of(drawn)
-        if title and converged:
-            _drop_finding(drawn)
-        yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
+        block: Picture | Text = Text(f"The figure {name} could not be drawn.", "alarm")
+        with drawing(f"figure {name}"):
+            try:
+                drawn = figure(result, name, style="screen")
+            except InputError as error:
+                yield Text(_EMPTY.get(name) or f"The figure {name} is not drawn: {error.text}.")
+                continue
+            title = title_of(drawn)
+            if title and converged:
+                _drop_finding(drawn)
+            # What fails in drawing fails here, and not in the middle of a file.
+            drawn.draw_without_rendering()
+            block = Picture(name, title or name, caption_of(name, converged=converged), drawn)
+        yield block
 
 
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:

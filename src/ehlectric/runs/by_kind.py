@@ -17,6 +17,7 @@ from ehlectric.runs.file_kinds import FileKind, kind_of_file
 from ehlectric.runs.result_folders import files_of_results, protect
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
+from ehlectric.runtime.undrawn import Drawn, kept_going
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,6 +72,8 @@ def run_and_draw(
 ) -> RunOutcome[Any]:
     """Solve a case of a kind, write its results, and draw its figures.
 
+    A figure that fails does not end the run: it is among ``undrawn`` of the outcome.
+
     ``folder``, folder of the results; it is made if it does not exist; ``progress``, called with the number
     of parts done, the number of all parts (0 where it is not known), and a text. Returns with the figures
     among the files, and their warnings among the warnings. Raises InputError, ConvergenceError, LostError as
@@ -80,17 +83,16 @@ def run_and_draw(
         outcome = RUNS[kind].run(case, folder, progress, **options)
         if not draw:
             return outcome
-        from ehlectric.figures.result_figures import draw_figures
-
         progress(0, 0, "drawing figures")
-        with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
-            drawn = [
-                draw_figures(result, folder, formats=formats, style=style)
-                for result in (outcome.result, *outcome.beside)
-            ]
+        drawn: list[Drawn] = []
+        with kept_going() as undrawn, alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+            from ehlectric.figures.result_figures import draw_figures
+
+            for result in (outcome.result, *outcome.beside):
+                drawn.append(draw_figures(result, folder, formats=formats, style=style))
     files = (*outcome.files, *(file for one in drawn for file in one.files))
     warnings = (*outcome.warnings, *(warning for one in drawn for warning in one.warnings))
-    return replace(outcome, files=files, warnings=warnings)
+    return replace(outcome, files=files, warnings=warnings, undrawn=tuple(undrawn))
 
 
 def read_case(path: str | Path) -> Case:

@@ -10,14 +10,19 @@ backend. It is the only place where a lower package calls an upper one.
 from __future__ import annotations
 
 import io
+import os
+import sys
 import textwrap
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard
 
 import numpy as np
+
+from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -130,7 +135,32 @@ _SCREEN = 110
 
 def _call(function: tuple[str, str], *values: Any, **options: Any) -> Any:
     module, name = function
+    if function is not _TABLE:
+        import_matplotlib()
     return getattr(import_module(module), name)(*values, **options)
+
+
+def import_matplotlib() -> None:
+    """Import matplotlib, also if MPLBACKEND names a backend that is not installed.
+
+    The kernel of a notebook hands MPLBACKEND on to the scripts that it starts, also in another environment.
+    Figures of this package need no backend; matplotlib chooses one itself if it refuses the name. Raises
+    InputError if matplotlib cannot read its file of settings.
+    """
+    if "matplotlib" in sys.modules:
+        return
+    name = os.environ.pop("MPLBACKEND", "")
+    try:
+        import matplotlib as mpl
+    except UnicodeDecodeError:
+        where = "in this folder or in the folder of its settings"
+        raise InputError(f"the matplotlibrc {where} is not a text file in UTF-8") from None
+    finally:
+        if name:
+            os.environ["MPLBACKEND"] = name
+    if name:
+        with suppress(ValueError):
+            mpl.rcParams["backend"] = name
 
 
 def headline(title: str, *parts: str | None, verdict: object = None) -> str:
