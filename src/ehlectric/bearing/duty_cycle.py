@@ -35,7 +35,7 @@ from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
-from ehlectric.cases.measurements import CYCLE
+from ehlectric.cases.measurements import CYCLE, void_rows
 from ehlectric.discharge.breakdown_rule import mean_text, ratio_text
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, ResultWarning
@@ -544,7 +544,8 @@ def _text(column: str, value: float) -> str:
 
 
 def file_warnings(cycle: Cycle, case: BearingCase) -> Iterator[ResultWarning]:
-    """Warnings about columns of the file of a cycle that are not used."""
+    """Warnings about columns and rows of the file of a cycle that are not used."""
+    yield from void_rows(cycle.read)
     if cycle.ignored:
         yield ResultWarning.of("columns-ignored", file=cycle.source, columns=", ".join(cycle.ignored))
     if "temperature" in cycle.values and viscosity_over_temperature(case.lubricant) is None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.measurements import CYCLE, read_measurement
+from ehlectric.cases.measurements import CYCLE, Measurement, read_measurement
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -29,7 +29,13 @@ class Cycle:
     time: Array  # increasing [s], shape (n,)
     # Quantities of the rows besides the time by name, as ``CYCLE`` has them, shape (n,).
     values: Mapping[str, Array]
-    ignored: tuple[str, ...]  # heads of columns that are not known, and were ignored
+    read: Measurement  # rows as read, with the heads of ignored columns and the lines of void rows
+
+    @property
+    def ignored(self) -> tuple[str, ...]:
+        """Heads of columns that are not known, and of uncertainties, which are not used."""
+        uncertain = (f"uncertainty of {name}" for name in self.read.uncertainties)
+        return (*self.read.ignored, *uncertain)
 
 
 def read_cycle(path: str | Path) -> Cycle:
@@ -56,5 +62,4 @@ def read_cycle(path: str | Path) -> Cycle:
             f"line {read.lines[place + 1]}: got the time {time[place + 1]:.9g} s",
             takes=f"more than {time[place]:.9g} s, as the time increases from row to row",
         )
-    uncertain = tuple(f"uncertainty of {name}" for name in read.uncertainties)
-    return Cycle(read.source, read.lines, time, values, (*read.ignored, *uncertain))
+    return Cycle(read.source, read.lines, time, values, read)

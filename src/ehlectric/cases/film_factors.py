@@ -12,7 +12,7 @@ from scipy.special import stdtrit
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import viscosity_over_temperature
-from ehlectric.cases.measurements import Measurement
+from ehlectric.cases.measurements import Measurement, void_rows
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
@@ -156,6 +156,7 @@ def measurement_warnings(
     speed: str,
 ) -> Iterator[ResultWarning]:
     """Warnings about columns, rows, scatter and trend of a measurement."""
+    yield from void_rows(measured)
     if measured.ignored:
         columns = _some(measured.ignored)
         yield ResultWarning.of("columns-ignored", file=measured.source, columns=columns)

@@ -5,10 +5,11 @@ pandas, in SI units.
 from __future__ import annotations
 
 import codecs
+import csv
 import math
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -18,11 +19,18 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
-from ehlectric.errors import InputError, printable, short, shown
+from ehlectric.errors import InputError, ResultWarning, printable, short, shown
 from ehlectric.quantities import units
-from ehlectric.quantities.grouped_digits import doubt_of_column, readings
+from ehlectric.quantities.grouped_digits import (
+    doubt_of_column,
+    has_thousands,
+    proven_mark,
+    readings,
+    value_of,
+)
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.unit_spelling import typed
+from ehlectric.runtime.delimited import fields, is_void, record_at, records, separator_of
 from ehlectric.runtime.reading import read_bytes
 
 if TYPE_CHECKING:
@@ -297,6 +305,7 @@ class Measurement:
     # shape (n,).
     uncertainties: Mapping[str, Array]
     ignored: tuple[str, ...] = ()  # heads of columns that are not known, and were ignored
+    void: tuple[int, ...] = ()  # lines of rows without a value in a known column, which are not used
 
     @property
     def size(self) -> int:
@@ -323,7 +332,7 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
     commas, and a line of heads such as ``speed [rpm];capacitance [pF]``; ``book``, quantities that its
     columns may have. Returns all rows in SI units. Raises InputError if the file cannot be read or is too
     large, has no heads that are known, a head has no unit or a wrong one, or a row has a value that is
-    missing, is no number or is out of bounds; the line is named.
+    no number or is out of bounds; the line is named. A row without a value in a known column is not used.
 
     Examples
     --------
@@ -339,17 +348,37 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
         path = Path(measured)
         source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=_MOST_BYTES)), book)
     columns, ignored = _columns(source, rows.heads, book)
-    if not rows.cells:
-        raise InputError(source, "has no rows below its heads", takes="at least one")
     if len(rows.cells) > book.most_rows:
         takes = f"at most {book.most_rows}; average them"
         raise InputError(source, f"has more than {book.most_rows} rows", takes=takes)
+    rows, void = _without_void(source, rows, columns)
     found = {place: _values(source, rows, place, column) for place, column in columns.items()}
     values = {columns[place].name: found[place] for place in found if not columns[place].uncertainty}
     uncertain = {place: found[place] for place in found if columns[place].uncertainty}
-    return Measurement(
-        source, rows.lines, values, _uncertainties(source, columns, uncertain, values), ignored
-    )
+    uncertainties = _uncertainties(source, columns, uncertain, values)
+    return Measurement(source, rows.lines, values, uncertainties, ignored, void)
+
+
+def _without_void(source: str, rows: _Rows, places: Iterable[int]) -> tuple[_Rows, tuple[int, ...]]:
+    """Rows with a value in every known column, and the lines of the other rows."""
+    if not rows.cells:
+        raise InputError(source, "has no rows below its heads", takes="at least one")
+    kept = [not any(is_void(row[place]) for place in places) for row in rows.cells]
+    if not any(kept):
+        raise InputError(source, "has no row with a number in every known column", takes="at least one")
+    cells = [row for row, whole in zip(rows.cells, kept, strict=True) if whole]
+    lines = tuple(line for line, whole in zip(rows.lines, kept, strict=True) if whole)
+    void = tuple(line for line, whole in zip(rows.lines, kept, strict=True) if not whole)
+    return replace(rows, cells=cells, lines=lines), void
+
+
+def void_rows(measured: Measurement) -> Iterator[ResultWarning]:
+    """Warning about rows of a measurement or a duty cycle without a value in a known column."""
+    if measured.void:
+        rows = measured.size + len(measured.void)
+        yield ResultWarning.of(
+            "rows-void", file=measured.source, void=len(measured.void), rows=rows, line=measured.void[0]
+        )
 
 
 def decoded(path: Path, content: bytes) -> str:
@@ -375,66 +404,80 @@ def _of_table(table: pd.DataFrame) -> _Rows:
 def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
     """Heads and rows of a text; the heads may stand in a line of comment above the numbers."""
     lines = text.splitlines()
-    at, separator = _head_line(path, lines, book)
-    heads = _fields(lines[at].lstrip("# "), separator)
-    below = [(n, line) for n, line in enumerate(lines[at + 1 :], at + 2) if _is_row(line, separator)]
-    cells = []
-    for number, line in below[: book.most_rows + 1]:
-        fields = _fields(line, separator)
-        if len(fields) != len(heads):
+    heads, first, separator = _heads(path, lines, book)
+    cells: list[list[str]] = []
+    numbers: list[int] = []
+    below = records(lines[first:], separator)
+    while len(cells) <= book.most_rows:
+        last = numbers[-1] if numbers else first
+        try:
+            number, row = next(below)
+        except StopIteration:
+            break
+        except csv.Error as error:
+            got = f"got {shown(lines[last])} ({error})"
+            takes = "fields whose quotes are closed"
+            raise InputError(path, f"line {last + 1}: {got}", takes=takes) from None
+        if not any(row) or row[0].startswith("#"):
+            continue
+        number += first
+        if len(row) != len(heads):
             raise InputError(
-                path, f"line {number} has {len(fields)} columns", takes=f"{len(heads)} as in its heads"
+                path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its heads"
             )
-        cells.append(fields)
-    numbers = tuple(number for number, _ in below[: book.most_rows + 1])
-    return _Rows(heads, cells, numbers, _decimal(path, cells, separator))
+        cells.append(row)
+        numbers.append(number)
+    return _Rows(heads, cells, tuple(numbers), _decimal(path, cells, separator))
 
 
-def _is_row(line: str, separator: str | None) -> bool:
-    """Whether a line below the heads is a row: neither empty nor a comment."""
-    text = line.strip()
-    return bool(text.strip(separator or "")) and not text.startswith("#")
-
-
-def _head_line(path: Path, lines: Sequence[str], book: ColumnBook) -> tuple[int, str | None]:
-    """Place of the heads, the first line with a known quantity, and the separator of the columns."""
+def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, str | None]:
+    """Heads in the first line with a known quantity, the place of the line below, and the separator."""
     wrong: InputError | None = None
-    for place, line in enumerate(lines[:_MOST_ABOVE]):
-        text = line.lstrip("# ")
-        separator = next((mark for mark in (";", "\t", ",") if mark in text), None)
-        fields = _fields(text, separator)
+    for place in range(min(len(lines), _MOST_ABOVE)):
+        record, below = record_at(lines, place)
+        text = record.lstrip("# ")
+        separator = separator_of(text)
+        heads = fields(text, separator)
         known = 0
-        for text_of_head in fields[:_MOST_COLUMNS]:
+        for head in heads[:_MOST_COLUMNS]:
             try:
-                known += column_of(text_of_head, book) is not None
+                known += column_of(head, book) is not None
             except InputError as error:
                 # A sentence above the heads may be the name of a quantity, too: it has no unit.
                 wrong = wrong or error
         if known:
-            if len(fields) > _MOST_COLUMNS:
-                raise InputError(path, f"has {len(fields)} columns", takes=f"at most {_MOST_COLUMNS}")
-            return place, separator
+            if len(heads) > _MOST_COLUMNS:
+                raise InputError(path, f"has {len(heads)} columns", takes=f"at most {_MOST_COLUMNS}")
+            return heads, below, separator
     if wrong is not None:
         raise InputError(path, str(wrong))
     raise InputError(path, "has no heads of known columns", takes=f"heads such as {book.examples}")
 
 
-def _fields(line: str, separator: str | None) -> list[str]:
-    return [field.strip().strip('"').strip() for field in line.strip("\r\n").split(separator or "\0")]
-
-
 def _decimal(path: Path, cells: Sequence[Sequence[str]], separator: str | None) -> str:
-    """Decimal mark of all numbers of a file."""
-    if separator == ",":
-        return "."
+    """Decimal mark of all numbers of a file. Raises InputError if the numbers have different marks, or may
+    all be read with both.
+    """
     numbers = [cell for row in cells for cell in row if _OF_NUMBERS.issuperset(cell)]
-    comma = next((cell for cell in numbers if "," in cell), None)
-    point = next((cell for cell in numbers if "." in cell), None)
-    if comma is not None and point is not None:
+    marked = {mark: cell for mark in ".," for cell in reversed(numbers) if mark in cell}
+    proofs = {mark: cell for cell in reversed(numbers) if (mark := proven_mark(cell)) is not None}
+    # A comma in quotes between commas separates thousands if a point is proven to be the decimal mark.
+    certain = marked.keys() <= proofs.keys() or (separator == "," and "." in proofs)
+    if len(proofs) == 1 and (certain or any(map(has_thousands, numbers))):
+        return next(iter(proofs))
+    if len(marked) > 1:
+        point, comma = ({**marked, **proofs}[mark] for mark in ".,")
         raise InputError(
             path, f"mixes decimal points and decimal commas, {shown(point)} and {shown(comma)}", takes="one"
         )
-    return "." if comma is None else ","
+    if "," in marked and separator == ",":
+        whole, part = marked[","].split(",")
+        decimal, thousands = readings(whole, part, "")
+        takes = "numbers without separators of thousands"
+        raise InputError(
+            path, f"has the number {shown(marked[','])}, which may be {decimal} or {thousands}", takes=takes
+        )
+    return next(iter(marked), ".")
 
 
 def _columns(
@@ -470,7 +513,7 @@ def _key(column: Column) -> tuple[str, bool]:
 
 def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     """Values of a column in SI units, shape (n,)."""
-    _refuse_grouped(source, [row[place] for row in rows.cells], column)
+    _refuse_grouped(source, [row[place] for row in rows.cells if rows.decimal in row[place]], column)
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
         cell = row[place]
@@ -506,10 +549,8 @@ def _refuse_grouped(source: str, cells: Sequence[str], column: Column) -> None:
 def _number(cell: str, decimal: str) -> float:
     if not cell or len(cell) > _LONGEST_TEXT or not _OF_NUMBERS.issuperset(cell):
         raise ValueError("a number")
-    if decimal == "." and "," in cell:
-        raise ValueError("a number with a decimal point")
     try:
-        number = float(cell.replace(",", "."))
+        number = value_of(cell, decimal)
     except ValueError:
         raise ValueError("a number") from None
     if not np.isfinite(number):

@@ -7,14 +7,13 @@ asked for by a key of ``[source]``, and never guessed from the numbers.
 from __future__ import annotations
 
 import codecs
-import csv
 import io
 import math
 import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import chain, islice
@@ -26,7 +25,9 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.errors import InputError, ResultWarning, printable, short, shown
 from ehlectric.quantities import units
+from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, ungrouped, value_of
 from ehlectric.quantities.unit_spelling import typed
+from ehlectric.runtime import delimited
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_memory_for, check_size
 
@@ -372,11 +373,9 @@ class _Dialect:
 
     def fields(self, line: str) -> list[str]:
         """Fields of a line, without white space and quotes around them."""
-        found = line.split(self.separator)
         if '"' in line and self.separator is not None:
-            with suppress(csv.Error):
-                found = next(csv.reader([line], delimiter=self.separator, skipinitialspace=True), [])
-        return [field.strip().strip('"').strip() for field in found]
+            return delimited.fields(line, self.separator)
+        return [field.strip().strip('"').strip() for field in line.split(self.separator)]
 
     def number(self, field: str) -> float | None:
         """Number in a field; None for other texts, and for numbers that are not finite.
@@ -385,7 +384,11 @@ class _Dialect:
         --------
         >>> _Dialect(";", ",").number("-1,5e-3"), _Dialect(";", ",").number("1.5")
         (-0.0015, None)
+        >>> _Dialect(",", ".").number("1,500.5")
+        1500.5
         """
+        if has_thousands(field) and proven_mark(field) == self.decimal:
+            return value_of(field, self.decimal)
         if self.decimal == ",":
             if "." in field or field.endswith(","):
                 return None
@@ -878,7 +881,7 @@ def _digit(dialect: _Dialect, place: int, ends: Iterable[Sequence[str]]) -> floa
     for lines in ends:
         rows = [dialect.fields(line) for line in lines]
         texts = [row[place] for row in rows if place < len(row) and dialect.number(row[place]) is not None]
-        numbers = [Decimal(text.replace(dialect.decimal, ".")) for text in texts]
+        numbers = [Decimal(ungrouped(text, dialect.decimal)) for text in texts]
         filled = [number for number in numbers if number] or numbers
         if filled:
             most = max(len(number.as_tuple().digits) for number in filled)

@@ -54,6 +54,69 @@ def is_grouped(text: str) -> bool:
     return _GROUPED.fullmatch(text.strip()) is not None
 
 
+# Number with a separator of thousands, by its decimal mark.
+_THOUSANDS = {
+    ".": re.compile(r"[-+]?[0-9]{1,3}(?:,[0-9]{3})++(?:\.[0-9]*+)?"),
+    ",": re.compile(r"[-+]?[0-9]{1,3}(?:\.[0-9]{3})++(?:,[0-9]*+)?"),
+}
+
+
+def proven_mark(number: str) -> str | None:
+    """Decimal mark that the text of a number proves; None if it has no mark or may be read in two ways.
+
+    Examples
+    --------
+    >>> proven_mark("1,500.5"), proven_mark("1.500.000"), proven_mark("12,5"), proven_mark("1,500")
+    ('.', ',', ',', None)
+    """
+    marks = [mark for mark in number if mark in ".,"]
+    if not marks or is_grouped(number):
+        return None
+    if len(marks) == 1:
+        return marks[0]
+    return next((mark for mark, form in _THOUSANDS.items() if form.fullmatch(number)), None)
+
+
+def has_thousands(number: str) -> bool:
+    """Whether the text of a number proves a separator of thousands.
+
+    Examples
+    --------
+    >>> has_thousands("1,500.5"), has_thousands("1,500"), has_thousands("1500.5")
+    (True, False, False)
+    """
+    return sum(mark in ".," for mark in number) > 1 and proven_mark(number) is not None
+
+
+def ungrouped(number: str, decimal: str) -> str:
+    """Text of a number with a decimal point and without separators of thousands. Raises ValueError if its
+    separators do not stand between groups of three digits.
+
+    Examples
+    --------
+    >>> ungrouped("1,500.5", "."), ungrouped("1.500,5", ",")
+    ('1500.5', '1500.5')
+    """
+    thousands = "," if decimal == "." else "."
+    if thousands in number:
+        if _THOUSANDS[decimal].fullmatch(number) is None:
+            raise ValueError(number)
+        number = number.replace(thousands, "")
+    return number.replace(decimal, ".")
+
+
+def value_of(number: str, decimal: str) -> float:
+    """Value of a number with a decimal mark, which may have separators of thousands. Raises ValueError for
+    another text.
+
+    Examples
+    --------
+    >>> value_of("1,500.5", "."), value_of("-2e3", ".")
+    (1500.5, -2000.0)
+    """
+    return float(ungrouped(number, decimal))
+
+
 def _is_whole(unit: str) -> bool:
     return unit.replace(" ", "").lower() in _WHOLE
 

@@ -19,6 +19,7 @@ import zipfile
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
@@ -29,8 +30,10 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning, shown, within
+from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, value_of
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.quantities.units import known_factor, length_unit, to_si
+from ehlectric.runtime.delimited import fields, is_void
 from ehlectric.runtime.memory import in_bytes
 from ehlectric.runtime.reading import read_bytes, regular
 from ehlectric.runtime.sizes import check_memory_for
@@ -151,6 +154,9 @@ _NUMBER = {
 _SPACED_NUMBER = re.compile(r"[-+]?(?:[0-9]++(?:\.|[.,][0-9]++)?|\.[0-9]++)" + _EXPONENT)
 _WHOLE_PAIR = re.compile(r"\s*+[-+]?[0-9]++,[0-9]++\s*+")
 
+# Number of lines at the end of a file that show its separator.
+_LAST = 20
+
 # Line with a single number.
 _SINGLE = re.compile(r"\s*+[-+]?(?:[0-9]++[.,]?[0-9]*+|[.,][0-9]++)(?:[eE][-+]?[0-9]++)?[;,]?\s*+")
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -191,15 +197,25 @@ class _Layout:
     decimal: str
 
     def fields(self, line: str) -> list[str]:
-        return [field.strip() for field in line.strip().split(self.separator)]
+        """Fields of a line; a field without a value is empty."""
+        if self.separator is None or '"' not in line:
+            # A tab at the end of a line is a separator before an empty field.
+            found = [field.strip() for field in line.strip(" \r\n").split(self.separator)]
+        else:
+            found = fields(line.strip(), self.separator)
+        return ["" if is_void(field) else field for field in found]
 
     def is_row(self, line: str) -> bool:
         first, *rest = self.fields(line) or [""]
-        number = _NUMBER[self.decimal].fullmatch
-        return bool(rest and number(first)) and all(not field or number(field) for field in rest)
+        return self._is_number(first) and bool(rest) and all(not f or self._is_number(f) for f in rest)
+
+    def _is_number(self, field: str) -> bool:
+        if _NUMBER[self.decimal].fullmatch(field):
+            return True
+        return has_thousands(field) and proven_mark(field) == self.decimal
 
     def value(self, field: str) -> float:
-        return float(field.replace(",", ".")) if field else np.nan
+        return value_of(field, self.decimal) if field else np.nan
 
     def decimals(self, field: str) -> int:
         mantissa, _, exponent = field.lower().partition("e")
@@ -266,8 +282,11 @@ def _block(path: Path, text: str) -> _Block:
     lines = text.splitlines()
     if len(lines) > MOST_LINES:
         raise InputError(path, f"has {len(lines)} lines", takes=f"at most {MOST_LINES}")
-    separator = _separator(next((line for line in reversed(lines) if line.strip()), ""))
-    layouts = [_Layout(separator, decimal) for decimal in ("." if separator == "," else ".,")]
+    last = list(islice((line for line in reversed(lines) if line.strip()), _LAST))
+    # The last point may be void, without a character behind its position.
+    separator = _separator(max(last, key=lambda line: len(line.split()), default=""))
+    marks = "." if separator == "," and '"' not in text else ".,"
+    layouts = [_Layout(separator, decimal) for decimal in marks]
     rows = ((n, line) for n, line in enumerate(lines) if any(layout.is_row(line) for layout in layouts))
     first, _ = next(rows, (len(lines), ""))
     below = [(n, line) for n, line in enumerate(lines[first:], first + 1) if line.strip()]
@@ -302,7 +321,7 @@ def _separator(line: str) -> str | None:
         if separator in line.strip():
             return separator
     tokens = line.split()
-    spaced = len(tokens) > 1 and all(_SPACED_NUMBER.fullmatch(token) for token in tokens)
+    spaced = len(tokens) > 1 and all(_SPACED_NUMBER.fullmatch(one) or is_void(one) for one in tokens)
     return "," if "," in line and not spaced else None
 
 
@@ -313,7 +332,13 @@ def _bad_line(path: Path, below: list[tuple[int, str]], layouts: list[_Layout]) 
                 return NoProfileError(path, f"line {number} is not of numbers only", takes="two columns")
             text = shown(line.strip())
             return InputError(path, f"line {number} is {text}", takes="numbers of one kind down to the end")
-    return InputError(path, "mixes decimal points and decimal commas", takes="one of the two")
+    first = next(layout for layout in layouts if layout.is_row(below[0][1]))
+    number, line = next((n, line) for n, line in below if not first.is_row(line))
+    return InputError(
+        path,
+        f"line {number} is {shown(line.strip())} and mixes decimal points and decimal commas",
+        takes="one of the two",
+    )
 
 
 def _rectangle(path: Path, fields: list[list[str]], numbers: list[int]) -> list[list[str]]:

@@ -215,7 +215,7 @@ BAD_TEXT = [
         {"change": lambda lines: [f"{k};{3 * k}" for k in range(len(lines))], "header": "x [um];z [um]"},
         "heights range",
     ),
-    ({"change": lambda lines: [*lines[:20], "10.0;nan", *lines[21:]]}, "line 22 .*'10.0;nan'"),
+    ({"change": lambda lines: [*lines[:20], "10.0;inf", *lines[21:]]}, "line 22 .*'10.0;inf'"),
 ]
 
 

@@ -202,3 +202,37 @@ def test_units_of_length_in_heads(tmp_path, head, metres):
     surface = read_surface(written(tmp_path / "a.txt", [head], rows))
     assert surface.spacing_x == pytest.approx(2.0 * metres[0])
     assert np.ptp(surface.heights) == pytest.approx(2.0 * metres[1])
+
+
+@each("void", ["", "NaN", "nan", "-nan", "N/A", "#N/A"])
+def test_points_without_a_value_are_void(tmp_path, void):
+    """As np.savetxt, pandas and spreadsheets write them, in every separator and at the end of the file."""
+    for separator in (";", ",", "\t", " "):
+        if void or separator != " ":
+            rows = rows_of(separator)
+            for place in (50, 80, 199):
+                rows[place] = rows[place].partition(separator)[0] + separator + void
+            surface = read_surface(
+                written(tmp_path / "a.txt", ["x [um];z [nm]"], rows), x_unit="um", z_unit="nm"
+            )
+            found = surface.heights[0]
+            assert np.flatnonzero(np.isnan(found[:199])).tolist() == [50, 80]
+            assert found[:50] == pytest.approx(1e-9 * Z[:50], abs=1e-13)
+
+
+def test_decimal_commas_with_voids_between_spaces(tmp_path):
+    rows = rows_of(" ", ",")
+    rows[-1] = rows[-1].partition(" ")[0] + " nan"
+    surface = read_surface(written(tmp_path / "a.txt", ["x [um] z [nm]"], rows))
+    assert surface.heights[0][:199] == pytest.approx(1e-9 * Z[:199], abs=1e-13)
+
+
+def test_quoted_fields_of_a_spreadsheet(tmp_path):
+    """Separators of thousands, and a head with the separator."""
+    x = [f"{1000.0 * k + 0.5:,.1f}" for k in range(200)]
+    rows = [f'"{a}","{z:.7f}"' for a, z in zip(x, Z, strict=True)]
+    surface = read_surface(written(tmp_path / "a.csv", ['"x [nm]","z, filtered [nm]"'], rows))
+    assert surface.spacing_x == pytest.approx(1e-6)
+    np.testing.assert_allclose(surface.heights[0], 1e-9 * Z, atol=1e-13)
+    commas = [f'"{0.5 * k}","{z:.7f}"'.replace(".", ",") for k, z in zip(K, Z, strict=True)]
+    assert_read(read_surface(written(tmp_path / "b.csv", ['"x [um]","z [nm]"'], commas)))

@@ -11,6 +11,7 @@ from ehlectric.app.charts.duty_charts import DUTY_HEADS, MOST_DUTY_ROWS, duty_fi
 from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_own_files
 from ehlectric.bearing.duty_cycle import DutyResult
 from ehlectric.cases.duty_inputs import read_cycle
+from ehlectric.cases.measurements import void_rows
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
@@ -28,7 +29,8 @@ def look(file: str, session: Path) -> str:
     cycle = read_cycle(with_own_files({"duty": {"file": file}}, session)["duty"]["file"])
     names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in cycle.values)
     text = f"{cycle.time.size} rows over {cycle.time[-1] - cycle.time[0]:.6g} s: {names}."
-    return f"{text} Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else text
+    text += f" Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else ""
+    return text + "".join(f" {warning.text}" for warning in void_rows(cycle.read))
 
 
 def shown_duty(duty: DutyResult, summary: Mapping[str, Any]) -> DutyAnswer:

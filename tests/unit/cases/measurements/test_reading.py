@@ -7,7 +7,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from ehlectric.cases.measurements import CYCLE, MEASURED, MOST_ROWS, column_of, read_measurement
+from ehlectric.cases.measurements import (
+    CYCLE,
+    MEASURED,
+    MOST_ROWS,
+    column_of,
+    read_measurement,
+    void_rows,
+)
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -94,10 +101,10 @@ def test_a_table_of_pandas_is_read_by_its_heads():
             "line 2, capacitance [pF]: got 'abc'; expected a number",
         ),
         (
-            "speed [rpm],capacitance [pF]\n\n1000,\n",
-            "line 3, capacitance [pF]: got ''; expected a number",
+            "speed [rpm],capacitance [pF]\n\n1000,\n2000,nan\n",
+            "has no row with a number in every known column",
         ),
-        ("speed [rpm],capacitance [pF]\n1000,nan\n", "got 'nan'"),
+        ("speed [rpm],capacitance [pF]\n1000,inf\n", "got 'inf'"),
         ("speed [rpm],capacitance [pF]\n1000,1e999\n", "expected a finite number"),
         ("speed [rpm],capacitance [pF]\n-5,100\n", "line 2, speed [rpm]: got '-5'; expected above 0 rad/s"),
         ("speed [rpm],capacitance [pF]\n1000,1,5\n", "line 2 has 3 columns; expected 2 as in its heads"),
@@ -114,6 +121,9 @@ def test_a_table_of_pandas_is_read_by_its_heads():
         ("film [nm],uncertainty [s]\n1,2\n", "s is not a unit of this quantity"),
         ("film [nm],uncertainty [nm]\n1,0\n", "has a value of 0 or below"),
         ("", "has no heads of known columns"),
+        ('speed [rpm],note\n1000,"open\n2000,b\n', "line 2: got '1000,\"open' (unexpected end of data)"),
+        ('speed [rpm],film [nm]\n"1,500",100\n', "the number '1,500', which may be 1.5 or 1500"),
+        ('speed [rpm],film [nm]\n"1,50.5",100\n', "mixes decimal points and decimal commas"),
     ],
 )
 def test_what_is_wrong_is_one_line_with_its_place(tmp_path, text, line):
@@ -152,3 +162,36 @@ def test_control_characters_of_a_head_are_not_printed(tmp_path):
 def test_a_speed_is_told_by_its_unit():
     assert column_of("speed [m/s]").name == "entrainment_speed"
     assert column_of("speed [rad/s]").name == "speed"
+
+
+@each(
+    "text, speeds",
+    [
+        ('speed [rpm],note\n1500,"accel, 1st"\n1600,cruise\n', (1500, 1600)),
+        ('speed [rpm],film [nm]\n"1,500.5",100\n"1,600",100\n', (1500.5, 1600)),
+        ('speed [rpm],film [nm]\n"1,500",100.5\n900,99.5\n', (1500, 900)),
+        ('"speed, mean [rpm]",note\n"1500","a ""fast"" run, hot"\n1600,\n', None),
+        ('"speed\n[rpm]",note\n1500,"two\nlines"\n1600,one\n', (1500, 1600)),
+        ("speed [rpm];film [nm]\n1.500,5;100,25\n1.600;99,75\n", (1500.5, 1600)),
+        ('speed [rpm],film [nm]\n"1500,5","100,25"\n"1600","99,75"\n', (1500.5, 1600)),
+        ("speed [rpm],film [nm]\n1500,100\n1550,\n1570,NaN\n1580,#N/A\n1600,100\n", (1500, 1600)),
+        ("speed [rpm]\tfilm [nm]\n1500\t100\nnan\t90\n1600\t100\n", (1500, 1600)),
+    ],
+)
+def test_quoted_fields_thousands_and_voids(tmp_path, text, speeds):
+    """Fields of RFC 4180; a decimal mark that any number proves, and rows without a value are not used."""
+    if speeds is None:
+        assert "has no heads of known columns" in refused(tmp_path, text)
+        return
+    assert read(tmp_path, text).values["speed"] == pytest.approx([RPM * speed for speed in speeds])
+
+
+def test_rows_without_a_value_are_counted_and_named(tmp_path):
+    measured = read(tmp_path, 'speed [rpm],note\n1500,"a\nb"\n,"c"\n1600,\n')
+    assert (measured.lines, measured.void) == ((3, 5), (4,))
+    (warning,) = void_rows(measured)
+    assert warning.code == "rows-void"
+    assert "1 of 3 rows" in warning.text
+    assert "line 4" in warning.text
+    frame = pd.DataFrame({"speed [rpm]": [1000, np.nan, 3000], "capacitance [pF]": [260.5, 1.0, 190.0]})
+    assert read_measurement(frame).values["speed"] == pytest.approx(TWO["speed"])

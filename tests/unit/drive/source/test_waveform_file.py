@@ -463,3 +463,13 @@ def test_memory_grows_with_the_samples(tmp_path):
 def test_a_path_may_be_a_text(tmp_path):
     path = written(tmp_path, lines_of(wave(30)))
     assert read_waveform(str(path))[0].values == pytest.approx(read_waveform(Path(path))[0].values)
+
+
+def test_quoted_fields_with_separators_of_thousands(tmp_path):
+    values = wave(64)
+    quoted = lines_of(values, 50.5, '"time, zeroed [us]","CH1 [V]"', '"{:,.1f}","{:.6f}"')
+    assert '"1,010.0"' in quoted
+    read, warnings = read_waveform(written(tmp_path, quoted))
+    assert read.step == pytest.approx(50.5e-6)
+    assert read.values == pytest.approx(values, abs=1e-6)
+    assert not warnings
