@@ -13,6 +13,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, Self
 
+from ehlectric.readable import filled_in
+
 # Largest length of a value in a message, and of an error's key, which may be a path, and text [characters].
 _MOST_SHOWN, _LONGEST_LINE = 80, 2000
 
@@ -370,7 +372,7 @@ class ResultWarning:
         2 rough surfaces have the seed 5: th
         """
         text = _texts()[code]
-        return cls(code, (text[situation] if situation else text).format_map(values))
+        return cls(code, filled_in(text[situation] if situation else text, values))
 
     def __str__(self) -> str:
         return self.text

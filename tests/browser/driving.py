@@ -67,7 +67,7 @@ def number(page, name):
             raise
         return None
     # The name of the quantity has no digits; the first number is its value.
-    found = _NUMBER.search(" ".join(texts))
+    found = _NUMBER.search(" ".join(texts).replace("\xa0", ""))
     return None if found is None else float(found[0])
 
 

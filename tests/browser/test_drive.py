@@ -18,6 +18,7 @@ from tests.browser.driving import (
 from tests.browser.outputs import address_of, downloaded, fits, summary_by_command
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import alive, wait_until
+from tests.helpers.readable import number_in
 
 EXAMPLE = tomllib.loads((EXAMPLES / "drive.toml").read_text(encoding="utf-8"))
 
@@ -73,7 +74,7 @@ def test_a_simulation_has_the_numbers_of_the_command_and_a_remedy_stands_beside_
     table = page.get_by_test_id("remedies-table")
     table.get_by_text("Grounding ring").wait_for()
     assert table.locator("tbody tr").count() == 2
-    shown = [float(text) for text in table.locator("tbody tr").first.locator("td").all_inner_texts()[1:]]
+    shown = [number_in(text) for text in table.locator("tbody tr").first.locator("td").all_inner_texts()[1:]]
     assert shown == pytest.approx([*rates, summary["drive"]["events_per_second"]], rel=5e-3)
     # Further figures are drawn when their place is opened, one at a time.
     further = page.get_by_test_id("figure-further")

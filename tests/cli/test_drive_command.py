@@ -9,6 +9,7 @@ import pytest
 from ehlectric.figures.figure_names import DRIVE_DUTY_FIGURE, DRIVE_FIGURE_FILES, in_formats
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
+from tests.helpers.readable import grouped
 from tests.helpers.reports import Page
 from tests.unit.cases.test_drive import FILE
 
@@ -92,9 +93,9 @@ def test_a_stored_drive_has_a_report(ehlectric, drive, tmp_path):
     assert done.stdout == "written to out:\n  report.html, report.pdf\n"
     page = Page((tmp_path / "out" / "report.html").read_text("utf-8"))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
-    rates = [f"{summary[end]['events_per_second']:.0f}" for end in ("drive_end", "non_drive_end")]
-    numbers = [f"{float(f'{float(rate):.3g}'):g}" for rate in rates]
-    for text in ("Discharges expected", f"discharges per second {' '.join(numbers)} 1/s", "Ceramic"):
+    numbers = [grouped(summary[end]["events_per_second"]) for end in ("drive_end", "non_drive_end")]
+    rates = f"discharges per second {' '.join(numbers)} 1/s".replace("\xa0", " ")
+    for text in ("Discharges expected", rates, "Ceramic"):
         assert text in page.text, text
     assert len(page.of("img")) == len(WITHOUT_CYCLE)
     assert (tmp_path / "out" / "report.pdf").read_bytes().startswith(b"%PDF")

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import Contacts
 from ehlectric.quantities.units import known_factor, si_unit, split
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -413,7 +414,7 @@ class Effect:
         if abs(self.change) < self._accuracy:
             return "no change"
         sign, size = ("▲ +" if self.change > 0.0 else "▼ −"), abs(self.change)
-        number = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
+        number = readable(size) if size < 1000.0 else f"{size:.0f}"
         return f"{sign}{number}\N{NO-BREAK SPACE}%"
 
 

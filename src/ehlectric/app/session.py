@@ -19,6 +19,7 @@ from starlette.formparsers import MultiPartParser
 from ehlectric.app.page_inputs import History, Inputs
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError, printable
+from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     from nicegui.elements.upload_files import FileUpload
@@ -185,7 +186,7 @@ class Session:
         )
         if size > LARGEST or kept + size > MOST_TOGETHER:
             limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
-            raise InputError.worded(None, f"{given}: has {size / 1e6:.4g} MB; expected {limits}")
+            raise InputError.worded(None, f"{given}: has {readable(size / 1e6, 4)} MB; expected {limits}")
 
     def close(self) -> None:
         """End the jobs, and remove the folder."""

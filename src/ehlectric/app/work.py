@@ -25,6 +25,7 @@ from weakref import WeakKeyDictionary
 from ehlectric.app.calls import Call
 from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_context
 from ehlectric.errors import LostError
+from ehlectric.readable import readable
 from ehlectric.runtime.locks import RENAMES_OPEN, take
 from ehlectric.runtime.memory import available_memory
 from ehlectric.runtime.worker_processes import cores
@@ -340,7 +341,9 @@ class Work:
             outcome = await asyncio.wait_for(asyncio.shield(asked), self.limits.seconds)
         except TimeoutError:
             minutes = self.limits.seconds / 60.0
-            job.end("failed", error=LostError(f"stopped: it took longer than the {minutes:.3g} min allowed"))
+            job.end(
+                "failed", error=LostError(f"stopped: it took longer than the {readable(minutes)} min allowed")
+            )
             await asked
         else:
             if isinstance(outcome, Returned):

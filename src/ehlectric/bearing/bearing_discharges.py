@@ -34,6 +34,7 @@ from ehlectric.discharge.discharge_laws import (
 )
 from ehlectric.errors import Flag
 from ehlectric.quantities.formats import amount
+from ehlectric.readable import readable
 
 
 def voltage_ratio(winding_rotor: Numbers, rotor_frame: Numbers, first: Numbers, second: Numbers) -> Numbers:
@@ -516,4 +517,4 @@ def _edge_text(motor: Motor, leaks: ShaftLeakage, shaft: float) -> str:
     """Voltage after an edge of the inverter as text, from the shaft voltage of the divider [V]."""
     if leaks.after_rise is None or motor.rise_time is None:
         return "give motor.rise_time for the voltage after an edge"
-    return f"after an edge of {amount(motor.rise_time, 's')} it is {leaks.after_rise * shaft:.3g} V"
+    return f"after an edge of {amount(motor.rise_time, 's')} it is {readable(leaks.after_rise * shaft)} V"

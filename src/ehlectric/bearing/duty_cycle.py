@@ -39,9 +39,10 @@ from ehlectric.cases.measurements import CYCLE, void_rows
 from ehlectric.discharge.breakdown_rule import mean_text, ratio_text
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.formats import scale_of
+from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import RPM, rpm_text
+from ehlectric.quantities.units import RPM
+from ehlectric.readable import readable
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
@@ -219,7 +220,7 @@ class DutyResult(Values):
         share = 100.0 * self.rows.share(self.rows.breaks)
         return (
             f"Over the duty cycle the mean probability of breakdown is {mean_text(probability, low, high)}; "
-            f"the margin is below 1, or surfaces touch, {share:.2g} % of the time."
+            f"the margin is below 1, or surfaces touch, {readable(share, 2)} % of the time."
         )
 
     def _probabilities(self) -> dict[str, float | None]:
@@ -540,7 +541,7 @@ def _text(column: str, value: float) -> str:
     if unit == "rad/s":
         return f"{rpm_text(value)} rpm"
     scale = scale_of(_SHOWN[unit])
-    return f"{scale.of(value):.4g} {scale.unit}"
+    return f"{readable(scale.of(value), 4)} {scale.unit}"
 
 
 def file_warnings(cycle: Cycle, case: BearingCase) -> Iterator[ResultWarning]:

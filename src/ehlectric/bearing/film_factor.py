@@ -49,6 +49,7 @@ from ehlectric.formulas.inlet_supply import (
 from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import LOGGER
 
 
@@ -170,7 +171,7 @@ def solved_contact(
     except InputError as error:
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
-        where = f"{ring.name} contact at {load:.4g} N"
+        where = f"{ring.name} contact at {readable(load, 4)} N"
         text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
         raise ConvergenceError(text) from None
     found: ContactFriction | None = flooded.friction
@@ -360,7 +361,7 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> Numbers:
     if factor < _LEAST:
         raise InputError(
             "bearing.supply",
-            got=f"{bearing.supply!r}, whose rule leaves {float(factor):.2g} of the flooded film at "
+            got=f"{bearing.supply!r}, whose rule leaves {readable(float(factor), 2)} of the flooded film at "
             f"{1e6 * oil.viscosity / oil.density:.0f} mm^2/s and {rpm(bearing.inner_speed):.0f} rpm;",
             takes=f"a speed and an oil of which it leaves {_LEAST:g}, or a measured number",
         )
@@ -507,10 +508,10 @@ def _film_words(solution: BearingSolution) -> tuple[str, str]:
     """Film factor of one bearing with its parts, and what it leaves out, in words."""
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
-    left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
+    left, found = "any starvation and heat beyond this factor", readable(solution.conditions.film_factor)
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
-        other = f"a given factor of {factor:.3g}" if given else _HEAT.get(factor)
+        other = f"a given factor of {readable(float(factor))}" if given else _HEAT.get(factor)
         found += f", of {other} and the supply of oil" if other else ", of the supply of oil"
     elif factor in _HEAT:
         left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
@@ -524,9 +525,9 @@ def supply_words(solution: BearingSolution) -> str:
     supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
-    more = f" and a given factor of {heat:.3g}" if isinstance(heat, float) else ""
+    more = f" and a given factor of {readable(heat)}" if isinstance(heat, float) else ""
     more = {"inlet-shear": " and inlet shear heating", "solved": " and solved heat"}.get(str(heat), more)
-    return f"{found:.3g} of the flooded thickness{by}{more}"
+    return f"{readable(float(found or 1.0))} of the flooded thickness{by}{more}"
 
 
 def supply_flags(solution: BearingSolution) -> Iterator[Flag]:

@@ -82,8 +82,9 @@ from ehlectric.discharge.film_verdict import (
     weibull_part,
 )
 from ehlectric.errors import InputError, raised
-from ehlectric.quantities.formats import amount
-from ehlectric.quantities.units import rpm, rpm_text
+from ehlectric.quantities.formats import amount, rpm_text
+from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 # Inputs of strength laws that only solved contacts have: others replace them by a constant strength.
 ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -315,7 +316,8 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     own = margins.case.bearing.inner_speed
     speeds, points, reasons = margins.over_parts()
     left_out = tuple(
-        f"speed {rpm(own * PARTS[place]):.4g} rpm: {reason}" for place, reason in sorted(reasons.items())
+        f"speed {readable(rpm(own * PARTS[place]), 4)} rpm: {reason}"
+        for place, reason in sorted(reasons.items())
     )
     known = np.isfinite(points[1])
     # The bearing itself has a result, which is exact.
@@ -553,9 +555,9 @@ def bearing_verdict(
         return Verdict(level, _touching_text(solution, lead, chance))
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
-        known = "" if shaft is None else f" The shaft voltage is {shaft:.3g} V {_at(solution)}."
+        known = "" if shaft is None else f" The shaft voltage is {readable(shaft)} V {_at(solution)}."
         return Verdict("grey", f"No verdict: no dielectric strength given, no breakdown voltage.{known}")
-    first = f"first breakdown at {breakdown.shaft_first_break:.3g} V"
+    first = f"first breakdown at {readable(breakdown.shaft_first_break)} V"
     if shaft is None:
         return Verdict(
             "grey",
@@ -597,7 +599,7 @@ def _of_ceramics(solution: BearingSolution) -> Verdict:
     if most is None or element.dielectric_strength is None:
         return Verdict("grey", f"No verdict: no strength of the insulating elements is known.{touching}")
     insulates = f"insulates at least {amount(float(f'{most:.2g}'), 'V')}"
-    ends = " to ".join(f"{1e-6 * end:.3g}" for end in strength_interval(element.dielectric_strength))
+    ends = " to ".join(readable(1e-6 * end) for end in strength_interval(element.dielectric_strength))
     why = f"{element.strength_of}, ± {100.0 * STRENGTH_UNKNOWN:.0f} %"
     assumed = f" Best estimate: strength of the ceramic {ends} V/µm ({why})."
     if voltage is None:
@@ -609,8 +611,10 @@ def _of_ceramics(solution: BearingSolution) -> Verdict:
     return Verdict(
         "green" if sure else "yellow",
         f"{'No discharge expected' if sure else 'Discharge possible'}: each ceramic element must insulate "
-        f"{'at most ' if bound else ''}{voltage:.3g} V {_at(solution)}, and {insulates}. The field in it is "
-        f"at most {1e-6 * (element_field(solution) or 0.0):.2g} V/µm. Films beside such elements do not "
+        f"{'at most ' if bound else ''}{readable(voltage)} V {_at(solution)}, and {insulates}. The field "
+        "in it is "
+        f"at most {readable(1e-6 * (element_field(solution) or 0.0), 2)} V/µm. Films beside such "
+        "elements do not "
         f"discharge.{touching}{assumed}",
     )
 
@@ -636,8 +640,8 @@ def _judged(
         reasons += _widths(solution, analysis, margin)
     level, lead = doubted(level, lead, doubts=bool(doubts), touching=bool(touching))
     text = (
-        f"{lead}: shaft voltage {shaft:.3g} V, first breakdown at "
-        f"{breakdown.shaft_first_break:.3g} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
+        f"{lead}: shaft voltage {readable(shaft)} V, first breakdown at "
+        f"{readable(breakdown.shaft_first_break)} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
     )
     speeds = list(_speeds(analysis.speeds))
     shares, leaks = _coating(solution, shaft), _leaks(solution)
@@ -674,7 +678,8 @@ def _coating(solution: BearingSolution, shaft: float) -> str:
     if share is None or not shaft_path(solution).coated:
         return ""
     return (
-        f"Of the shaft voltage {share * shaft:.3g} V ({100.0 * share:.3g} %) are across the films at high "
+        f"Of the shaft voltage {readable(share * shaft)} V ({readable(100.0 * share)} %) are across the "
+        "films at high "
         "frequency, and the coating has the rest."
     )
 
@@ -828,14 +833,16 @@ def _at(solution: BearingSolution) -> str:
     bearing = solution.case.bearing
     speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
     point = "" if solution.case.duty is None else "the operating point of "
-    return f"at {point}{float(f'{speed:.4g}'):g} rpm, {float(f'{temperature:.3g}'):g} °C"
+    return f"at {point}{readable(speed, 4)} rpm, {readable(temperature)} °C"
 
 
 def _assumptions(solution: BearingSolution) -> str:
     """Sentence about the assumptions behind the breakdown voltage."""
     case, factor = solution.case, solution.conditions.film_factor
     film = f"{'rough' if case.bearing.summit_height else 'smooth'} film"
-    films = f"{film} with the given film factor {factor:.3g}, which alone stands for starvation and heat"
+    films = (
+        f"{film} with the given film factor {readable(factor)}, which alone stands for starvation and heat"
+    )
     if factor == 1.0:
         films = f"isothermal, fully flooded, {film}"
     elif case.bearing.supply != "flooded":

@@ -34,6 +34,7 @@ from ehlectric.discharge.film_capacitance import LEAST_RATIO
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 
 # Film factors that are looked at: a film of a hundredth, and of three times the flooded isothermal one.
@@ -157,7 +158,8 @@ class FilmState:
         if capacitance is None:
             raise InputError.worded(
                 "bearing.composite_rq",
-                f"is more than 1/{LEAST_RATIO:g} of a central film (lambda ratio {ratio:.2g}), at which "
+                f"is more than 1/{LEAST_RATIO:g} of a central film (lambda ratio {readable(ratio, 2)}), "
+                "at which "
                 "asperities touch",
             )
         return cls(capacitance, ratio)
@@ -294,7 +296,7 @@ def solved_correction(
             workers=workers,
         )
         if not solution.converged:
-            raise ConvergenceError(f"a contact of the bearing at film factor {factor:.3g}")
+            raise ConvergenceError(f"a contact of the bearing at film factor {readable(factor)}")
         correction = correction.extended(point.at(factor), solution)
     if not correction.logs.size:
         raise InputError("measured", "has no capacitance that films of the atlas or of a formula explain")
@@ -461,7 +463,7 @@ def _row(
     ratio = correction.of(point.at(factor)).lambda_ratio
     if ratio < CONDUCTING:
         raise NoFactorError(
-            f"its film would have a lambda ratio of {ratio:.2g}, at which surfaces touch and conduct"
+            f"its film would have a lambda ratio of {readable(ratio, 2)}, at which surfaces touch and conduct"
         )
     yield from (("film_factor", factor), ("slope", slope), ("lambda_ratio", ratio))
 
@@ -493,7 +495,7 @@ def bearing_factors(
     if not np.any(targets > 0.0):
         raise InputError(
             measured.source,
-            f"has no capacitance above the background of {1e12 * off:.4g} pF",
+            f"has no capacitance above the background of {readable(1e12 * off, 4)} pF",
             takes="at least one row above it",
         )
     OperatingPoint.of(case, rows[0])

@@ -15,6 +15,7 @@ from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
 from ehlectric.cases.library.bearing_catalogue import clearance_range
 from ehlectric.errors import Flag, InputError
 from ehlectric.quantities.units import to_si
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -45,10 +46,10 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
         known = np.where(unknown | beyond, np.nan, clearance)
         return replace(found, running=replace(found.running, clearance=known))
     if unknown:
-        overlap = f"whose interference with the outer ring is {1e6 * pressing:.3g} um"
+        overlap = f"whose interference with the outer ring is {readable(1e6 * pressing)} um"
         raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
     if beyond:
-        got = f"a clearance in operation of {1e6 * clearance:.4g} um"
+        got = f"a clearance in operation of {readable(1e6 * clearance, 4)} um"
         takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
         raise InputError("fits", got=got, takes=takes)
     return found

@@ -19,6 +19,7 @@ from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,8 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
     yield _Bound(
         thickest > radius,
         lambda: ConvergenceError(
-            f"a film of {thickest:.3g} m in the bearing is above the radius of its elements, {radius:.3g} m; "
+            f"a film of {readable(thickest)} m in the bearing is above the radius of its elements, "
+            f"{readable(radius)} m; "
             "the result is not used"
         ),
     )
@@ -64,7 +66,8 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
     yield _Bound(
         share > 1.0,
         lambda: ConvergenceError(
-            f"the capacitance of a contact is {share:.3g} times the capacitance of a plate at its minimum "
+            f"the capacitance of a contact is {readable(share)} times the capacitance of a plate at its "
+            "minimum "
             "film; the result is not used"
         ),
     )
@@ -74,7 +77,7 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
             margin > MOST_MARGIN,
             lambda: InputError(
                 "motor.common_mode_voltage",
-                got=f"a margin of {margin:.3g}",
+                got=f"a margin of {readable(margin)}",
                 takes=f"voltages and capacitances with a margin of at most {MOST_MARGIN:.0e}; check [motor] "
                 "and the dielectric strength",
             ),

@@ -28,6 +28,7 @@ from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.lubricant.law import is_many, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil
+from ehlectric.readable import readable
 
 # Contacts with less than this part of the largest load may have their centre beyond the shoulder.
 _LIGHT = 0.02
@@ -58,7 +59,7 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
         raise InputError(
             "bearing.radial_load",
             got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
-            takes=f"more than {weight:.2g} N, the weight of an element, which is left out",
+            takes=f"more than {readable(weight, 2)} N, the weight of an element, which is left out",
         )
 
 
@@ -144,8 +145,9 @@ def check_film(contact: Contact) -> None:
         oil = ring.oil.viscosity
         raise InputError(
             "bearing",
-            got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
-            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s; the bodies have room for at most {1e6 * most:.3g} um",
+            got=f"an {ring.name} film of {readable(1e6 * film)} um, at {readable(contact.load)} N, "
+            f"{readable(ring.speed)} m/s and {readable(oil)} Pa s; the bodies have room for at most "
+            f"{readable(1e6 * most)} um",
             takes="a thinner film; raise the load or the temperature, or reduce the speed or the viscosity",
         )
 

@@ -32,6 +32,7 @@ from ehlectric.errors import InputError, ResultWarning, shown, texts_and_codes
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.values import Shown, headline, is_number
@@ -295,16 +296,16 @@ class BearingResult(Shown):
         capacitance = amount(self.capacitance(), "F")
         if capacitance_is_bound(self.solution):
             capacitance = BEARING_KEYS["bearing.capacitance"].with_sign(capacitance)
-        breaks = None if voltage is None else f"{voltage:.4g} V"
+        breaks = None if voltage is None else f"{readable(voltage, 4)} V"
         if breaks and (self.case.bearing.bounding or "partial-film" in {one.code for one in self.warnings}):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return headline(
             self.case.title,
             self.case.bearing.base or self.case.bearing.kind,
-            f"{rpm(self.case.bearing.inner_speed):.4g} rpm",
+            f"{readable(rpm(self.case.bearing.inner_speed), 4)} rpm",
             f"capacitance {capacitance}",
             None if breaks is None else f"first breakdown {breaks}",
-            None if shaft is None else f"shaft voltage {shaft:.4g} V",
+            None if shaft is None else f"shaft voltage {readable(shaft, 4)} V",
             "converged" if self.converged else "NOT CONVERGED",
         )
 

@@ -43,6 +43,7 @@ from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz import DryContact, dry_contact, line_half_width, line_max_pressure
 from ehlectric.formulas.monotone_cubic import MonotoneCubic, end_slope, inner_slope
 from ehlectric.lubricant.oil import Oil
+from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 
@@ -506,7 +507,7 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
         if speed < _LEAST_SPEED:
             raise InputError(
                 "contact",
-                f"the film would be that of an entrainment speed of {speed:.3g} m/s",
+                f"the film would be that of an entrainment speed of {readable(speed)} m/s",
                 takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
             )
         for half_width, radius in contact.widths:
@@ -527,7 +528,7 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
     if table not in ("contact", "grid"):
         return error
     text = error.text if error.key == "contact" else str(error)
-    where = f"{contact.ring.name} contact at {contact.load:.4g} N"
+    where = f"{contact.ring.name} contact at {readable(contact.load, 4)} N"
     return error.retold("bearing", f"{where}: {text}")
 
 

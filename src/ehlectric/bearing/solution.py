@@ -19,6 +19,7 @@ from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, Conta
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.errors import ResultWarning
+from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 from ehlectric.version import __version__
@@ -398,7 +399,7 @@ def lambda_text(solution: BearingSolution) -> str:
     """Lambda ratio with two digits, and with three where the state of lubrication changes nearby."""
     ratio, limits = lambda_ratio(solution), (CONDUCTING, solution.case.bearing.summit_height)
     near = any(0.9 * limit < ratio < 1.1 * limit for limit in limits)
-    return f"{ratio:.3g}" if near else f"{ratio:.2g}"
+    return readable(ratio) if near else readable(ratio, 2)
 
 
 def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:
@@ -507,7 +508,7 @@ def percent(error: float) -> str:
     >>> percent(0.3), percent(0.0237)
     ('30 %', '2.4 %')
     """
-    return f"{100.0 * error:.2g} %"
+    return f"{readable(100.0 * error, 2)} %"
 
 
 def with_light(curves: Iterable[ContactCurve]) -> list[tuple[ContactSolution, ...]]:

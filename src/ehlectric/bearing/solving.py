@@ -20,6 +20,7 @@ from ehlectric.bearing.ring_contacts import ContactCurve, ContactValues, RingCon
 from ehlectric.bearing.solution import BearingSolution, Position, RingState, ring_state
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tasks import run_all
 from ehlectric.runtime.worker_processes import cores
@@ -169,7 +170,7 @@ def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int
 
     def done(number: int, solution: Any) -> None:
         solutions[len(tasks) - 1 - number] = solution
-        progress(len(solutions), len(tasks), f"contact with {solution.load:.4g} N")
+        progress(len(solutions), len(tasks), f"contact with {readable(solution.load, 4)} N")
 
     progress(0, len(tasks), "contacts")
     if workers == 1 or len(tasks) == 1:

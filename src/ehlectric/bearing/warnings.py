@@ -55,6 +55,7 @@ from ehlectric.discharge.film_verdict import breakdown_flag
 from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 # Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design
 # [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.
@@ -132,7 +133,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
         "viscosity-of-base",
         viscosity=known(mul, 1e3, base),
         base=case.lubricant.base,
-        temperature=lambda: f"{case.bearing.oil_temperature - 273.15:.4g} °C",
+        temperature=lambda: f"{readable(case.bearing.oil_temperature - 273.15, 4)} °C",
     )
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
     yield Flag.of(
@@ -219,7 +220,7 @@ def _index_of(oil: OilTemperature) -> str:
     """Viscosity index of a grade with a given viscosity at 100 degC, in words; empty without one."""
     if oil.kinematic_viscosity_100 is None or 1e6 * oil.at_100() < LEAST_AT_100:
         return ""
-    given = f"{1e6 * oil.kinematic_viscosity_100:.4g} mm²/s at 100 °C"
+    given = f"{readable(1e6 * oil.kinematic_viscosity_100, 4)} mm²/s at 100 °C"
     return f"; with {given} its viscosity index is {viscosity_index(oil.at_40(), oil.at_100()):.0f}"
 
 
@@ -241,7 +242,7 @@ def voltage_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield breakdown_flag(
         "shaft voltage",
         shaft,
-        lambda: f"first breakdown at {first:.3g} V",
+        lambda: f"first breakdown at {readable(first)} V",
         margin if converged else None,
         field=None if scattered else field,
     )
@@ -271,8 +272,10 @@ def _coating_flags(solution: BearingSolution, shaft: Numbers | None) -> Iterator
 
 def _assumed_text(coating: Coating) -> str:
     """Values of a coating that are assumed, as text."""
-    shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
-    return ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in coating.assumed.items())
+    shown = {"thickness": f"{readable(1e6 * coating.thickness, 4)} µm"}
+    return ", ".join(
+        f"{key} {shown.get(key, f'{readable(value, 4)}')}" for key, value in coating.assumed.items()
+    )
 
 
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
@@ -380,5 +383,5 @@ def _named(ring: str, loads: Sequence[float]) -> str:
     ('inner contact at 800 N', '3 outer contacts at 20 to 80 N')
     """
     if len(loads) == 1:
-        return f"{ring} contact at {loads[0]:.4g} N"
-    return f"{len(loads)} {ring} contacts at {min(loads):.4g} to {max(loads):.4g} N"
+        return f"{ring} contact at {readable(loads[0], 4)} N"
+    return f"{len(loads)} {ring} contacts at {readable(min(loads), 4)} to {readable(max(loads), 4)} N"

@@ -47,6 +47,7 @@ from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.runtime.values import headline, is_number
 
 # Tables and keys of a bearing file that a case of a contact does not have.
@@ -332,8 +333,8 @@ class BearingCase(CaseFile, book="bearing_file"):
             if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
                 raise InputError(
                     key,
-                    got=f"{one.low:.6g} to {one.high:.6g}",
-                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
+                    got=f"{readable(one.low, 6)} to {readable(one.high, 6)}",
+                    takes=f"a range that contains the value of the file, {readable(value, 6)} (in SI units)",
                 )
 
     def _check_connected(self) -> None:
@@ -425,8 +426,8 @@ class BearingCase(CaseFile, book="bearing_file"):
             self.title,
             bearing.base or bearing.kind,
             *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
-            f"{rpm(bearing.inner_speed):.4g} rpm",
-            f"{bearing.oil_temperature - 273.15:.4g} degC",
+            f"{readable(rpm(bearing.inner_speed), 4)} rpm",
+            f"{readable(bearing.oil_temperature - 273.15, 4)} degC",
         )
 
     @classmethod

@@ -22,6 +22,7 @@ from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
 
 
@@ -140,8 +141,8 @@ class DriveCase(CaseFile, book="drive_file"):
         return headline(
             self.title,
             self.source.modulation or self.source.file or "",
-            f"{rpm(bearing.inner_speed):.4g} rpm",
-            f"{bearing.oil_temperature - 273.15:.4g} degC",
+            f"{readable(rpm(bearing.inner_speed), 4)} rpm",
+            f"{readable(bearing.oil_temperature - 273.15, 4)} degC",
         )
 
     @classmethod

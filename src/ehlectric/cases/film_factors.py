@@ -16,6 +16,7 @@ from ehlectric.cases.measurements import Measurement, void_rows
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
+from ehlectric.readable import readable
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.result_names import MEASURED, MEASURED_ROWS
 from ehlectric.runtime.values import Shown, headline
@@ -327,9 +328,11 @@ def factor_text(mean: MeanFactor | None) -> str:
     if mean is None:
         return "no film factor"
     if mean.low is None or mean.high is None:
-        return f"film factor {mean.value:.3g}, of one row without a stated uncertainty"
+        return f"film factor {readable(mean.value)}, of one row without a stated uncertainty"
     scatter = ", from scatter only" if mean.basis == "scatter only" else ""
-    return f"film factor {mean.value:.3g} ({mean.low:.3g} to {mean.high:.3g}, 95 %{scatter})"
+    return (
+        f"film factor {readable(mean.value)} ({readable(mean.low)} to {readable(mean.high)}, 95 %{scatter})"
+    )
 
 
 def fitted_columns(values: Array, factors: Array, slopes: Array, mean: MeanFactor | None) -> dict[str, Array]:

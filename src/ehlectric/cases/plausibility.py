@@ -14,6 +14,7 @@ import numpy as np
 from ehlectric.arrays import Numbers
 from ehlectric.errors import Flag
 from ehlectric.lubricant.oil import Oil
+from ehlectric.readable import readable
 
 _CELSIUS = 273.15
 
@@ -31,7 +32,7 @@ class Plausible:
 
     def shown(self, value: float) -> str:
         """Value [SI unit] with its unit."""
-        return f"{self.factor * value:.4g} {self.unit}".rstrip()
+        return f"{readable(self.factor * value, 4)} {self.unit}".rstrip()
 
 
 PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(

@@ -13,6 +13,7 @@ import typer
 from ehlectric.commands.options import command
 from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.errors import InputError
+from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
@@ -120,7 +121,7 @@ def _rows(groups: Groups, film: AtlasFilm, found: ContactFilm | None) -> Iterato
     if groups.ratio is not None:
         yield Row("ratio of the semi-axes k", groups.ratio)
     for name, title in _FILMS.items():
-        error = f", ± {100.0 * film.errors[name]:.2g} %"
+        error = f", ± {readable(100.0 * film.errors[name], 2)} %"
         if found is None:
             yield Row(f"{title}, Moes' unit", getattr(film, name), note=error, digits=".4g")
         else:

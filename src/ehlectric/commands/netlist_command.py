@@ -20,6 +20,7 @@ from ehlectric.commands.terminal import (
     warn,
 )
 from ehlectric.errors import InputError
+from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     from ehlectric.drive.netlist import Arc, Subcircuit
@@ -130,15 +131,14 @@ def _named_as_options() -> Iterator[None]:
 
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
     """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
-    from ehlectric.quantities.formats import amount
+    from ehlectric.quantities.formats import amount, rpm_text
     from ehlectric.quantities.rows import Row
-    from ehlectric.quantities.units import rpm_text
 
     yield Row("subcircuit", f"{subcircuit.name} shaft housing")
     for parameter in subcircuit.parameters():
         unit = parameter.unit.replace("Ohm", "Ω")
-        shown = f"{parameter.value:.4g} rpm" if unit == "rpm" else amount(parameter.value, unit)
+        shown = f"{readable(parameter.value, 4)} rpm" if unit == "rpm" else amount(parameter.value, unit)
         yield Row(parameter.name, shown, "", f", {parameter.meaning}")
     for one in subcircuit.found if subcircuit.tabulated else ():
-        breaks = "" if one.threshold is None else f", breakdown at {one.threshold:.4g} V"
+        breaks = "" if one.threshold is None else f", breakdown at {readable(one.threshold, 4)} V"
         yield Row(f"at {rpm_text(one.speed)} rpm", amount(one.capacitance, "F"), "", breaks)

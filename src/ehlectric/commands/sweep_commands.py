@@ -31,6 +31,7 @@ from ehlectric.commands.terminal import (
     warn,
 )
 from ehlectric.errors import InputError, LostError, WriteError, shown
+from ehlectric.readable import readable
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.undrawn import Drawn, Undrawn, kept_going
@@ -194,7 +195,7 @@ def _lines() -> Iterator[Progress]:
             return
         last = now
         rate = (done - first) / max(now - started, 1e-9)
-        left = f", {rate:.3g} a second, {_duration((of - done) / rate)} left" if rate else ""
+        left = f", {readable(rate)} a second, {_duration((of - done) / rate)} left" if rate else ""
         typer.echo(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
 
     yield show
@@ -220,7 +221,7 @@ def _bar() -> Iterator[Progress]:
             if not tasks:
                 tasks.append(bar.add_task(text, total=of, completed=done, rate=""))
             speed = bar.tasks[0].speed
-            rate = "" if speed is None else f"{speed:.3g}/s"
+            rate = "" if speed is None else f"{readable(speed)}/s"
             bar.update(tasks[0], completed=done, description=text, rate=rate)
 
         yield show

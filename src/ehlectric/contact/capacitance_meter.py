@@ -23,6 +23,7 @@ from ehlectric.field.poisson import ATOM
 from ehlectric.field.zones import areas_by_zone
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.hertz import dry_contact
+from ehlectric.readable import readable
 
 Ring = tuple[float, float]
 _EVERYWHERE: Ring = (0.0, np.inf)
@@ -46,10 +47,12 @@ def _words(along: float, across: float) -> str:
     if np.isinf(along) and np.isinf(across):
         return "plane"
     if np.isinf(across):
-        return f"{'hollow ' if along < 0.0 else ''}cylinder of {abs(along) * 1e3:.4g} mm"
+        return f"{'hollow ' if along < 0.0 else ''}cylinder of {readable(abs(along) * 1e3, 4)} mm"
     if along == across > 0.0:
-        return f"ball of {along * 1e3:.4g} mm"
-    return f"body of {along * 1e3:.4g} mm along and {across * 1e3:.4g} mm across entrainment"
+        return f"ball of {readable(along * 1e3, 4)} mm"
+    return (
+        f"body of {readable(along * 1e3, 4)} mm along and {readable(across * 1e3, 4)} mm across entrainment"
+    )
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.python_laws import Laws, Recorder, SampledLaws
+from ehlectric.readable import readable
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
 from ehlectric.surfaces.surface_warnings import surface_warnings
@@ -126,7 +127,7 @@ def _check_margin(case: Case, conditions: Conditions | PointConditions) -> None:
         raise InputError(
             "electric.potential_2",
             got=f"a voltage of {case.electric.voltage:g} V",
-            takes=f"at least {least:.2g} V, above which the margin is at most {MOST_MARGIN:.0e}",
+            takes=f"at least {readable(least, 2)} V, above which the margin is at most {MOST_MARGIN:.0e}",
         )
 
 

@@ -19,6 +19,7 @@ from ehlectric.formulas import hertz
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.lubricant.oil import Oil
+from ehlectric.readable import readable
 
 
 def speeds_of(contact: Contact) -> tuple[float, float]:
@@ -49,8 +50,8 @@ def check_width(half_width: float, radius: float) -> None:
     if half_width > 0.5 * radius:
         raise InputError(
             "contact",
-            f"the dry contact would be {half_width:.3g} m wide on each side, more than half of "
-            f"the smallest radius {radius:.3g} m;",
+            f"the dry contact would be {readable(half_width)} m wide on each side, more than half of "
+            f"the smallest radius {readable(radius)} m;",
             takes="less load, a larger modulus or less conforming bodies",
         )
 
@@ -64,9 +65,9 @@ def check_pressure(pressure: float, oil: Oil) -> None:
     if pressure < least:
         raise InputError(
             "contact",
-            f"the Hertz pressure would be {pressure:.3g} Pa",
-            takes=f"a load that gives at least {least:.3g} Pa, well above the ambient "
-            f"{oil.ambient_pressure:.3g} Pa",
+            f"the Hertz pressure would be {readable(pressure)} Pa",
+            takes=f"a load that gives at least {readable(least)} Pa, well above the ambient "
+            f"{readable(oil.ambient_pressure)} Pa",
         )
     # A permittivity law that has no value at the Hertz pressure raises its error here. A law that fails only
     # at the higher pressure spike raises it after the film has been computed.

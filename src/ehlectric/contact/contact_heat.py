@@ -18,6 +18,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import UNBOUNDED, Rheology
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import OwnLaws, SampledLaws
+from ehlectric.readable import readable
 
 # Keys of the temperatures of the oil in the inlet and of both bodies.
 _TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temperature_2")
@@ -170,7 +171,8 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
     stress = float(np.max(np.abs(heated.shear_stress)))
     if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
         return (
-            f"the film would have shear stresses up to {stress / max_pressure:.2g} times the Hertz pressure, "
+            f"the film would have shear stresses up to {readable(stress / max_pressure, 2)} times the "
+            "Hertz pressure, "
             f"and oils carry less than {_CARRIED:g} times: no oil is Newtonian there; give "
             "lubricant.eyring_stress and film.rheology 'eyring'"
         )
@@ -183,7 +185,7 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
 
 def reached_rise(heated: HeatedFilm) -> str:
     """Temperature rise in the last iteration of a film that is not converged, in words."""
-    return f"last temperature rise {heated.max_temperature_rise or 0.0:.3g} K"
+    return f"last temperature rise {readable(heated.max_temperature_rise or 0.0)} K"
 
 
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
@@ -192,7 +194,7 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
     if heated.rheology not in UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
         return
     assert heated.traction_coefficient is not None
-    numbers = f"the traction coefficient of {abs(heated.traction_coefficient):.3g}"
+    numbers = f"the traction coefficient of {readable(abs(heated.traction_coefficient))}"
     numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
     # Heat and Carreau's law keep the stress within the size of measured ones, but not below their limit.
     law = "carreau" if heated.rheology == "carreau" and heated.thermal else "unbounded"
@@ -211,8 +213,8 @@ def _thicker_from(oil: HotOil, pressure: float) -> float | None:
 
 def _thicker(temperature: float, pressure: float) -> str:
     return (
-        f"at {pressure / 1e9:.3g} GPa the laws of the oil make it thicker with temperature above "
-        f"{temperature - CELSIUS:.3g} °C, which no oil does"
+        f"at {readable(pressure / 1e9)} GPa the laws of the oil make it thicker with temperature above "
+        f"{readable(temperature - CELSIUS)} °C, which no oil does"
     )
 
 
@@ -249,7 +251,7 @@ def _temperatures(
 
 
 def _celsius(low: float, high: float) -> str:
-    return f"{low - CELSIUS:.4g} to {high - CELSIUS:.4g} °C"
+    return f"{readable(low - CELSIUS, 4)} to {readable(high - CELSIUS, 4)} °C"
 
 
 def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarning]:
@@ -376,7 +378,7 @@ def _no_values(
 ) -> InputError:
     """Error of a temperature [K] from which the film reaches ``beyond`` [K], where an oil has no values."""
     needed = start + beyond
-    what = f"has no viscosity, density or thermal properties at {needed - CELSIUS:.4g} °C"
+    what = f"has no viscosity, density or thermal properties at {readable(needed - CELSIUS, 4)} °C"
     if key is None:
         text = f"{what}, a temperature that the film may reach; choose other laws for a thermal film"
         return InputError.worded("lubricant", text)
@@ -385,10 +387,13 @@ def _no_values(
     end = next((at for at in known if _has_values(oil_at, at, max_pressure)), None)
     takes = "other laws of the lubricant"
     if end is not None:
-        takes = f"at {'least' if towards > 0.0 else 'most'} {end - beyond - CELSIUS:.4g} °C, or {takes}"
+        takes = (
+            f"at {'least' if towards > 0.0 else 'most'} {readable(end - beyond - CELSIUS, 4)} °C, or {takes}"
+        )
     return InputError(
         key,
-        f"got {start - CELSIUS:.4g} °C, with which the film may reach {needed - CELSIUS:.4g} °C, where the "
+        f"got {readable(start - CELSIUS, 4)} °C, with which the film may reach "
+        f"{readable(needed - CELSIUS, 4)} °C, where the "
         "lubricant has no viscosity, density or thermal properties",
         takes=takes,
     )

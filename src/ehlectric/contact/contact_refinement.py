@@ -19,6 +19,7 @@ from ehlectric.film.heated_solution import is_too_fine
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem, OnGrid
+from ehlectric.readable import readable
 
 # How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose
 # estimate does not fall, such as one under white noise, would take them up to the memory of the machine.
@@ -266,7 +267,7 @@ class FilmProgress:
 
 
 def _percent(error: float) -> str:
-    return f"{100.0 * error:.0f} %" if error >= 0.1 else f"{100.0 * error:.2g} %"
+    return f"{100.0 * error:.0f} %" if error >= 0.1 else f"{readable(100.0 * error, 2)} %"
 
 
 def _duration(seconds: float) -> str:

@@ -26,6 +26,7 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.film.atlas.atlas_films import contact_film
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 
 T = TypeVar("T")
@@ -176,7 +177,7 @@ def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progr
         result = solve(case.replace(rows[place]))
         if not result.converged:
             speed = rows[place]["contact.entrainment_speed"]
-            raise ConvergenceError(f"the film at {speed:.4g} m/s, {result.film.status}")
+            raise ConvergenceError(f"the film at {readable(speed, 4)} m/s, {result.film.status}")
         logs.append(math.log(formula[place]))
         ratios.append(math.log(result.film.central_thickness / formula[place]))
         for warning in result.warnings:

@@ -10,6 +10,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.film_solver import Starvation
 from ehlectric.film.isothermal_film import Film, PointFilm, lost_film
+from ehlectric.readable import readable
 
 # Part of the flooded central film above which the layer of oil has no effect, and relative difference of the
 # ratio of films from the one asked for above which there is a warning.
@@ -54,7 +55,9 @@ def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator
     if asked is None and (film.film_fraction is None or nearly):
         flooded = "the film is flooded"
         if film.film_fraction is not None:
-            flooded = f"the central film is {100.0 * (found.film_ratio or 1.0):.4g} % of the flooded one"
+            flooded = (
+                f"the central film is {readable(100.0 * (found.film_ratio or 1.0), 4)} % of the flooded one"
+            )
         yield ResultWarning.of("oil-layer-thick", layer=_layer(inlet), flooded=flooded)
     if film.film_fraction is not None:
         yield from _of_meniscus(setup, film, found, nearly=nearly)
@@ -64,7 +67,7 @@ def _layer(inlet: Inlet) -> str:
     """Name of a layer of oil that is given."""
     if inlet.oil_layer is None:
         return "the layer of oil of inlet.layer_table"
-    return f"the layer of oil of {1e6 * inlet.oil_layer:.3g} µm"
+    return f"the layer of oil of {readable(1e6 * inlet.oil_layer)} µm"
 
 
 def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iterator[ResultWarning]:
@@ -98,5 +101,5 @@ def _of_meniscus(
     if place is not None and place > -(1.0 + _AT_HERTZ) * b - float(film.x[1] - film.x[0]):
         yield ResultWarning.of("meniscus-at-edge", "hertz", place=place / b)
     elif not nearly and (place is None or place < (1.0 - _AT_EDGE) * film.x[0] - _AT_EDGE * b):
-        where = "on y = 0 already" if place is None else f"from x/b = {place / b:.3g},"
+        where = "on y = 0 already" if place is None else f"from x/b = {readable(place / b)},"
         yield ResultWarning.of("meniscus-at-edge", "domain", where=where, inlet=setup.grid.ends[0])

@@ -37,7 +37,7 @@ from ehlectric.formulas.asperities import cluster_resistance, film_resistance, g
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.formats import formatted
+from ehlectric.readable import formatted, readable
 from ehlectric.runtime.stored import number
 from ehlectric.surfaces.profiles import FLAT
 
@@ -669,14 +669,17 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
     answer, number = found.electrical, found.spots.number
     spots = "1 spot" if number == 1 else f"{number} spots"
     text = f"{_LEADS[answer.behaviour]}: the surfaces touch in {spots} "
-    text += f"at an applied voltage of {voltage:.3g} V. "
+    text += f"at an applied voltage of {readable(voltage)} V. "
     text += f"The contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
     if answer.breakdown_5 is not None:
-        text += f" Around the spots 5 % of the Hertz zone would break down at {answer.breakdown_5:.2g} V."
+        text += (
+            " Around the spots 5 % of the Hertz zone would break down at "
+            f"{readable(answer.breakdown_5, 2)} V."
+        )
     if answer.breakdown_probability is not None:
         text += (
             " Around the spots the film would break down with a probability of "
-            f"{100.0 * answer.breakdown_probability:.2g} %."
+            f"{readable(100.0 * answer.breakdown_probability, 2)} %."
         )
     return Verdict("yellow" if answer.behaviour == "capacitive" else "red", text)
 
@@ -797,13 +800,13 @@ def _smooth_spots(
     small = error is not None and error <= max(_SMOOTH_ERROR, case.grid.target or 0.0)
     if known and small and not (flooded and expected > conditions.boundary_film):
         return
-    stated = "unknown" if small or error is None else f"about {100 * error:.2g} %"
+    stated = "unknown" if small or error is None else f"about {readable(100 * error, 2)} %"
     yield ResultWarning.of(
         "smooth-surfaces-touch",
         spots="1 spot" if number == 1 else f"{number} spots",
         grid=" x ".join(str(axis.size) for axis in film.axes),
         error=stated,
-        expected=f"{1e9 * expected:.2g} nm",
+        expected=f"{readable(1e9 * expected, 2)} nm",
     )
 
 

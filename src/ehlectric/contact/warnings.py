@@ -28,6 +28,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
+from ehlectric.readable import readable
 
 # Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].
 PERMANENT = {"line": 4e9, "point": 4.2e9}
@@ -101,7 +102,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
             "temperature-unused",
             "contact",
             viscosity=1e3 * setup.oil.viscosity,
-            temperature=f"{setup.contact.temperature - CELSIUS:.4g} °C",
+            temperature=f"{readable(setup.contact.temperature - CELSIUS, 4)} °C",
         )
 
 
@@ -288,7 +289,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
     if rough:
         what = "the local pressure of the rough film"
         advice = "asperities would be flattened; use a surface after running-in, or a longer cutoff_short"
-    reach = f", or about {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
+    reach = f", or about {readable(largest / 1e9, 2)} GPa between the nodes," if error > 0.01 else ""
     if error > UNRESOLVED:
         reach = ", or several times more, as the grid does not resolve it,"
     yield ResultWarning.of(

@@ -33,6 +33,7 @@ from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ def margin_warnings(
     flag = breakdown_flag(
         "applied voltage",
         field.voltage,
-        lambda: f"breakdown voltage {found.breakdown_voltage:.3g} V",
+        lambda: f"breakdown voltage {readable(found.breakdown_voltage or 0.0)} V",
         found.margin,
         field=None if discharge.weibull is not None else field.max_strength,
     )

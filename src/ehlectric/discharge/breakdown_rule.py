@@ -14,6 +14,7 @@ from typing import Any, Literal, Self
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers
+from ehlectric.readable import readable
 
 # "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
 # expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
@@ -266,10 +267,10 @@ def chance_text(probability: float, error: float) -> str:
     ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
     """
     if not at_an_end(probability, error):
-        return f"{100.0 * probability:.2g} % (sampling error {100.0 * error:.2g} %)"
+        return f"{readable(100.0 * probability, 2)} % (sampling error {readable(100.0 * error, 2)} %)"
     if probability < error:
-        return f"below {100.0 * (probability + error):.1g} %"
-    return f"above {100.0 * (probability - error):.3g} %"
+        return f"below {readable(100.0 * (probability + error), 1)} %"
+    return f"above {readable(100.0 * (probability - error))} %"
 
 
 # Difference of the bounds of a probability below which they are one number.
@@ -284,7 +285,7 @@ def mean_text(probability: float, low: float, high: float) -> str:
     >>> mean_text(0.694, 0.694, 0.694), mean_text(0.5, 0.165, 0.5664)
     ('69 %', 'between 16 and 57 %')
     """
-    return f"{100.0 * probability:.2g} %" if high - low < ONE_NUMBER else bounds_text(low, high)
+    return f"{readable(100.0 * probability, 2)} %" if high - low < ONE_NUMBER else bounds_text(low, high)
 
 
 def bounds_text(low: float, high: float) -> str:
@@ -295,7 +296,7 @@ def bounds_text(low: float, high: float) -> str:
     >>> bounds_text(0.165, 0.5664)
     'between 16 and 57 %'
     """
-    return f"between {100.0 * low:.2g} and {100.0 * high:.2g} %"
+    return f"between {readable(100.0 * low, 2)} and {readable(100.0 * high, 2)} %"
 
 
 def ratio_text(ratio: Numbers) -> str:
@@ -307,6 +308,6 @@ def ratio_text(ratio: Numbers) -> str:
     ('1.44', '0.9981', '0.012', '2.3e+03')
     """
     if not 0.1 <= ratio < 100.0:
-        return f"{ratio:.2g}"
+        return readable(ratio, 2)
     text = f"{ratio:.2f}"
-    return f"{ratio:.4g}" if text == "1.00" else text
+    return readable(ratio, 4) if text == "1.00" else text

@@ -20,6 +20,7 @@ from ehlectric.discharge.breakdown_rule import (
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.errors import CODES, Flag, ResultWarning
 from ehlectric.quantities.quantity import data_file
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,10 @@ def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = Non
     """Clause on the dielectric strength that is assumed; ``stated`` is the range of a constant one [V/m]."""
     strength, table = discharge.dielectric_strength, discharge.strength_table
     if strength is not None:
-        between = "" if stated is None else f" ({stated[0] / 1e6:.3g} to {stated[1] / 1e6:.3g} V/µm)"
-        return f"dielectric strength {strength / 1e6:.3g} V/µm{between} is an assumption"
+        between = (
+            "" if stated is None else f" ({readable(stated[0] / 1e6)} to {readable(stated[1] / 1e6)} V/µm)"
+        )
+        return f"dielectric strength {readable(strength / 1e6)} V/µm{between} is an assumption"
     if table is not None:
         return f"the table of dielectric strength over {table.over} is an assumption"
     return "the Weibull law of the dielectric strength is an assumption"
@@ -91,7 +94,7 @@ def strength_doubt(discharge: Discharge, margin: float) -> str:
     change = f"{100.0 * STRENGTH_UNKNOWN:.0f} % {way}"
     at = f"strength that is {change}"
     if strength is not None:
-        at = f"strength of {strength * end / margin / 1e6:.3g} V/µm ({change})"
+        at = f"strength of {readable(strength * end / margin / 1e6)} V/µm ({change})"
     return f"At a {at} the margin is {ratio_text(end)}."
 
 
@@ -133,7 +136,7 @@ def contact_verdict(
         return Verdict(
             "grey",
             "No verdict: no dielectric strength given, no breakdown voltage. "
-            f"The applied voltage is {voltage:.3g} V.",
+            f"The applied voltage is {readable(voltage)} V.",
         )
     of_film, of_field = error or 0.0, field_error or 0.0
     off = of_film + of_field
@@ -142,7 +145,7 @@ def contact_verdict(
     lowest, highest = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
     if lowest is not None and highest is not None:
         low *= lowest / at
-        span = f" at a probability of 63.2 %, {lowest:.3g} to {highest:.3g} V from 5 to 95 %"
+        span = f" at a probability of 63.2 %, {readable(lowest)} to {readable(highest)} V from 5 to 95 %"
         spread = f", {ratio_text(margin * lowest / at)} to {ratio_text(margin * highest / at)}"
     weakest, strongest = strength_interval(margin)
     interval = min(low, weakest), max(margin * (1.0 + off), strongest)
@@ -151,11 +154,11 @@ def contact_verdict(
     doubts += filter(None, [strength_doubt(discharge, margin)])
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
         part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
-        doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
+        doubts.insert(0, f"The {name} may be {readable(100.0 * part, 2)} % off on this grid.")
     bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
     last = f"{bound}{assumption_of(discharge)}."
     text = (
-        f"{lead}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
+        f"{lead}: applied voltage {readable(voltage)} V, breakdown voltage {readable(at)} V{span} "
         f"(margin {ratio_text(margin)}{spread})."
     )
     return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin, interval)

@@ -16,6 +16,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.errors import InputError
+from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
 
 # Contacts in series between both rings, which a touching element closes.
@@ -79,7 +80,8 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     if touching and bearing.contact_resistance is None:
         raise InputError(
             f"{end}.bearing.contact_resistance",
-            f"missing; asperities close the films of this bearing for {100.0 * touching:.3g} % of the time",
+            f"missing; asperities close the films of this bearing for {readable(100.0 * touching)} % of "
+            "the time",
             takes="the resistance of one closed contact; about 0.1 to 1 ohm",
         )
     circuits = solution.circuits()

@@ -41,8 +41,8 @@ from ehlectric.drive.netlist_files import check_targets, write_files
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
+from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.units import rpm_text
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 

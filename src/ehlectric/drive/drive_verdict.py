@@ -21,9 +21,10 @@ from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of, unu
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
-from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.readable import readable
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
 # where a drive that discharges does so thousands of times in a second.
@@ -130,11 +131,11 @@ def _rates(summary: Mapping[str, Any]) -> str:
     clauses = []
     for key, name in NAMES_OF_ENDS.items():
         end = summary[key]
-        high = number_text(end["events_per_second_high"])
+        high = readable(end["events_per_second_high"])
         if end["events"]:
-            low = number_text(end["events_per_second_low"])
+            low = readable(end["events_per_second_low"])
             clauses.append(
-                f"{number_text(end['events_per_second'])} a second ({low} to {high} at 95 %) at the {name}, "
+                f"{readable(end['events_per_second'])} a second ({low} to {high} at 95 %) at the {name}, "
                 f"with {_rounded(end['energy_mean'], 'J')} on average"
             )
         else:
@@ -151,7 +152,7 @@ def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterato
         yield "So few discharges give no certain rate."
     burning = max(end["burning_time_share"] for end in ends)
     if burning > MOSTLY:
-        yield f"After breakdowns the films conduct for {100.0 * burning:.3g} % of the time."
+        yield f"After breakdowns the films conduct for {readable(100.0 * burning)} % of the time."
 
 
 def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
@@ -161,7 +162,7 @@ def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     if not densities:
         return
     most = max(densities)
-    text = f"The largest current over the Hertz areas is {1e-6 * most:.3g} A/mm², {beside_limits(most)}"
+    text = f"The largest current over the Hertz areas is {readable(1e-6 * most)} A/mm², {beside_limits(most)}"
     if any(end["events"] for end in ends):
         arc = amount(case.breakdown.arc_resistance, "Ω")
         text += f"; energies and currents follow from an assumed arc of {arc}"
@@ -176,12 +177,12 @@ def _none(summary: Mapping[str, Any], part: float) -> str:
     peak = max(end["peak_voltage"] for end in ends)
     known = [end["breakdown_voltage"] for end in ends if end["breakdown_voltage"] is not None]
     text = (
-        f"none in {amount(summary['drive']['duration'], 's')}, so that there are at most {number_text(high)} "
+        f"none in {amount(summary['drive']['duration'], 's')}, so that there are at most {readable(high)} "
         f"a second in each bearing at 95 %; the largest voltage is {_rounded(peak, 'V')}"
     )
     if not known:
         return f"{text}, and the elements are ceramic"
-    text += f", and the films break down at {min(known):.3g} V"
+    text += f", and the films break down at {readable(min(known))} V"
     if all(end["weibull_shape"] is None for end in ends):
         return text
     most = sum(most_by_law(end, part) for end in ends)
@@ -198,14 +199,14 @@ def _seldom(rate: float) -> str:
     """Rate of rare discharges as text, such as "at most 3 an hour"."""
     for name, seconds in (("a second", 1.0), ("an hour", 3600.0), ("a year", 3.156e7)):
         if rate * seconds >= 1.0:
-            return f"at most {number_text(rate * seconds)} discharges {name}"
+            return f"at most {readable(rate * seconds)} discharges {name}"
     return "less than one discharge a year"
 
 
 def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     share = max(end["touching_time_share"] for end in ends)
     if share:
-        yield f"Asperities close the films for {100.0 * share:.3g} % of the time: {_OPENING}."
+        yield f"Asperities close the films for {readable(100.0 * share)} % of the time: {_OPENING}."
 
 
 def _bound(case: DriveCase, codes: set[str]) -> str:

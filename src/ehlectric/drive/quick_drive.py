@@ -12,6 +12,7 @@ from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_verdict import LEADS, SELDOM, most_by_law, weakest_part
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.readable import readable
 
 _RING = (
     "The grounding ring leads the charge of the shaft away, which the divider leaves out: "
@@ -59,9 +60,9 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     margin, about = margins[end], summary[end]
     numbers = (
         f"at the peak of the common-mode voltage the films of the {NAMES_OF_ENDS[end]} would have "
-        f"{about['voltage_at_peak']:.3g} V by the capacitive divider, "
+        f"{readable(about['voltage_at_peak'])} V by the capacitive divider, "
         f"{'above' if margin < 1.0 else 'below'} their breakdown voltage of at most "
-        f"{about['breakdown_voltage']:.3g} V (ratio {ratio_text(margin)})."
+        f"{readable(about['breakdown_voltage'])} V (ratio {ratio_text(margin)})."
     )
     if circuit.grounding_ring_resistance is not None:
         return Verdict("grey", f"No verdict without a simulation: {numbers} {_RING}", margin)
@@ -70,7 +71,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     if case.source.overshoot:
         doubts.append(_RINGING)
     if touching:
-        doubts.append(f"Asperities close the films for {100.0 * touching:.3g} % of the time.")
+        doubts.append(f"Asperities close the films for {readable(100.0 * touching)} % of the time.")
     if doubts and level == "green":
         level = "yellow"
     return Verdict(level, " ".join([f"{LEADS[level]}: {numbers}", *doubts]), margin)

@@ -22,6 +22,7 @@ from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
+from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
@@ -167,7 +168,7 @@ class DriveResult(Shown):
         return headline(
             self.case.title,
             *(
-                f"{name} {found[end]['events_per_second']:.3g} discharges/s"
+                f"{name} {readable(found[end]['events_per_second'])} discharges/s"
                 for end, name in NAMES_OF_ENDS.items()
             ),
             "converged" if self.converged else "NOT CONVERGED",

@@ -25,6 +25,7 @@ from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import LIMITS
+from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress, silent
 
@@ -126,13 +127,14 @@ def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> 
     for end, one in zip(ENDS, elements, strict=True):
         least = float(np.min(one.breakdown))
         if lowest >= least:
-            takes = f"less than {least:.3g} V, at which the films of {end} break down"
+            takes = f"less than {readable(least)} V, at which the films of {end} break down"
             if case.breakdown.extinction_voltage is not None:
-                raise InputError("breakdown.extinction_voltage", got=f"{lowest:.3g} V", takes=takes)
+                raise InputError("breakdown.extinction_voltage", got=f"{readable(lowest)} V", takes=takes)
             current, through = case.breakdown.extinction_current, case.breakdown.arc_resistance
             raise InputError(
                 "breakdown.extinction_current",
-                got=f"{current:.3g} A through arc_resistance of {through:.3g} ohm, which is {lowest:.3g} V",
+                got=f"{readable(current or 0.0)} A through arc_resistance of {readable(through)} ohm, which "
+                f"is {readable(lowest)} V",
                 takes=takes,
             )
 

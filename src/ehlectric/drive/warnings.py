@@ -16,9 +16,8 @@ from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.errors import ResultWarning
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.quantities.units import rpm_text
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

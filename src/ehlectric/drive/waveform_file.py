@@ -27,6 +27,7 @@ from ehlectric.errors import InputError, ResultWarning, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, ungrouped, value_of
 from ehlectric.quantities.unit_spelling import typed
+from ehlectric.readable import readable
 from ehlectric.runtime import delimited
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_memory_for, check_size
@@ -80,7 +81,10 @@ _SEAM, _BEYOND = 0.05, 1e-3
 def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
     """Warnings about clipped, coarse and badly resolved waveforms, each at most once."""
     values = waveform.values
-    clipped = [f"{count} samples at exactly {level:.6g} V" for level, count in clipped_levels(values).items()]
+    clipped = [
+        f"{count} samples at exactly {readable(level, 6)} V"
+        for level, count in clipped_levels(values).items()
+    ]
     if clipped:
         yield ResultWarning.of("waveform-clipped", file=source, plateaus=" and ".join(clipped))
     levels = few_levels(values)
@@ -314,7 +318,7 @@ def read_waveform(
         layout = _layout(path, beginning.split("\n"))
         choice = _choice(path, layout, (column, time_column), (time_unit, value_unit), step)
         count = size * (beginning.count("\n") + 1) / len(beginning)
-        check_memory_for(path, _MEMORY * count, f"has some {count:.2g} samples")
+        check_memory_for(path, _MEMORY * count, f"has some {readable(count, 2)} samples")
         first = beginning.split("\n", layout.first)[layout.first]
         read = _samples(path, layout, choice.places, chain([first], content), ordered=step is None)
     if read.values.size < LEAST_SAMPLES:
@@ -901,8 +905,8 @@ def _timing(
     if step is not None:
         given = step * last
         if abs(span * factor - given) > _SAME * given + 2.0 * read.digit * factor:
-            says = f"{step:g} s, {given:.6g} s for {last + 1} samples, but the times of {path} span"
-            raise InputError("step", got=f"{says} {span * factor:.6g} s")
+            says = f"{step:g} s, {readable(given, 6)} s for {last + 1} samples, but the times of {path} span"
+            raise InputError("step", got=f"{says} {readable(span * factor, 6)} s")
         return start, step, ()
     each = span / last
     interval = float(f"{each * factor:.15g}")
@@ -912,8 +916,11 @@ def _timing(
     worst = int(np.argmax(np.abs(off, out=off)))
     rounding = 8.0 * np.finfo(float).eps * max(abs(times[0]), abs(times[-1]))
     if off[worst] > _DIGITS * read.digit + _JITTER * each + rounding:
-        takes = f"equal steps of time, here {each:.6g}, up to {_JITTER:g} of a step and the rounding"
-        says = f"is unevenly sampled: the time of sample {worst + 1} is {off[worst] / each:.3g} of a step off"
+        takes = f"equal steps of time, here {readable(each, 6)}, up to {_JITTER:g} of a step and the rounding"
+        says = (
+            f"is unevenly sampled: the time of sample {worst + 1} is {readable(off[worst] / each)} of "
+            "a step off"
+        )
         raise InputError(path, says, takes=f"{takes} of printed times")
     if interval > _SLOW and f"{choice.time} is in s" in choice.assumed:
         raise InputError.worded(

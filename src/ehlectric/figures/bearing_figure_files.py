@@ -68,6 +68,7 @@ from ehlectric.figures.style import (
     titled,
 )
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 _TOUCHING = ("conducting", "touching")
 
@@ -78,7 +79,7 @@ def loads(result: BearingResult) -> str:
     most = max(rows, key=lambda row: row["load"])
     thinnest = min(rows, key=lambda row: row["minimum_thickness"])
     least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
-    text = f"Largest load {most['load']:.3g} N ({_contact(most)})"
+    text = f"Largest load {readable(most['load'])} N ({_contact(most)})"
     text += f"; minimum film {least} ({_contact(thinnest)}), λ {lambda_text(result.solution)}"
     return text + (": surfaces touch, at times at least" if lubrication(result.solution) in _TOUCHING else "")
 
@@ -108,10 +109,10 @@ def circuit(result: BearingResult) -> str:
 def pitch(result: BearingResult) -> str:
     """Sentence: how much capacitance and first breakdown vary over a pitch of the cage."""
     varied = 100.0 * variation(capacitances(result, result.case.bearing.fill))
-    text = f"Over a pitch of the cage, the capacitance varies by {varied:.2g} %"
+    text = f"Over a pitch of the cage, the capacitance varies by {readable(varied, 2)} %"
     if result.breaks()["first_break"] is None:
         return text
-    return f"{text}, the first breakdown by {100.0 * variation(first_breakdowns(result)):.2g} %"
+    return f"{text}, the first breakdown by {readable(100.0 * variation(first_breakdowns(result)), 2)} %"
 
 
 def impedance(result: BearingResult) -> str:
@@ -146,11 +147,11 @@ def duty_cycle(result: BearingResult) -> str:
     found = result.duty.summary()
     names = {"full_film": "full film", "partial_film": "partial film", "touching": "touching"}
     names["standstill"] = "standstill"
-    shares = [f"{name} {100.0 * found[f'{key}_share']:.3g} %" for key, name in names.items()]
+    shares = [f"{name} {readable(100.0 * found[f'{key}_share'])} %" for key, name in names.items()]
     what, share = "Breakdown expected", found["breakdown_share"]
     if share is None:
         what, share = "Full film", found["full_film_share"]
-    return f"{what} for {100.0 * share:.3g} % of the time\n{', '.join(shares)}"
+    return f"{what} for {readable(100.0 * share)} % of the time\n{', '.join(shares)}"
 
 
 def duty_lines(result: BearingResult) -> list[str]:
@@ -159,7 +160,7 @@ def duty_lines(result: BearingResult) -> list[str]:
     assert duty is not None
     text = f"{duty.points} operating points, contacts {HOW[duty.contacts]}"
     if duty.interpolation_error is not None:
-        text += f", interpolated within {100.0 * duty.interpolation_error:.2g} %"
+        text += f", interpolated within {readable(100.0 * duty.interpolation_error, 2)} %"
     return cycle_lines(result.case.title, duty.source, text)
 
 
@@ -211,11 +212,14 @@ def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
     """Lines: title of the case, duty as far as the title lacks it, and how the films were computed."""
     bearing, title = result.solution.case.bearing, result.solution.case.title
     duty = [
-        f"{load:.4g} N {way}"
+        f"{readable(load, 4)} N {way}"
         for load, way in ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
         if load
     ]
-    duty += [f"{rpm(bearing.inner_speed):.4g} rpm", f"{bearing.oil_temperature - 273.15:.4g} °C"]
+    duty += [
+        f"{readable(rpm(bearing.inner_speed), 4)} rpm",
+        f"{readable(bearing.oil_temperature - 273.15, 4)} °C",
+    ]
     parts = [part for part in duty if part not in title]
     line = ", ".join([*filter(None, [textwrap.shorten(title, 70, placeholder=" ...")]), *parts])
     return [line, film_line(result, voltages=voltages)]
@@ -225,7 +229,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     """Line: how the films were computed, and what that means for voltages."""
     solution = result.solution
     factor = solution.conditions.film_factor
-    text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {factor:.3g}"
+    text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {readable(factor)}"
     text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
@@ -242,7 +246,7 @@ def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
     factors = [curves.scaled[key] for key in ("capacitance", "first_break") if curves.scaled[key] != 1.0]
     if not factors:
         return text
-    values = " and ".join(f"{factor:.3g}" for factor in factors)
+    values = " and ".join(readable(factor) for factor in factors)
     return f"{text}, scaled by {values} to the solved contacts at {rpm_text(own[0])} (star)"
 
 

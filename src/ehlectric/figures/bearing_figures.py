@@ -38,6 +38,7 @@ from ehlectric.figures.style import (
 )
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # Text: value with three digits and a prefixed unit, in which it is at least 1.
 prefixed = partial(with_unit, least=1.0)
@@ -97,7 +98,7 @@ def fill_text(fill: float | str) -> str:
     >>> fill_text("air"), fill_text(0.3)
     ('air fill', '30 % oil fill')
     """
-    return f"{fill} fill" if isinstance(fill, str) else f"{100.0 * fill:.3g} % oil fill"
+    return f"{fill} fill" if isinstance(fill, str) else f"{readable(100.0 * fill)} % oil fill"
 
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
@@ -188,7 +189,7 @@ def _unloaded(result: BearingResult, ax: Axes, ring: Ring) -> None:
     before = np.append(edges[-1] - 2.0 * np.pi, edges[:-1])
     for begin, end in zip(before[~loaded], edges[~loaded], strict=True):
         ax.fill_between([begin, end], low, high, color=color, alpha=0.10, lw=0.0, zorder=0.5)
-    text = f"{name} unloaded: gap to {factor * gaps.max():.2g} {unit}"
+    text = f"{name} unloaded: gap to {readable(factor * gaps.max(), 2)} {unit}"
     ax.fill_between([], [], [], color=color, alpha=0.10, lw=0.0, label=text)
 
 
@@ -306,8 +307,8 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     # The capacitance in summary.json is the mean over a pitch, that of this position another one.
     here, mean = circuit.capacitance, result.capacitance(fill)
     total, of = unit_for(mean, "F", least=1.0)
-    text = f"bearing, {fill_text(fill)}: mean {total * mean:.4g} {of}\n"
-    text += f"at this cage position {total * here:.4g} {of}"
+    text = f"bearing, {fill_text(fill)}: mean {readable(total * mean, 4)} {of}\n"
+    text += f"at this cage position {readable(total * here, 4)} {of}"
     ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
     note(ax, 0.5, 0.97, text, ha="center", va="top")
     legend_above(ax)
@@ -419,7 +420,7 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
         values = capacitances(result, fill)
         mean = float(np.mean(values))
         factor, unit = unit_for(mean, "F", least=1.0)
-        label = f"{fill} around the films, mean {factor * mean:.4g} {unit}"
+        label = f"{fill} around the films, mean {readable(factor * mean, 4)} {unit}"
         _over_pitch(result, ax, 100.0 * (values / mean - 1.0), label, look)
     ax.axhline(0.0, color="black", lw=0.6)
     ax.set_ylabel("capacitance,\ndifference from\nthe mean [%]")

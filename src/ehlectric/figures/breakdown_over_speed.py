@@ -22,7 +22,7 @@ from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, margin_panel, speed_axis
 from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
-from ehlectric.quantities import units
+from ehlectric.quantities import formats, units
 from ehlectric.quantities.palette import GREY, ORANGE
 
 # Height of the room that a label between curves needs, as part of the axes.
@@ -105,7 +105,7 @@ def rpm_text(speed: float) -> str:
     >>> rpm_text(144.9)
     '1380 rpm'
     """
-    return f"{units.rpm_text(speed)} rpm"
+    return f"{formats.rpm_text(speed)} rpm"
 
 
 def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:

@@ -38,6 +38,7 @@ from ehlectric.figures.style import (
 )
 from ehlectric.quantities.palette import BLUE, BODY, GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 
 def stacked_panels(size: tuple[float, float]) -> list[Axes]:
@@ -76,7 +77,11 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
     field that an arrow at the upper edge names it instead.
     """
     near = limit[np.argmin(np.abs(x))]
-    values = f"{near:.3g}" if np.ptp(limit) < 1e-9 * near else f"{np.min(limit):.3g} to {np.max(limit):.3g}"
+    values = (
+        readable(near)
+        if np.ptp(limit) < 1e-9 * near
+        else f"{readable(np.min(limit))} to {readable(np.max(limit))}"
+    )
     text = f"dielectric strength {values} {unit}"
     look: dict[str, Any] = {"color": STRENGTH, "fontsize": 8.0}
     if np.min(limit) > _FAR * largest:
@@ -142,7 +147,10 @@ def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
     """Write below two panels where they cut the film: through the place that breaks down first."""
     assert result.discharge is not None
     x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
-    names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
+    names = (
+        f"along entrainment at $y/b$ = {readable(y + 0.0)}",
+        f"across entrainment at $x/b$ = {readable(x + 0.0)}",
+    )
     for ax, name in zip(panels, names, strict=True):
         # No-break spaces keep the name on one line.
         whole = f"{ax.get_xlabel()}, {signed(name)}".replace(" ", "\xa0").replace(",\xa0", ", ")
@@ -153,7 +161,7 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
     """Draw local breakdown voltages along a line, the applied voltage, and the minimum."""
     applied, least = result.field.voltage, float(np.min(voltages))
     ax.plot(at, voltages, color=BLUE, label="local breakdown voltage")
-    ax.axhline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {applied:.3g} V")
+    ax.axhline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {readable(applied)} V")
     below = voltages < applied
     if np.any(below):
         ax.fill_between(
@@ -177,7 +185,7 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
         mfc="white",
         color=BLUE,
         clip_on=False,
-        label=f"minimum, {least:.3g} V",
+        label=f"minimum, {readable(least)} V",
     )
     ax.set_xlim(at[0], at[-1])
     ax.set_ylim(0.0, _SHOWN * max(applied, least))
@@ -197,9 +205,16 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     assert low is not None and high is not None
     law = WeakestLink(discharge.weibull.shape, found.breakdown_voltage)
     voltages = np.linspace(0.0, 1.15 * max(high, applied), 401)
-    ax.axvspan(low, high, color=STRENGTH, alpha=0.12, lw=0.0, label=f"5 % to 95 %: {low:.3g} to {high:.3g} V")
+    ax.axvspan(
+        low,
+        high,
+        color=STRENGTH,
+        alpha=0.12,
+        lw=0.0,
+        label=f"5 % to 95 %: {readable(low)} to {readable(high)} V",
+    )
     ax.plot(voltages, [100.0 * law.probability(at) for at in voltages], color=BLUE, label="probability")
-    ax.axvline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {applied:.3g} V")
+    ax.axvline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {readable(applied)} V")
     ax.set(xlabel="voltage [V]", ylabel="probability of breakdown [%]")
     ax.set_xlim(0.0, voltages[-1])
     ax.set_ylim(0.0, 102.0)

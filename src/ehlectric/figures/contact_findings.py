@@ -21,6 +21,7 @@ from ehlectric.figures.figure_names import (
     TEMPERATURE_FIGURE,
 )
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 AnyContact = Result | PointResult
 
@@ -40,7 +41,7 @@ def with_unit(value: float, unit: str, *, least: float = 0.1) -> str:
     ('2.98 V/µm', '1 nm')
     """
     factor, prefixed = unit_for(float(f"{abs(value):.3g}"), unit, least=least)
-    return signed(f"{factor * value:.3g}") + f" {prefixed}"
+    return signed(readable(factor * value)) + f" {prefixed}"
 
 
 def signed(number: str) -> str:
@@ -69,10 +70,10 @@ def place_text(result: AnyContact, position: float | tuple[float, ...]) -> str:
     """
     b = result.conditions.semi_axes[0]
     x, *across = np.atleast_1d(position) / b
-    text = signed(f"x/b = {x + 0.0:.3g}")
+    text = signed(f"x/b = {readable(x + 0.0)}")
     for y in across:
         both = not result.rough and abs(y) > 1e-6
-        text += ", y/b = " + (f"±{abs(y):.3g}" if both else signed(f"{round(y, 6) + 0.0:.3g}"))
+        text += ", y/b = " + (f"±{readable(abs(y))}" if both else signed(readable(round(y, 6) + 0.0)))
     return text
 
 
@@ -231,18 +232,21 @@ def breakdown_text(result: AnyContact) -> str:
     """Whether the film breaks down at the voltage of the case, at which voltage it does, and where."""
     found, volts, touching = result.discharge, result.field.voltage, result.spots
     if touching is not None and touching.electrical.breakdown_5 is not None:
-        around = f"5 % of the film around the spots breaks down at {touching.electrical.breakdown_5:.2g} V"
+        around = (
+            "5 % of the film around the spots breaks down at "
+            f"{readable(touching.electrical.breakdown_5, 2)} V"
+        )
         return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
     assert found is not None and found.breakdown_voltage is not None and found.margin is not None
-    applied, place = f"{volts:.3g} V", place_text(result, found.zone_position)
-    breaking = f"{found.breakdown_voltage:.3g} V"
+    applied, place = f"{readable(volts)} V", place_text(result, found.zone_position)
+    breaking = f"{readable(found.breakdown_voltage)} V"
     if found.strength_law == "weibull" and found.probability is not None:
-        chance = f"{100.0 * found.probability:.2g} %"
+        chance = f"{readable(100.0 * found.probability, 2)} %"
         return f"Probability of breakdown {chance} at {applied}; 63 % at {breaking}"
     verdict = result.verdict
     assert verdict is not None
     strength = found.dielectric_strength
-    assumed = "by the table assumed" if strength is None else f"{strength / 1e6:.3g} V/µm assumed"
+    assumed = "by the table assumed" if strength is None else f"{readable(strength / 1e6)} V/µm assumed"
     # The panels of a point contact say where they cut the film.
     where = f" at {place}" if isinstance(result, Result) else ""
     margin = f"margin {ratio_text(found.margin)}, strength {assumed}"
@@ -272,7 +276,7 @@ def temperature_text(result: AnyContact) -> str:
     """Temperature rise in the film, and what heat and shear make of the minimum film."""
     heated = result.film.heated
     assert heated is not None and heated.max_temperature_rise is not None
-    rise = f"Film up to {heated.max_temperature_rise:.3g} K hotter than the oil in the inlet"
+    rise = f"Film up to {readable(heated.max_temperature_rise)} K hotter than the oil in the inlet"
     if not result.film.converged:
         return f"{rise} in the last iteration: not converged"
     return f"{rise}{_thinning(result)}"
@@ -284,7 +288,7 @@ def shear_text(result: AnyContact) -> str:
     assert heated is not None
     if heated.traction_coefficient is None:
         return "No traction: the film did not converge"
-    return signed(f"Traction coefficient {heated.traction_coefficient:.3g}{_thinning(result)}")
+    return signed(f"Traction coefficient {readable(heated.traction_coefficient)}{_thinning(result)}")
 
 
 def _thinning(result: AnyContact) -> str:

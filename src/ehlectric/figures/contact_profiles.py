@@ -19,6 +19,7 @@ from ehlectric.figures.data import WIDTH, Curve, Panel
 from ehlectric.formulas.hertz import line_pressure, point_pressure
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, LIGHT_GREY, MIDDLE_GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # Name of the pressure between asperities, and of the nodes at which surfaces touch, in legends.
 ASPERITIES, SPOTS = "pressure of asperities", "surfaces touch"
@@ -129,7 +130,7 @@ class Cut:
         axis = "y" if self.along == "x" else "x"
         # At the centre this gives 0, not 1e-17 or -0.
         at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0
-        return f"${axis}/b$ = {at:.3g}".replace("-", "−")
+        return f"${axis}/b$ = {readable(at)}".replace("-", "−")
 
 
 @dataclass(frozen=True)
@@ -222,7 +223,7 @@ def film_thickness(line: Line) -> Panel:
         curves.append(Curve(SPOTS, line.x[on], line.of(thickness)[on], BLACK, marker="dots"))
     elif isinstance(result, Result) and result.converged:
         at, least = line.to_x * result.film.minimum_position, factor * film.minimum_thickness
-        name = f"minimum film, {least:.4g} {unit}"
+        name = f"minimum film, {readable(least, 4)} {unit}"
         curves.append(Curve(name, np.array([at]), np.array([least]), ORANGE, marker="ring"))
     return Panel("film thickness", unit, curves, 3.0 * factor * film_scale(result))
 
@@ -256,7 +257,7 @@ def field_strength(line: Line) -> Panel:
         top = min(2.0 * top, max(top, float(np.min(strength.y))))
     if isinstance(result, Result) and not touches(result):
         at, most = line.to_x * result.field.max_strength_position, factor * part.max_strength
-        name = f"maximum field, {most:.4g} {unit}"
+        name = f"maximum field, {readable(most, 4)} {unit}"
         curves.append(Curve(name, np.array([at]), np.array([most]), BLUE, marker="ring"))
     return Panel("field strength", unit, curves, 1.08 * top)
 
@@ -292,7 +293,7 @@ def shear_stress(line: Line) -> Panel:
     factor, unit = unit_for(float(np.max(np.abs(line.of(heated.shear_stress)))) or 1.0, "Pa")
     curves = [line.curve("shear stress at mid-film", factor * heated.shear_stress, BLUE)]
     if (coefficient := heated.traction_coefficient) is not None:
-        name = f"pressure × {coefficient:.3g}, the traction coefficient".replace("-", "−")
+        name = f"pressure × {readable(coefficient)}, the traction coefficient".replace("-", "−")
         curves.insert(0, line.curve(name, factor * coefficient * film.pressure, MIDDLE_GREY, "dot", 1.0))
     return Panel("shear stress", unit, curves, *_ends(curves, 0.0))
 

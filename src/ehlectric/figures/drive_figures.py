@@ -37,11 +37,12 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
-from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.units import rpm, unit_for
+from ehlectric.readable import readable
 
 # Names of both bearings in titles and legends, and their colours.
 NAMES = tuple(NAMES_OF_ENDS.values())
@@ -82,10 +83,10 @@ def voltages(result: DriveResult) -> str:
     if not any(end["events"] for end in ends):
         return f"No discharge in {_duration(result)}: {_largest(result)}{_limit(result)}"
     rates = " and ".join(
-        f"{number_text(end['events_per_second'])} ({name})" for end, name in zip(ends, NAMES, strict=True)
+        f"{readable(end['events_per_second'])} ({name})" for end, name in zip(ends, NAMES, strict=True)
     )
     mean = max(end["voltage_mean"] for end in ends if end["events"])
-    return f"{rates} discharges a second, mean {mean:.3g} V"
+    return f"{rates} discharges a second, mean {readable(mean)} V"
 
 
 def histogram(result: DriveResult) -> str:
@@ -95,10 +96,10 @@ def histogram(result: DriveResult) -> str:
     stated = np.flatnonzero(np.max(shares, axis=0) >= _LEAST_SHARE)
     if not stated.size:
         share = float(np.max(shares[:, 0]))
-        above = f"Above {record.limits[0]:g} V for {share:.2g} % of the time"
+        above = f"Above {record.limits[0]:g} V for {readable(share, 2)} % of the time"
         return f"{above if share else 'Low bearing voltage'}: {_largest(result)}"
     k = int(stated[-1])
-    texts = [f"{share:.3g} %" for share in shares[:, k]]
+    texts = [f"{readable(share)} %" for share in shares[:, k]]
     if len(set(texts)) == 1:
         return f"Voltage of both bearings above {record.limits[k]:g} V for {texts[0]} of the time"
     both = " and ".join(f"{text} ({name})" for text, name in zip(texts, NAMES, strict=True))
@@ -134,14 +135,14 @@ def remedies(result: DriveResult) -> str:
     best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
     if not now + max(rates):
         highest = max(end["events_per_second_high"] for _, pair in rows for end in pair)
-        return f"No discharge, with or without remedies: at most {number_text(highest)} a second"
+        return f"No discharge, with or without remedies: at most {readable(highest)} a second"
     if not least < now:
-        return f"No remedy lowers the {number_text(now)} discharges a second of both bearings"
+        return f"No remedy lowers the {readable(now)} discharges a second of both bearings"
     names = " and ".join(textwrap.shorten(name, 40, placeholder=" ...") for name in best[:3])
     if not least:
-        return f"No discharge with {names}; {number_text(now)} a second in both bearings as it is"
+        return f"No discharge with {names}; {readable(now)} a second in both bearings as it is"
     left = "leaves" if len(best) == 1 else "leave"
-    return f"{names} {left} {number_text(least)} of the {number_text(now)} discharges a second"
+    return f"{names} {left} {readable(least)} of the {readable(now)} discharges a second"
 
 
 def duty_cycle(result: DriveResult) -> str:
@@ -158,7 +159,7 @@ def _count(number: float) -> str:
     >>> _count(41_200_000.0), _count(520.0)
     ('41.2 million', '520')
     """
-    return f"{1e-6 * number:.3g} million" if number >= 1e6 else number_text(number)
+    return f"{readable(1e-6 * number)} million" if number >= 1e6 else readable(number)
 
 
 def case_lines(result: DriveResult) -> list[str]:
@@ -166,8 +167,8 @@ def case_lines(result: DriveResult) -> list[str]:
     bearing, title = result.case.bearings[0].bearing, result.case.title
     parts = [
         textwrap.shorten(title, 70, placeholder=" ..."),
-        f"{rpm(bearing.inner_speed):.4g} rpm",
-        f"{bearing.oil_temperature - 273.15:.4g} °C",
+        f"{readable(rpm(bearing.inner_speed), 4)} rpm",
+        f"{readable(bearing.oil_temperature - 273.15, 4)} °C",
         f"{_duration(result)} simulated",
     ]
     return [", ".join(filter(None, parts))]
@@ -196,7 +197,7 @@ def _largest(result: DriveResult) -> str:
 def _limit(result: DriveResult) -> str:
     """Clause: the lowest voltage at which films break down."""
     breakdown = min(breakdown_of(result, b) for b in range(len(ENDS)))
-    return f", films break down at {breakdown:.3g} V" if math.isfinite(breakdown) else ""
+    return f", films break down at {readable(breakdown)} V" if math.isfinite(breakdown) else ""
 
 
 def _ends(result: DriveResult) -> list[dict[str, float]]:
@@ -238,7 +239,7 @@ def time_at_voltage(result: DriveResult, ax: Axes) -> None:
             ax.axvline(sign * factor * volts, label=label, **THRESHOLD)
     ax.set_xlim(-factor * most, factor * most)
     ax.set_xlabel(f"voltage across the films [{unit}]")
-    ax.set_ylabel(f"share of time\nper {factor * width:.3g} {unit} [%]")
+    ax.set_ylabel(f"share of time\nper {readable(factor * width)} {unit} [%]")
     legend_above(ax, columns=3)
 
 
@@ -525,7 +526,7 @@ def time_axis(result: DriveResult) -> Along:
     begin, span = _begin(result), _span(result)
     factor, unit = unit_for(span, "s", least=1.0)
     scale, unit_of_begin = unit_for(begin, "s", least=1.0)
-    since = "" if begin < 1e-3 * span else f" after {scale * begin:.4g} {unit_of_begin}"
+    since = "" if begin < 1e-3 * span else f" after {readable(scale * begin, 4)} {unit_of_begin}"
     return Along(f"time{since}", unit, (0.0, factor * span))
 
 

@@ -38,6 +38,7 @@ from ehlectric.figures.style import (
 )
 from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, ON_MAP, ORANGE, OUT_OF_RANGE, PALE_BLUE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
@@ -76,7 +77,7 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True)
     handles = [Patch(facecolor=BODY, label="surfaces")]
     if limits[0] > 0.0:
-        handles.insert(0, Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"))
+        handles.insert(0, Patch(facecolor=OUT_OF_RANGE, label=f"film below {readable(limits[0], 4)} {unit}"))
     handles += [_zoom(result, (ax, panel), strength, limits) for panel in below]
     x, y = _mesh(result)
     k, j = np.unravel_index(np.argmax(strength), strength.shape)
@@ -94,7 +95,7 @@ def _dimensionless(result: Result, ax: Axes | None, largest: float) -> Axes:
     label = r"field strength $|E|\,h_\mathrm{min}/V_{12}$"
     ax = _map(result, scale * result.field.strength, ax, label=label, limits=(0.0, largest), ticks=ticks)
     factor, unit = unit_for(1.0 / scale, "V/m")
-    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {factor / scale:.3g} {unit}", loc="right")
+    ax.set_title(rf"$V_{{12}}/h_\mathrm{{min}}$ = {readable(factor / scale)} {unit}", loc="right")
     return ax
 
 
@@ -250,7 +251,7 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     ax, field, panel = axes_or_new(ax), result.field, strength_panel(_line(result))
     zone = in_half_widths(result, np.array(field.high_field_zone))
     width, length = unit_for(field.high_field_width, "m", least=1.0)
-    label = f"above 95 % of maximum, {width * field.high_field_width:.3g} {length} wide"
+    label = f"above 95 % of maximum, {readable(width * field.high_field_width)} {length} wide"
     shaded = ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
     smooth = [curve for curve in panel.curves if "smooth" in curve.name]
     sections = panel.curves[:3]
@@ -351,10 +352,10 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     for k, rq, color in ((1, statistics.rq_1, BLUE), (2, statistics.rq_2, ORANGE)):
         heights = result.roughness[k - 1]
         if np.any(heights):
-            label = f"surface {k}, Rq = {factor * rq:.3g} {unit} in the contact"
+            label = f"surface {k}, Rq = {readable(factor * rq)} {unit} in the contact"
             ax.plot(x, factor * heights, color=color, lw=0.7, label=label)
         if k in cut:
-            label = f"heights cut off at ±{factor * cut[k]:.3g} {unit}"
+            label = f"heights cut off at ±{readable(factor * cut[k])} {unit}"
             for end in (-cut[k], cut[k]):
                 ax.axhline(factor * end, color=color, lw=0.7, ls=":", label=label)
                 label = "_again"

@@ -27,6 +27,7 @@ from ehlectric.figures.style import (
 )
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 # Width and height [inches].
 _SIZE = (6.3, 5.2)
@@ -71,7 +72,7 @@ def _title(factors: FilmFactors) -> list[str]:
     error = factors.formula_error
     films = "solved contacts"
     if error is not None:
-        films = f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
+        films = f"films {HOW[factors.contacts]}, up to {readable(100.0 * error, 2)} % off"
     found = int(factors.found.sum())
     rows = f"{found} of {len(factors.reasons)} rows of {Path(factors.source).name}"
     how = f"{films}, isothermal and fully flooded at film factor 1"
@@ -106,7 +107,7 @@ def _values(factors: FilmFactors, scale: _Scale, ax: Axes) -> None:
         if "fitted_low" in columns and "fitted_high" in columns:
             ends = (factor * columns[name][order][fitted] for name in ("fitted_low", "fitted_high"))
             ax.fill_between(at, *ends, color=BLUE, alpha=0.18, lw=0.0)
-        text = f"computed, film factor {factors.mean.value:.3g}"
+        text = f"computed, film factor {readable(factors.mean.value)}"
         ax.plot(at, factor * columns["fitted"][order][fitted], color=BLUE, label=text)
     _dots(scale, ax, measured, columns.get(f"{key}_uncertainty"), factor, "measured")
     shown = np.concatenate([measured, factor * columns["computed"]])

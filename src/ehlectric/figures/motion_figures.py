@@ -38,6 +38,7 @@ from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.stored_run import NEAR_MAXIMUM, MotionRun, coincident_frame, intervals_above
 from ehlectric.quantities.palette import BLUE, BODY, GREEN, GREY, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # A film that differs by less than this part from that of stationary roughness is as thick.
 _SAME = 0.005
@@ -51,7 +52,7 @@ def of_history(run: MotionRun) -> str:
     touching = TouchHistory.of(run)
     if touching is not None:
         share = share_text(touching.mean_share, touching.coarser)
-        time = f"{100.0 * touching.time_share:.3g} % of the time"
+        time = f"{readable(100.0 * touching.time_share)} % of the time"
         return f"The surfaces touch {time}, asperities carry {share} % of the load on average"
     unit = film_unit(run)
     least = float(run.values("minimum_thickness")[settled_steps(run)].min())
@@ -95,7 +96,7 @@ def thinner(moving: float, still: float) -> str:
     if abs(part) < _SAME:
         return "as thick as with stationary roughness"
     more = "thinner" if part < 0.0 else "thicker"
-    return f"{100.0 * abs(part):.2g} % {more} than with stationary roughness"
+    return f"{readable(100.0 * abs(part), 2)} % {more} than with stationary roughness"
 
 
 def of_maps(run: MotionRun) -> str:
@@ -130,12 +131,14 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
     factor, unit = film_unit(run)
     thickness = factor * run.values("minimum_thickness")
     ax.plot(_times(run, "time"), thickness, color=BLUE, lw=0.9, label="at every step")
-    before = f"before the motion, {thickness[0]:.3g} {unit}"
+    before = f"before the motion, {readable(thickness[0])} {unit}"
     ax.axhline(thickness[0], color="black", lw=0.9, ls=":", label=before)
     shown = [thickness]
     if "stationary_thickness" in run.dataset:
         still = factor * float(np.min(run.values("stationary_thickness")))
-        ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=f"stationary roughness, {still:.3g} {unit}")
+        ax.axhline(
+            still, color=ORANGE, lw=0.9, ls="--", label=f"stationary roughness, {readable(still)} {unit}"
+        )
         shown.append(np.array([still]))
     ax.set(ylabel=rf"minimum film $h_\mathrm{{min}}$ [{unit}]", ylim=fitted(*shown))
     _over_time(run, ax)
@@ -165,7 +168,7 @@ def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
         handles.append(_high(run, ax))
     if "stationary_strength" in run.dataset:
         still = factor * float(np.nanmax(run.values("stationary_strength")))
-        label = f"stationary roughness, {still:.3g} {unit}"
+        label = f"stationary roughness, {readable(still)} {unit}"
         handles.append(ax.axhline(still, color=ORANGE, lw=0.9, ls="--", label=label))
         shown.append(np.array([still]))
     ax.set(ylabel=rf"maximum field $|E|$ [{unit}]", ylim=fitted(*shown))
@@ -188,7 +191,7 @@ def _high(run: MotionRun, ax: Axes) -> tuple[Artist, Artist]:
     ax.broken_barh(bars, (0.0, 1.0), transform=whole, color=GREEN, alpha=0.25, lw=0.0, zorder=0.5)
     settled, share = history.settled_from, 100.0 * history.share_near_maximum
     text = f"{100.0 * NEAR_MAXIMUM:g} % of the maximum: above it {share:.0f} % of the time"
-    text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
+    text += f" from {readable(in_time * settled)} {unit} on" if settled else ""
     line = ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
     return Patch(facecolor=(GREEN, 0.25)), line
 
@@ -199,7 +202,7 @@ def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
     found = TouchHistory.of(run)
     assert found is not None
     time, load, area = _times(run, "time"), 100.0 * found.load_share, 100.0 * found.area_share
-    touch = f"{100.0 * found.time_share:.3g} % of {found.steps} time steps"
+    touch = f"{readable(100.0 * found.time_share)} % of {found.steps} time steps"
     share = share_text(found.mean_share, found.coarser)
     ax.plot(time, load, color=BLUE, lw=0.9, label=f"load of asperities, mean {share} %")
     ax.plot(time, area, color=ORANGE, lw=0.9, label=f"real contact area, touching at {touch}")
@@ -262,12 +265,12 @@ def _over_time(run: MotionRun, ax: Axes) -> None:
     """Label the axis of time, and mark the time from which the roughness fills the contact."""
     factor, unit = time_unit(run)
     start = waiting_time(run)
-    left_out = f", film unchanged before {factor * start:.3g} {unit}" if start else ""
+    left_out = f", film unchanged before {readable(factor * start)} {unit}" if start else ""
     end = factor * float(run.values("time")[-1]) or 1.0
     ax.set(xlabel=f"time $t$ [{unit}]{left_out}", xlim=(factor * start, end))
     if settled := run.field_history.settled_from:
         covered = factor * settled
-        label = f"contact covered from {covered:.3g} {unit} on"
+        label = f"contact covered from {readable(covered)} {unit} on"
         ax.axvline(covered, color="black", lw=0.7, ls=(0, (6.0, 3.0)), label=label)
 
 
@@ -403,7 +406,7 @@ def sampling_text(run: MotionRun) -> str:
     apart = float(np.max(np.diff(run.frame_time)))
     fastest = max(run.conditions.entrainment_speed, *(abs(speed) for speed in run.speeds.values()))
     factor, unit = unit_for(fastest * apart, "m", least=1.0)
-    travel = f"{factor * fastest * apart:.3g} {unit}"
+    travel = f"{readable(factor * fastest * apart)} {unit}"
     return f"{run.frames} recorded instants, at most {travel} of travel between two of them"
 
 
@@ -487,7 +490,7 @@ def instant_text(run: MotionRun) -> str:
     assert frame is not None
     factor, unit = time_unit(run)
     return (
-        f"at t = {factor * run.frame_time[frame]:.4g} {unit}, where the minimum films differ most; "
+        f"at t = {readable(factor * run.frame_time[frame], 4)} {unit}, where the minimum films differ most; "
         "stationary roughness is at its position in the case"
     )
 
@@ -518,7 +521,7 @@ def _three(
     drawn = [factor * line for line in lines]
     extremes = _extremes(run, name, extreme)
     for line, value, (when, colour, style) in zip(drawn, extremes, looks, strict=True):
-        entry = f"{when}, {kind} {factor * value:.3g} {suffix}"
+        entry = f"{when}, {kind} {readable(factor * value)} {suffix}"
         ax.plot(run.x, line, color=colour, ls=style, lw=1.0, label=entry)
     ax.set_xlim(*shown_range(run.x))
     ax.set_ylabel(f"{label} [{suffix}]")

@@ -12,6 +12,7 @@ from ehlectric.contact.conditions import surface_ratios
 from ehlectric.figures.style import label_position, name_over
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # By the kind of contact: the smallest number that a film thickness may have in its unit, and the line along
 # which values are drawn. Films of point contacts are measured by interferometry and stated in nanometres.
@@ -70,8 +71,8 @@ def speed_text(run: MotionRun) -> str:
     rough = " and ".join(str(k) for k in run.speeds)
     what = f"surface {rough} rough" if len(run.speeds) == 1 else f"surfaces {rough} rough"
     if abs(slide) < 2e-9:
-        return f"pure rolling at {mean:.4g} m/s, {what}"
-    first, second = (f"{mean * ratio:.4g}".replace("-", "−") for ratio in surface_ratios(slide))
+        return f"pure rolling at {readable(mean, 4)} m/s, {what}"
+    first, second = (readable(mean * ratio, 4).replace("-", "−") for ratio in surface_ratios(slide))
     return f"surface 1 at {first} m/s, surface 2 at {second} m/s, {what}"
 
 
@@ -84,7 +85,7 @@ def name_run(ax: Axes, run: MotionRun, finding: str = "", more: str = "") -> Non
     lines = [finding, title, speed_text(run), more]
     if not run.complete:
         factor, unit = time_unit(run)
-        lines = [f"NOT COMPLETE, ends at {factor * run.values('time')[-1]:.4g} {unit}", *lines]
+        lines = [f"NOT COMPLETE, ends at {readable(factor * run.values('time')[-1], 4)} {unit}", *lines]
     name_over(ax, "\n".join(filter(None, lines)), converged=run.complete)
 
 
@@ -96,4 +97,4 @@ def in_unit(value: float, unit: Unit) -> str:
     >>> in_unit(6.918e-7, (1e6, "µm"))
     '0.692 µm'
     """
-    return f"{unit[0] * value:.3g} {unit[1]}"
+    return f"{readable(unit[0] * value)} {unit[1]}"

@@ -43,6 +43,7 @@ from ehlectric.figures.film_section import draw_section
 from ehlectric.figures.style import axes_or_new, figure_of, label_position, legend_above, new_panels
 from ehlectric.quantities.palette import BLUE, CAVITATED, GREY, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
@@ -283,7 +284,7 @@ def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
         result,
         ax,
         extreme_positions(*nodes, -film.thickness),
-        f"{factor * film.minimum_thickness:.3g} {unit}",
+        f"{readable(factor * film.minimum_thickness)} {unit}",
     )
     legend_above(ax, [legend_line(ellipse), lowest])
     entrainment(result, ax)
@@ -323,7 +324,7 @@ def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
     cavitated = _cavitated(result, ax)
     position = extreme_positions(*nodes, film.pressure)
     peak = mark(result, ax, position, "maximum on this grid" if spike else "maximum")
-    say(result, ax, position, f"{factor * film.max_pressure:.3g} {unit}")
+    say(result, ax, position, f"{readable(factor * film.max_pressure)} {unit}")
     legend_above(ax, [legend_line(hertz_ellipse(result, ax, ON_MAP)), peak, cavitated], 3)
     entrainment(result, ax, ink=ON_MAP)
     return ax
@@ -368,7 +369,7 @@ def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mi
         Line2D([], [], color="#00b8d4", lw=0.9, label=f"{100.0 * HIGH_FIELD:g} % of the maximum"),
         mark(result, ax, _largest(result), f"maximum{where}"),
     ]
-    say(result, ax, _largest(result), f"{factor * field.max_strength:.3g} {unit}")
+    say(result, ax, _largest(result), f"{readable(factor * field.max_strength)} {unit}")
     legend_above(ax, handles, 3)
     entrainment(result, ax, ink=ON_MAP)
     return ax

@@ -20,9 +20,9 @@ from ehlectric.bearing.speed_curves import (
 )
 from ehlectric.bearing.uncertainty import MarginBand
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
+from ehlectric.quantities.formats import rpm_text as text_of_speed
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
-from ehlectric.quantities.units import rpm_text as text_of_speed
 
 # Colour, dash and width [pt] of a line.
 Look = tuple[str, str, float]

@@ -44,6 +44,7 @@ from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
 from ehlectric.figures.tones import Outline, exchange_colours
 from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 from ehlectric.runtime.files import write
 from ehlectric.runtime.threads import Turn, own_filters
 from ehlectric.runtime.undrawn import drawing
@@ -647,7 +648,7 @@ def colour_bar(ax: Axes, norm: Normalize, text: str, levels: Array, colours: Col
         ScalarMappable(norm, colours), cax=beside, label=fitted_label(ax, text, along=False)
     )
     ticks = levels if levels.size <= 9 else levels[:: 2 if levels.size <= 18 else 3]
-    bar.set_ticks(list(ticks), labels=[f"{level:.6g}" for level in ticks])
+    bar.set_ticks(list(ticks), labels=[readable(level, 6) for level in ticks])
     bar.ax.minorticks_off()
 
 
@@ -659,7 +660,7 @@ def in_half_widths(result: OfContact, x: Array) -> Array:
 def label_position(result: OfContact, ax: Axes, axis: str = "x", *, line: str = "") -> None:
     """Label the horizontal axis with x/b or y/b, the ``line`` that it lies on, and the half-width b."""
     factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
-    ax.set_xlabel(f"${axis}/b$   ({line}$b$ = {factor * result.conditions.half_width:.4g} {unit})")
+    ax.set_xlabel(f"${axis}/b$   ({line}$b$ = {readable(factor * result.conditions.half_width, 4)} {unit})")
 
 
 # Room that the axis of lengths above the axes takes [pt], and place of its name beside its numbers [pt].

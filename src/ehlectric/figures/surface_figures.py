@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from ehlectric.figures.style import axes_or_new, figure_of, fitted_label, new_panels, save_figure, style
 from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile, rms, statistics
 
@@ -28,7 +29,7 @@ def profile(drawn: Profile, ax: Axes | None = None, name: str = "") -> Axes:
     ax.plot(along * drawn.x, factor * heights, color=BLUE, lw=0.7)
     s = statistics(drawn)
     scale, prefixed = unit_for(s.rq, "m", least=1.0)
-    sizes = [f"Rq {scale * s.rq:.3g} {prefixed}", f"Ra {scale * s.ra:.3g} {prefixed}"]
+    sizes = [f"Rq {readable(scale * s.rq)} {prefixed}", f"Ra {readable(scale * s.ra)} {prefixed}"]
     shape = [f"Rsk {s.rsk:.2f}".replace("-", "−"), f"Rku {s.rku:.1f}"]
     values = ", ".join(value.replace(" ", "\u00a0") for value in (*sizes, *shape))
     ax.set_title(fitted_label(ax, f"{name}: {values}" if name else values, along=True), loc="left")
@@ -60,7 +61,7 @@ def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
         interpolation="antialiased",
     )
     bar = figure_of(ax).colorbar(image, ax=ax, extend="both", pad=0.03)
-    bar.set_label(f"height [{height_unit}], Sq = {factor * rms(heights):.3g} {height_unit}")
+    bar.set_label(f"height [{height_unit}], Sq = {readable(factor * rms(heights))} {height_unit}")
     ax.set_xlabel(f"$x$ [{unit}]")
     ax.set_ylabel(f"$y$ [{unit}]")
     return ax

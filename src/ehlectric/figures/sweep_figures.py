@@ -40,8 +40,9 @@ from ehlectric.figures.sweep_points import (
     range_text,
     voltage_text,
 )
-from ehlectric.quantities.formats import Scale, number_text
+from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
+from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
@@ -57,7 +58,7 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
         finite = selection.values[np.isfinite(selection.values)]
         if selection.value in TIME_SHARES:
             return _of_time(finite)
-        low, high = (number_text(scale.of(float(of(finite)))) for of in (np.min, np.max))
+        low, high = (readable(scale.of(float(of(finite)))) for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
         return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)
@@ -108,7 +109,7 @@ def _where(results: SweepResults, selection: Slice) -> str:
         return ""
     label, scale = labelled(results, selection.x, selection.along)
     places = sorted(scale.of(at) for at, _ in found)
-    texts = list(dict.fromkeys(f"{float(f'{places[k]:.3g}'):g}" for k in (0, -1)))
+    texts = list(dict.fromkeys(readable(places[k]) for k in (0, -1)))
     clause = f"{sides.pop()} {' to '.join(texts)} {scale.unit or label.name}"
     if len(texts) == 1 or selection.y is None:
         return clause
@@ -145,10 +146,10 @@ def of_sensitivity(results: SweepResults, analysis: Sensitivity) -> str:
     if analysis.share_below_voltage is None:
         return f"{text} of the {value}"
     voltage = breakdown_of(results.case, analysis.value).voltage_name
-    share = f"{100.0 * analysis.share_below_voltage:.3g}"
+    share = readable(100.0 * analysis.share_below_voltage)
     low, high = analysis.share_below_voltage_bounds or (0.0, 0.0)
     if analysis.spread.failed and high > low:
-        share = f"{100.0 * low:.3g} to {100.0 * high:.3g}"
+        share = f"{readable(100.0 * low)} to {readable(100.0 * high)}"
     return f"{text}; {share} % of the samples are below the {voltage}"
 
 
@@ -176,7 +177,7 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
     ax.vlines(marked, 0.0, _MARKED, color=BLUE, lw=0.8, ls=":")
     (dots,) = ax.plot(marked, _MARKED, ls="none", marker="o", ms=4.0, color=BLUE)
     text = ", ".join(f"{100.0 * q:g}" for q in _MARKED) + " %: "
-    text += ", ".join(f"{at:.3g}" for at in marked)
+    text += ", ".join(readable(at) for at in marked)
     dots.set_label(f"{text} {scale.unit}".rstrip())
     handles: list[Artist] = [dots]
     if analysis.share_below_voltage is not None:

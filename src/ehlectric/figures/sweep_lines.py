@@ -44,6 +44,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import AMBER, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
+from ehlectric.readable import readable
 from ehlectric.sweep.computed_lines import computed_line
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice, applied_at, curve_of, spaced_log, take
@@ -348,4 +349,4 @@ def _name_lines(
 
 
 def _line_name(value: Any, scale: Scale) -> str:
-    return f"{scale.of(value):.4g}" if isinstance(value, int | float) else literal(str(value))
+    return readable(scale.of(value), 4) if isinstance(value, int | float) else literal(str(value))

@@ -47,6 +47,7 @@ from ehlectric.figures.sweep_points import (
 )
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import GREY, ON_MAP, ORANGE
+from ehlectric.readable import readable
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice, Surface, applied_at, spaced_log, surface_of, take
 
@@ -205,7 +206,7 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
         lines = ax.tricontour(*drawn, levels=inner, colors=ON_MAP, linewidths=0.4, linestyles="-")
         entries, taken = _breakdown(between, ax)
         handles += entries
-        label_lines(ax, lines, taken, [f"{level:.6g}" for level in inner], **ON_COLOURS)
+        label_lines(ax, lines, taken, [readable(level, 6) for level in inner], **ON_COLOURS)
     alone = between.surface.alone(selection.values)
     if np.any(alone):
         at = between.scales[0].of(selection.along), between.scales[1].of(np.array(selection.across))

@@ -28,6 +28,7 @@ from ehlectric.errors import CODES
 from ehlectric.figures.style import figure_of, name_over, outlined
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
+from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import Label, label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice
@@ -286,8 +287,8 @@ def range_text(values: Array, unit: str) -> str:
     ('2 V', '2.2 to 30 V')
     """
     low, high = float(values.min()), float(values.max())
-    texts = [f"{value:.2g}" if value < 10.0 else f"{value:.3g}" for value in (low, high)]
-    return f"{low:.4g} {unit}" if high - low <= 1e-9 * high else f"{' to '.join(texts)} {unit}"
+    texts = [readable(value, 2) if value < 10.0 else readable(value) for value in (low, high)]
+    return f"{readable(low, 4)} {unit}" if high - low <= 1e-9 * high else f"{' to '.join(texts)} {unit}"
 
 
 def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> None:

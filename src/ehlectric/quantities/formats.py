@@ -1,4 +1,4 @@
-"""Numbers as texts: units in which quantities are shown, prefixes that suit a value, and digits."""
+"""Quantities as texts: units in which they are shown, and prefixes that suit a value."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from types import MappingProxyType
 from typing import Any
 
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import printed, unit_for
+from ehlectric.quantities.units import printed, rpm, unit_for
+from ehlectric.readable import readable
 
 # Zero point of the scale of Celsius [K].
 _CELSIUS = 273.15
@@ -36,7 +37,7 @@ class Scale:
         """Text of an SI value in this unit, with four digits; a text is returned unchanged."""
         if not isinstance(value, int | float):
             return str(value)
-        return f"{self.of(value):.4g} {self.unit}".rstrip()
+        return f"{readable(self.of(value), 4)} {self.unit}".rstrip()
 
 
 # Absolute temperatures.
@@ -57,9 +58,6 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
 # Units in which quantities of these SI units are shown; others get the prefix that suits the value.
 USUAL: Mapping[str, str] = MappingProxyType(_READ["usual"])
 
-# Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
-_LARGE = 1e7
-
 
 def scale_of(unit: str) -> Scale:
     """Scale of a unit of ``UNITS``.
@@ -72,33 +70,15 @@ def scale_of(unit: str) -> Scale:
     return CELSIUS if unit == "°C" else Scale(round_factor(UNITS[unit][1]), unit)
 
 
-def formatted(value: float, digits: str, ceiling: float | None = None) -> str:
-    """Number as a string in a format, without an exponent where its few digits can be read without one.
-
-    A number above the ``ceiling`` becomes "above" with this limit.
+def rpm_text(speed: float) -> str:
+    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
 
     Examples
     --------
-    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0, 4e7)]
-    ['0.012', '99', '210', '41000', '4e+07']
-    >>> formatted(3.2e7, ".3g", 1e6)
-    'above 1 000 000'
+    >>> rpm_text(144.38)
+    '1380'
     """
-    if ceiling is not None and value > ceiling:
-        return f"above {ceiling:,.0f}".replace(",", " ")
-    text = format(value, digits)
-    return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
-
-
-def number_text(value: float) -> str:
-    """Number with three digits.
-
-    Examples
-    --------
-    >>> number_text(29731.0), number_text(0.1234)
-    ('29700', '0.123')
-    """
-    return formatted(value, ".3g")
+    return readable(rpm(speed))
 
 
 def amount(value: float, unit: str) -> str:
@@ -112,7 +92,7 @@ def amount(value: float, unit: str) -> str:
     ('0.74 µm', '2.5 V/µm', '300 V')
     """
     factor, prefixed = suited(value, unit)
-    return f"{factor * value:.4g} {prefixed}"
+    return f"{readable(factor * value, 4)} {prefixed}"
 
 
 def suited(value: float, unit: str) -> tuple[float, str]:

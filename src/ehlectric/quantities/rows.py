@@ -8,8 +8,9 @@ from itertools import pairwise
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
-from ehlectric.quantities.formats import UNITS, USUAL, formatted, scale_of, suited
+from ehlectric.quantities.formats import UNITS, USUAL, scale_of, suited
 from ehlectric.quantities.quantity import BOUNDS, Bound, Keys, Quantity, key_of
+from ehlectric.readable import formatted
 
 # Nested tables of a result, SI units, as summary.json has them.
 Summary: TypeAlias = Mapping[str, Any]
@@ -17,8 +18,9 @@ Summary: TypeAlias = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Row:
-    """Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading. Raises
-    ValueError if the unit of a number is not in ``UNITS``.
+    r"""Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading.
+
+    Raises ValueError if the unit of a number is not in ``UNITS``.
 
     Examples
     --------
@@ -29,7 +31,7 @@ class Row:
     '0.2 µm, at the outlet'
     >>> Row("breakdown voltage", 5.88, "V", bound="≤").text
     '≤ 5.88 V'
-    >>> Row("rating life", 1e12, "h", bound="≤", ceiling=1e6).text
+    >>> Row("rating life", 1e12, "h", bound="≤", ceiling=1e6).text.replace("\xa0", " ")
     'upper bound above 1 000 000 h'
     """
 

@@ -122,18 +122,6 @@ def rpm(speed: float) -> float:
     return speed / RPM
 
 
-def rpm_text(speed: float) -> str:
-    """Speed [rad/s] as text in revolutions per minute, rounded to three digits.
-
-    Examples
-    --------
-    >>> rpm_text(144.38)
-    '1380'
-    """
-    return rounded(rpm(speed))
-
-
-@cache
 def registry() -> pint.UnitRegistry[float]:
     """Registry of units, made when it is first needed, because importing pint takes a while.
 

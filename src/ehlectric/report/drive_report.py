@@ -21,7 +21,7 @@ from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
@@ -29,6 +29,7 @@ from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
+from ehlectric.readable import readable
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range
 from ehlectric.report.light import light_of
@@ -146,7 +147,7 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
             str(number),
             NAMES_OF_ENDS[row["bearing"]],
             *(
-                f"{row[name] * factor:.{digits}f}" if name == "time" else number_text(row[name] * factor)
+                f"{row[name] * factor:.{digits}f}" if name == "time" else readable(row[name] * factor)
                 for name, (factor, _) in scales.items()
             ),
         )
@@ -272,7 +273,7 @@ def _range(results: SweepResults) -> list[str]:
     rates = [float(point.usable["drive"]["events_per_second"]) for point in results.points if point.usable]
     if not rates:
         return []
-    low, high = number_text(min(rates)), number_text(max(rates))
+    low, high = readable(min(rates)), readable(max(rates))
     return [f"Both bearings together discharge {low} to {high} times a second."]
 
 
@@ -335,13 +336,13 @@ def _lead(summary: Mapping[str, Any]) -> str:
     drive, source = summary["drive"], summary["source"]
     parts = [f"{amount(drive['duration'], 's')} simulated"]
     if drive["periods"] is not None:
-        count = f"{drive['periods']:.4g}"
+        count = readable(drive["periods"], 4)
         parts.append(f"{count} {'period' if count == '1' else 'periods'} of the fundamental")
     if source["edges_per_second"] is not None:
-        edges = number_text(source["edges_per_second"] * drive["duration"])
+        edges = readable(source["edges_per_second"] * drive["duration"])
         parts.append(f"{edges} edges of the common-mode voltage")
     speed, temperature = rpm(drive["speed"]), drive["temperature"] - 273.15
-    return f"{speed:.4g} rpm, {temperature:.4g} °C; {', '.join(parts)}."
+    return f"{readable(speed, 4)} rpm, {readable(temperature, 4)} °C; {', '.join(parts)}."
 
 
 def _sections(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Section]:

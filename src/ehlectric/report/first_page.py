@@ -27,6 +27,7 @@ from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.report.background import given_inputs, input_text, named
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.report_content import Block, Numbers, Part, Picture, Section, Table, Text
@@ -170,7 +171,7 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
                     _name(one),
                     _value(case, one["key"], given.get(one["key"])),
                     "scatters" if one["low"] is None else with_units_kept(input_range(one)),
-                    f"{100.0 * one['total']:.2g}\xa0% of the spread of the margin; {_basis(one)}",
+                    f"{readable(100.0 * one['total'], 2)}\xa0% of the spread of the margin; {_basis(one)}",
                 )
                 for one in found
             ),
@@ -237,7 +238,7 @@ def _value(case: BearingCase, key: str, value: Any) -> str:
         return HOW[case.contacts]
     if isinstance(value, int | float) and key != OF_TABLE:
         return input_text(case, key, value)
-    return "a table" if value is None or not isinstance(value, float) else f"{value:.3g} times"
+    return "a table" if value is None or not isinstance(value, float) else f"{readable(value)} times"
 
 
 def usual_range(case: BearingCase | DriveCase, key: str) -> str:
@@ -289,7 +290,7 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
             )
         sentence = f"{source}, {_motor(*motor)}; {both}"
     if "duty" in summary:
-        sentence += f"; beside this operation a duty cycle of {summary['duty']['duration']:.6g} s"
+        sentence += f"; beside this operation a duty cycle of {readable(summary['duty']['duration'], 6)} s"
     return with_units_kept(f"{sentence[:1].upper()}{sentence[1:]}.")
 
 
@@ -315,20 +316,20 @@ def _bearing(case: BearingCase, viscosity: float | None = None) -> str:
     )
     materials += ["insulated"] if bearing.coating is not None else []
     loads = {"radial": bearing.radial_load, "axial": bearing.axial_load}
-    load = " and ".join(f"{value:.4g} N {way}" for way, value in loads.items() if value)
+    load = " and ".join(f"{readable(value, 4)} N {way}" for way, value in loads.items() if value)
     lubricant = f"oil {printable(case.lubricant.base or '')}".strip()
     if oil is not None:
         table = {key: value for key, value in oil.model_dump().items() if value is not None}
         lubricant = "oil" if oil.iso_vg is None else f"oil ISO VG {oil.iso_vg}"
         points = [
-            f"{1e6 * table[f'kinematic_viscosity_{at}']:.4g} mm²/s at {at} °C"
+            f"{readable(1e6 * table[f'kinematic_viscosity_{at}'], 4)} mm²/s at {at} °C"
             for at in (40, 100)
             if f"kinematic_viscosity_{at}" in table
         ]
         lubricant = " of ".join(filter(None, [lubricant, " and ".join(points)]))
     if bearing.supply == "grease":
         lubricant = f"grease with {lubricant}"
-    at = "" if viscosity is None else f" ({1e3 * viscosity:.3g} mPa s in operation)"
+    at = "" if viscosity is None else f" ({readable(1e3 * viscosity)} mPa s in operation)"
     speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
-    running = f"at {speed:.4g} rpm and {float(f'{temperature:.4g}'):g} °C"
+    running = f"at {readable(speed, 4)} rpm and {readable(temperature, 4)} °C"
     return ", ".join([name, *materials, f"{load} load", running, f"{lubricant}{at}"])

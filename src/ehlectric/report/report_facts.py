@@ -17,6 +17,7 @@ from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import default_figure, figure, figure_names
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.rows import Row, value_at
+from ehlectric.readable import readable
 from ehlectric.report.background import worded
 from ehlectric.report.report_content import DOI, Link, Part, Picture, Table, Text, WarningLine, Warnings
 from ehlectric.report.report_texts import SENTENCES, TEXTS
@@ -65,7 +66,7 @@ def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:
         "result computed by": f"ehlectric {summary['version']}",
         "date of the result": date,
         "converged": "yes" if summary["converged"] else "no",
-        "computing time": f"{total:.3g} s" if is_number(total) else "",
+        "computing time": f"{readable(total)} s" if is_number(total) else "",
         "seed of the random numbers": "" if seed is None else str(seed),
     }
 
@@ -144,7 +145,7 @@ def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
         )
         for limit, about in told
     )
-    places = (f"{place}, {1e-6 * density:.3g} A/mm²" for place, density in known.items())
+    places = (f"{place}, {readable(1e-6 * density)} A/mm²" for place, density in known.items())
     heads = ("published limit", *places, "what is published", "source")
     shares = (0.11, *(0.3 / len(known) for _ in known), 0.3, 0.29)
     yield Table("Current density beside its published limits", heads, rows, shares=shares)

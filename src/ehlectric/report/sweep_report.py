@@ -15,6 +15,7 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
+from ehlectric.readable import readable
 from ehlectric.report.background import named
 from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values, swept_verdict
 from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
@@ -94,7 +95,7 @@ def _details(results: SweepResults) -> dict[str, str]:
     return {
         "result computed by": ", ".join(f"ehlectric {version}" for version in versions),
         "design": f"{results.design}, {len(results.points)} points",
-        "computing time of all points": f"{results.summary()['seconds']:.3g} s",
+        "computing time of all points": f"{readable(results.summary()['seconds'])} s",
     }
 
 
@@ -181,4 +182,4 @@ def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str
 
 def _number(value: float) -> str:
     """Number with four digits, without a power of ten up to a million."""
-    return f"{float(f'{value:.4g}'):g}"
+    return readable(value, 4)

@@ -18,6 +18,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.motion.result import MotionResult
+from ehlectric.readable import readable
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runs.solve import AnyResult, load
 from ehlectric.runtime.files import column_head, refuse_special, write
@@ -274,7 +275,7 @@ def _array(key: str, values: Any) -> Any:
     array = np.asarray(values)
     if array.nbytes > _LARGEST:
         takes = "at most 2 GB in a MAT file; MATLAB reads the NetCDF file of the result by ncread"
-        raise InputError(key, got=f"{array.nbytes / 1e9:.3g} GB", takes=takes)
+        raise InputError(key, got=f"{readable(array.nbytes / 1e9)} GB", takes=takes)
     if array.dtype.kind in "biufc":
         return array
     return np.vectorize(str, otypes=[object])(array) if array.size else np.empty((0, 0), dtype=object)

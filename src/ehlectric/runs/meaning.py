@@ -23,6 +23,7 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
@@ -292,8 +293,8 @@ def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str
     if not all(isinstance(value, float) for value in values):
         return [str(value) for value in values], ""
     if unit == "K":
-        return [f"{value - 273.15:.4g}" for value in values], "°C"
+        return [readable(value - 273.15, 4) for value in values], "°C"
     if unit == "rad/s":
-        return [f"{rpm(value):.4g}" for value in values], "rpm"
+        return [readable(rpm(value), 4) for value in values], "rpm"
     scale = label_of(key, sweep.case).scaled(np.array(values))
-    return [f"{scale.factor * value:.4g}" for value in values], scale.unit
+    return [readable(scale.factor * value, 4) for value in values], scale.unit

@@ -19,6 +19,7 @@ from ehlectric.discharge.breakdown_rule import TOUCHING, Level, ratio_text, stre
 from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
+from ehlectric.readable import readable
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Point, SweepPoints
@@ -258,7 +259,6 @@ def value_text(key: str, value: Any, case: SweptCase) -> str:
     """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
     label = label_of(key, case)
     if label.unit == "K":
-        return f"{value - 273.15:.3g} °C"
+        return f"{readable(value - 273.15)} °C"
     scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))
-    shown = float(f"{value * scale.factor:.3g}")
-    return f"{shown:g} {scale.unit}".rstrip()
+    return f"{readable(value * scale.factor)} {scale.unit}".rstrip()

@@ -13,7 +13,7 @@ from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.breakdown_rule import ONE_NUMBER, at_an_end, chance_text, ratio_text
-from ehlectric.quantities.formats import UNITS, amount, formatted, scale_for, scale_of
+from ehlectric.quantities.formats import UNITS, amount, rpm_text, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import (
@@ -34,7 +34,7 @@ from ehlectric.quantities.sheets import (
     LOAD_COLUMNS,
     VALUES,
 )
-from ehlectric.quantities.units import rpm_text
+from ehlectric.readable import formatted, readable
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ def _state(summary: Summary) -> Any:
 
 def _alpha_star(summary: Summary) -> str:
     ambient = 1e9 * summary["lubricant"]["pressure_viscosity_coefficient"]
-    return f", reciprocal asymptotic; α = {ambient:.4g} 1/GPa at ambient pressure"
+    return f", reciprocal asymptotic; α = {readable(ambient, 4)} 1/GPa at ambient pressure"
 
 
 def _strength(summary: Summary) -> Noted:
@@ -158,7 +158,7 @@ def _strength(summary: Summary) -> Noted:
         return Noted(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")
     if "strength_table" in discharge:
         table = discharge["strength_table"]
-        ends = (f"{end / 1e6:.4g}" for end in (min(table["strength"]), max(table["strength"])))
+        ends = (readable(end / 1e6, 4) for end in (min(table["strength"]), max(table["strength"])))
         over = "pressure" if "pressure" in table else "temperature"
         return Noted((" to ".join(ends), "V/µm"), f", table over {over}")
     return Noted("not given", ", no breakdown voltage is computed")
@@ -191,7 +191,9 @@ def film_factor_note(summary: Summary) -> str:
     factor = _bearing(summary)["film_factor"]
     if supply == "flooded":
         return f"({_HEAT.get(factor, 'given')})"
-    other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
+    other = _HEAT.get(factor) or (
+        f"given factor of {readable(factor)}" if factor not in ("none", 1.0) else ""
+    )
     return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
 
 
@@ -215,14 +217,14 @@ def _rise_note(ring: str) -> Callable[[Summary], str]:
     def note(summary: Summary) -> str:
         totals = summary["bearing"]
         error = totals[f"{ring}_temperature_rise_error"]
-        known = "" if error is None else f" ± {error:.1g}"
-        return f", largest in the film {totals[f'{ring}_max_temperature_rise']:.2g}{known} K"
+        known = "" if error is None else f" ± {readable(error, 1)}"
+        return f", largest in the film {readable(totals[f'{ring}_max_temperature_rise'], 2)}{known} K"
 
     return note
 
 
 def _rolling_coefficient(ring: str) -> Callable[[Summary], str]:
-    return lambda s: f", rolling coefficient {s['bearing'][f'{ring}_rolling_coefficient']:.2g}"
+    return lambda s: f", rolling coefficient {readable(s['bearing'][f'{ring}_rolling_coefficient'], 2)}"
 
 
 def _regime_note(summary: Summary) -> str:
@@ -238,7 +240,7 @@ def _time(key: str) -> Callable[[Summary], str]:
 
 def _asperity_shares(summary: Summary) -> tuple[str, str]:
     ends = (100.0 * summary["bearing"][f"asperity_share_{end}"] for end in ("low", "high"))
-    return " to ".join(f"{end:.2g}" for end in ends), "%"
+    return " to ".join(readable(end, 2) for end in ends), "%"
 
 
 def _speed(name: str) -> Callable[[Summary], Any]:
@@ -298,7 +300,7 @@ def _viscosity_ratio(summary: Summary) -> Noted:
     if life["viscosity_ratio"] is None:
         return Noted("unknown", ", the density of the oil is not given")
     viscosity = 1e6 * life["viscosity_ratio"] * life["rated_viscosity"]
-    return Noted(life["viscosity_ratio"], f", ν/ν1 with ν = {viscosity:.3g} mm²/s")
+    return Noted(life["viscosity_ratio"], f", ν/ν1 with ν = {readable(viscosity)} mm²/s")
 
 
 def _shaft_note(summary: Summary) -> str:
@@ -381,7 +383,7 @@ def _probability(key: str) -> Callable[[Summary], Any]:
             if found is None or error is None or not at_an_end(found, error):
                 return found
             return chance_text(found, error).removesuffix(" %"), "%"
-        return " to ".join(f"{100.0 * end:.2g}" for end in (low, high)), "%"
+        return " to ".join(readable(100.0 * end, 2) for end in (low, high)), "%"
 
     return value
 
@@ -392,7 +394,7 @@ def _probability_note(summary: Summary) -> str:
         return f", {found['failed']} of {found['samples']} points have no result"
     if at_an_end(found["breakdown_probability"], found["breakdown_probability_error"]):
         return ""
-    return f", sampling error {100.0 * found['breakdown_probability_error']:.2g} %"
+    return f", sampling error {readable(100.0 * found['breakdown_probability_error'], 2)} %"
 
 
 def _shares(summary: Summary) -> Iterator[Row]:
@@ -403,7 +405,7 @@ def _shares(summary: Summary) -> Iterator[Row]:
             within = "" if one["low"] is None else f", {input_range(one)}"
             assumed = ", a usual range" if one["assumed"] and one["key"] != FILMS else ""
             note = f"{', ' + beside.removesuffix(')') if beside else ''}{assumed}"
-            share = f"{100.0 * one['total']:.2g} % of the spread"
+            share = f"{readable(100.0 * one['total'], 2)} % of the spread"
             yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{one['key']}")
 
 
@@ -428,7 +430,7 @@ def _stretches(summary: Summary) -> Iterator[Row]:
     for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
         name = "lambda_ratio" if one["least_margin"] is None else "least_margin"
         about = BEARING_BOOK[key := f"duty.stretches.{name}"]
-        span = f"{about.label}, {one['start']:.6g} to {one['end']:.6g} s"
+        span = f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s"
         at = f", {one['why']}" if one["why"] else f", at {rpm_text(one['speed'])} rpm"
         yield Row(
             span,
@@ -453,7 +455,7 @@ def input_range(effect: Mapping[str, Any]) -> str:
     low, high = (effect.get(f"{end}_input", effect.get(end)) for end in ("low", "high"))
     ends, unit = (low, high), "" if effect["key"] in (OF_TABLE, FILMS) else unit_of(effect["key"])
     scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
-    low, high = (f"{scale.of(end):.4g}" for end in ends)
+    low, high = (readable(scale.of(end), 4) for end in ends)
     return f"{low} to {high} {scale.unit}".rstrip()
 
 

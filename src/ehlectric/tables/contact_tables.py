@@ -17,11 +17,12 @@ from ehlectric.contact.summary import case_summary
 from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.film_error import UNRESOLVED
-from ehlectric.quantities.formats import amount, formatted, scale_of
+from ehlectric.quantities.formats import amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_ONLY, VALUES
+from ehlectric.readable import formatted, readable
 from ehlectric.tables.measured_tables import status_rows
 
 # Relative error of the field up to which the table does not repeat it for the breakdown voltage.
@@ -95,7 +96,7 @@ def _axis_ratio(summary: Summary) -> float | None:
 
 def _behaviour(summary: Summary) -> str:
     share = 100.0 * summary["asperities"]["time_share"]
-    return f", at 10 kHz; a spot is there {share:.3g} % of the time"
+    return f", at 10 kHz; a spot is there {readable(share)} % of the time"
 
 
 def _grid(case: Case) -> str | tuple[str, str]:
@@ -113,7 +114,7 @@ def _speeds(summary: Summary) -> str:
     mean, half = contact["entrainment_speed"], 0.5 * contact["slide_to_roll_ratio"]
     if half == 0.0:
         return ", pure rolling"
-    return f", surfaces at {mean * (1.0 + half):.4g} and {mean * (1.0 - half):.4g} m/s"
+    return f", surfaces at {readable(mean * (1.0 + half), 4)} and {readable(mean * (1.0 - half), 4)} m/s"
 
 
 def _half_width(summary: Summary) -> float:
@@ -125,7 +126,7 @@ def _place(summary: Summary, key: str) -> str:
     """Position in half-widths, or in semi-axes b of a point contact, with the name of the axes."""
     position = value_at(summary, key)
     places = position if isinstance(position, Sequence) else (position,)
-    texts = ", ".join(f"{place / _half_width(summary):.4g}" for place in places)
+    texts = ", ".join(readable(place / _half_width(summary), 4) for place in places)
     return f"{'x/b, y/b' if len(places) > 1 else 'x/b'} = {texts}"
 
 
@@ -143,7 +144,7 @@ def _pressure_error(summary: Summary) -> str:
     error = summary["film"]["max_pressure_error"]
     if error is None:
         return ""
-    return f", error {100 * error:.2g} %" if error <= UNRESOLVED else ", not resolved by the grid"
+    return f", error {readable(100 * error, 2)} %" if error <= UNRESOLVED else ", not resolved by the grid"
 
 
 def _film_grid(summary: Summary) -> str:
@@ -207,7 +208,7 @@ def _inlet(case: object) -> str:
     contact = case.contact
     found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
     known = {name: value for name, value in found.items() if value is not None}
-    return "".join(f", {name} at {value - 273.15:.4g} °C" for name, value in known.items())
+    return "".join(f", {name} at {readable(value - 273.15, 4)} °C" for name, value in known.items())
 
 
 def _temperature(summary: Summary) -> str | None:
@@ -224,7 +225,7 @@ def _temperature_error(summary: Summary) -> str:
     if not summary["converged"]:
         return _reached(summary)
     error = summary["film"]["temperature_rise_error"]
-    return "" if error is None else f", error {error:.1g} K"
+    return "" if error is None else f", error {readable(error, 1)} K"
 
 
 def _load_share(summary: Summary) -> Noted:
@@ -281,7 +282,7 @@ def _rough_columns(summary: Summary) -> Any:
 def _field_place(summary: Summary) -> str:
     wall = f", {summary['field']['max_strength_wall']}" if "roughness" in summary else ""
     place = f" at {_place(summary, 'field.max_strength_position')}{_in_spot(summary)}{wall}"
-    return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
+    return f"{place}, with {readable(summary['field']['voltage'], 4)} V across the film"
 
 
 def _strength(summary: Summary) -> Noted | None:
@@ -296,7 +297,7 @@ def _strength(summary: Summary) -> Noted | None:
 
 def _breakdown_note(summary: Summary) -> str:
     strength = summary["discharge"]["dielectric_strength"]
-    condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    condition = "63.2 % probability" if strength is None else f"{readable(strength / 1e6, 4)} V/µm"
     return "; ".join(filter(None, [f", at {condition}", bound_words(summary)]))
 
 
@@ -308,7 +309,7 @@ def _breakdown_error(summary: Summary) -> Any:
 def _breakdown_range(summary: Summary) -> Any:
     found = summary.get("discharge", {})
     low, high = found.get("breakdown_voltage_low"), found.get("breakdown_voltage_high")
-    return None if low is None or high is None else (f"{low:.4g} to {high:.4g}", "V")
+    return None if low is None or high is None else (f"{readable(low, 4)} to {readable(high, 4)}", "V")
 
 
 def _probability(summary: Summary) -> Any:
@@ -323,7 +324,7 @@ def _zone_place(summary: Summary) -> str | None:
 def _beyond(summary: Summary) -> str:
     found = summary["discharge"]
     beyond = 100.0 * found["capacitance_beyond"] / found["capacitance"]
-    return f", a domain twice as large would add {beyond:.2g} % if full of oil"
+    return f", a domain twice as large would add {readable(beyond, 2)} % if full of oil"
 
 
 def _by_outlet(summary: Summary) -> Any:

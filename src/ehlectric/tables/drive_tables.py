@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
-from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
@@ -26,7 +26,8 @@ from ehlectric.quantities.rows import (
     sheet_rows,
 )
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
-from ehlectric.quantities.units import rpm_text, unit_for
+from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -183,7 +184,7 @@ def _sums(tables: Summary) -> dict[str, Any]:
 def _range(summary: Summary) -> tuple[str, str]:
     """Interval of the rate of discharges; an upper bound where there was none."""
     end = summary["end"]
-    low, high = (number_text(end[f"events_per_second_{side}"]) for side in ("low", "high"))
+    low, high = (readable(end[f"events_per_second_{side}"]) for side in ("low", "high"))
     return f"{low} to {high}" if end["events"] else f"at most {high}", "1/s"
 
 
@@ -199,8 +200,8 @@ def _duty_range(name: str) -> Callable[[Summary], Any]:
         most = low if high is None else high
         factor, shown = unit_for(most, unit, least=1.0) if unit and most else (1.0, unit)
         if high is None:
-            return (f"at least {number_text(factor * low)}", shown) if low else ("not known", "")
-        texts = [number_text(factor * value) for value in (low, high)]
+            return (f"at least {readable(factor * low)}", shown) if low else ("not known", "")
+        texts = [readable(factor * value) for value in (low, high)]
         return f"{texts[0]} to {texts[1]}", shown
 
     return value
@@ -211,7 +212,7 @@ def _stretches(summary: Summary) -> Iterator[Row]:
     about = DRIVE_BOOK[key := "duty.stretches.discharges"]
     for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
         yield Row(
-            f"{about.label}, {one['start']:.6g} to {one['end']:.6g} s",
+            f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s",
             one["discharges"],
             note=f", {amount(one['energy'], 'J')}, mean {rpm_text(one['speed'])} rpm",
             digits=about.digits,

@@ -20,6 +20,7 @@ from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
 from ehlectric.quantities.palette import LIGHTS
 from ehlectric.quantities.rows import Row
+from ehlectric.readable import readable
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
@@ -105,7 +106,7 @@ def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row
     if not is_number(value):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
     scale = _scale(key, case, [float(value)])
-    return Row(key, f"{scale.of(value):.6g}", scale.unit)
+    return Row(key, readable(scale.of(value), 6), scale.unit)
 
 
 def _scale(key: str, case: SweptCase, values: Sequence[float]) -> Scale:
@@ -125,7 +126,7 @@ def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
         ends = (values.start, values.stop) if isinstance(values, Range) else values
         numbers = [float(value) for value in ends if isinstance(value, int | float)]
         scale = _scale(key, sweep.case, numbers) if len(numbers) == len(ends) else Scale(1.0, "")
-        texts = [f"{scale.of(value):.6g}" if numbers else str(value) for value in ends]
+        texts = [readable(scale.of(value), 6) if numbers else str(value) for value in ends]
         if isinstance(values, Range):
             yield Row(key, " to ".join(texts), scale.unit, f", {values.spacing}")
         else:

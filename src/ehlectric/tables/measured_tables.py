@@ -12,6 +12,7 @@ from ehlectric.errors import printable
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import Row, Summary
 from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -107,7 +108,7 @@ def rows_table(factors: FilmFactors) -> Table:
         rows.append(
             (
                 f"{columns['line'][k]:.0f}",
-                f"{rpm(at) if electric else at:.4g}",
+                readable(rpm(at) if electric else at, 4),
                 _number(scale * columns[measured][k]),
                 _number(scale * columns["computed"][k]),
                 "none" if factors.reasons[k] else f"{columns['film_factor'][k]:.3f}",
@@ -142,7 +143,7 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
             )
     if factors.slope is not None:
         slope, error = factors.slope
-        yield Row("film factor over speed", f"speed^({slope:.2g} +- {error:.1g})")
+        yield Row("film factor over speed", f"speed^({readable(slope, 2)} +- {readable(error, 1)})")
     how = f"{factors.solves} solved" if factors.contacts == "solved" else HOW[factors.contacts]
     yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
 
@@ -150,7 +151,7 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
 def _beside(factors: FilmFactors) -> str:
     """Note on the error of films that are not solved, which is not in the interval."""
     error = factors.formula_error
-    return "" if error is None else f", beside up to {100.0 * error:.2g} % of the {factors.contacts}"
+    return "" if error is None else f", beside up to {readable(100.0 * error, 2)} % of the {factors.contacts}"
 
 
 def _counted(factors: FilmFactors) -> str:

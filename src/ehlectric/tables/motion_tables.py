@@ -12,6 +12,7 @@ from ehlectric.quantities.result_bounds import moving_bounds
 from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
+from ehlectric.readable import readable
 from ehlectric.tables.contact_tables import condition_rows
 
 
@@ -40,7 +41,7 @@ def _meniscus(half_width: float, summary: Summary) -> str | None:
     places = [film[f"meniscus_{name}"] for name in ("before", "least", "largest")]
     if None in places:
         return "none: flooded"
-    before, least, largest = (f"{place / half_width:.3g}" for place in places)
+    before, least, largest = (readable(place / half_width) for place in places)
     return f"x/b = {before} before the motion, {least} to {largest} over time"
 
 
@@ -54,7 +55,7 @@ def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
 
     def note(summary: Summary) -> str:
         time = value_at(summary, key)
-        at = "" if time is None else f" at {1e3 * time:.4g} ms"
+        at = "" if time is None else f" at {readable(1e3 * time, 4)} ms"
         return f"{at}, in the boundary film" if boundary and _touches(summary) else at
 
     return note

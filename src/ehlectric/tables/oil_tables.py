@@ -15,6 +15,7 @@ from ehlectric.cases.library.bearing_catalogue import CatalogueBearing
 from ehlectric.cases.library.library_oils import KINDS, LibraryOil
 from ehlectric.cases.oil_report import OilReport, SurveyLine, celsius, depends_on_temperature, survey
 from ehlectric.quantities.sheets import OILS
+from ehlectric.readable import readable
 from ehlectric.runtime.files import column_head, csv_of
 from ehlectric.tables.measured_tables import columns_table
 
@@ -80,7 +81,7 @@ def _lettered(entry: Mapping[str, Any] | None) -> str:
     if entry is None:
         return "-  "
     factor, _ = OILS["units"][entry["unit"]]
-    return f"{factor * entry['value']:.4g} {LETTERS.get(entry['kind'], ' ')}"
+    return f"{readable(factor * entry['value'], 4)} {LETTERS.get(entry['kind'], ' ')}"
 
 
 def heading(report: OilReport) -> str:
@@ -131,7 +132,7 @@ def _cells(report: OilReport, line: SurveyLine) -> Iterator[str]:
             beyond = line.pressure > 0.0 and all(key in oil.laws for key in line.of.laws)
             yield "beyond a pole" if beyond else "missing"
         else:
-            yield f"{factor * value:.4g}{'*' if report.beyond(line, oil) else ''}"
+            yield f"{readable(factor * value, 4)}{'*' if report.beyond(line, oil) else ''}"
 
 
 def behind_table(report: OilReport) -> Table:
@@ -220,10 +221,12 @@ def _bearing_cells(bearing: CatalogueBearing) -> Iterator[str]:
     sizes = filter(None, (bearing.element_diameter, bearing.roller_length))
     yield " x ".join([str(bearing.elements), *map(_millimetres, sizes)])
     yield _millimetres(bearing.pitch_diameter)
-    yield f"{math.degrees(bearing.contact_angle):.4g}" if bearing.contact_angle else ""
+    yield readable(math.degrees(bearing.contact_angle), 4) if bearing.contact_angle else ""
     rating = bearing.rating
-    yield from ("", "") if rating is None else (f"{1e-3 * f:.4g}" for f in (rating.dynamic, rating.static))
+    yield from (
+        ("", "") if rating is None else (readable(1e-3 * f, 4) for f in (rating.dynamic, rating.static))
+    )
 
 
 def _millimetres(length: float) -> str:
-    return f"{1e3 * length:.5g}"
+    return readable(1e3 * length, 5)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.errors import printable
 from ehlectric.quantities.sheets import SURFACES
+from ehlectric.readable import readable
 from ehlectric.tables.measured_tables import columns_table
 
 if TYPE_CHECKING:
@@ -41,12 +42,12 @@ def size_text(surface: Mapping[str, Any]) -> str:
     """Points, spacing, voids and height resolution of a surface with processing steps."""
     first = surface["steps"][0]
     axes = ("spacing_x", "spacing_y") if "sq" in first else ("spacing",)
-    spacing = " x ".join(f"{first[axis] * 1e6:.6g}" for axis in axes)
+    spacing = " x ".join(readable(first[axis] * 1e6, 6) for axis in axes)
     parts = [*filter(None, [_size(surface["size"])]), f"spacing {spacing} µm"]
     if surface["voids"]:
-        parts.append(f"{100 * surface['voids']:.2g} % voids")
+        parts.append(f"{readable(100 * surface['voids'], 2)} % voids")
     if surface["height_step"] is not None:
-        parts.append(f"height resolution {surface['height_step'] * 1e9:.2g} nm")
+        parts.append(f"height resolution {readable(surface['height_step'] * 1e9, 2)} nm")
     return ", ".join(parts)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ehlectric.discharge.breakdown_rule import ONE_NUMBER
 from ehlectric.quantities.rows import Row
+from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
@@ -69,12 +70,12 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     for name, value in values.items():
         # Real films break down at lower voltages; that says nothing about how much the voltages scatter.
         bound = label.bound if at_most and name != "standard deviation" else ""
-        rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit, bound=bound))
+        rows.append(Row(f"{label.name}, {name}", readable(scale.factor * value, 4), scale.unit, bound=bound))
     share = sensitivity.share_below_voltage
     if share is not None:
         voltage = breakdown.voltage_name
         low, high = sensitivity.share_below_voltage_bounds or (share, share)
-        shown = share if high - low < ONE_NUMBER else f"{100.0 * low:.3g} to {100.0 * high:.3g}"
+        shown = share if high - low < ONE_NUMBER else f"{readable(100.0 * low)} to {readable(100.0 * high)}"
         rows.append(Row(f"samples below the {voltage}", shown, "%", digits=".3g"))
     return rows
 

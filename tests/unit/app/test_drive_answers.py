@@ -12,11 +12,12 @@ from ehlectric.app.session import SURFACES
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.quick_drive import expected, quick_drive
 from ehlectric.errors import InputError
-from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.readable import readable
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
+from tests.helpers.readable import number_in
 
 SHORT = DRIVE.changed({"drive.duration": "2 ms"})
 
@@ -39,7 +40,7 @@ def simulated(tmp_path_factory):
 
 def number(text):
     """Number of a text with its unit, in the unit of the text."""
-    return float(text.replace("\u202f", "").split()[0])
+    return number_in(text)
 
 
 @pytest.mark.slow
@@ -194,7 +195,7 @@ def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     assert number(answer.number("end.peak_voltage").text) == pytest.approx(one["peak_voltage"], rel=5e-3)
     assert number(answer.number("end.energy_mean").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
     assert answer.judged.level == "red"
-    assert f"{number_text(one['events_per_second'])} a second" in answer.judged.numbers
+    assert f"{readable(one['events_per_second'])} a second" in answer.judged.numbers
     assert "is an assumption" in answer.judged.assumptions
     parts = [done for done, of, _ in told if of]
     assert parts == sorted(parts)
@@ -209,7 +210,7 @@ def test_remedies_stand_side_by_side(simulated):
     assert titles == names
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     rates = [summary[table]["events_per_second"] for table in (*ENDS, "drive")]
-    assert list(map(float, answer.remedies.rows[0][1:])) == pytest.approx(rates, rel=5e-3)
+    assert list(map(number_in, answer.remedies.rows[0][1:])) == pytest.approx(rates, rel=5e-3)
     chart = answer.figures["remedies"]
     # A ring leaves no discharge: its mark is the upper bound.
     ring = summary["remedies"][0]["drive_end"]
@@ -310,7 +311,7 @@ def test_a_duty_cycle_is_simulated_with_the_drive(tmp_path):
     answer = simulate(table, tmp_path, tmp_path / "out", lambda *_: None)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     rows = {line.name: line.text for line in answer.lines}
-    total = number_text(summary["duty"]["discharges"])
+    total = readable(summary["duty"]["discharges"])
     assert rows["discharges in the cycle, both bearings"] == total
     assert (tmp_path / "out" / "duty.csv").is_file()
     figure = answer.figures["duty"]

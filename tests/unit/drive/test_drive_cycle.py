@@ -15,10 +15,10 @@ from ehlectric.drive.drive_record import COLUMNS, ENERGY
 from ehlectric.drive.run import save
 from ehlectric.drive.solver import solve
 from ehlectric.errors import InputError
-from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_KEYS
 from ehlectric.quantities.units import RPM
+from ehlectric.readable import readable
 from ehlectric.tables.drive_tables import drive_rows
 from tests.helpers.drives import small_drive
 from tests.helpers.titles import title_of
@@ -257,7 +257,7 @@ def test_figure_and_tables(solved):
     rows = {row.key: row.text for row in drive_rows(result.summary())}
     assert rows["duty.standstill_share"] == "16.7 %"
     low, high = (result.duty.discharges[0].low, result.duty.discharges[0].high)
-    assert rows["drive_end.duty_discharges_range"] == f"{number_text(low)} to {number_text(high)}"
+    assert rows["drive_end.duty_discharges_range"] == f"{readable(low)} to {readable(high)}"
     assert rows["duty.stretches.0.discharges"].endswith("rpm")
 
 

@@ -238,7 +238,7 @@ def test_each_row_of_a_duty_cycle_has_its_own_resistance(tmp_path):
     duty = run_drive_cycle(driven(3000, duty={"file": str(tmp_path / "cycle.csv")}), 280.0, recorded)
     assert seen == pytest.approx({6000: 5.0 * 10.0 ** (3.0 / 7.0), 12000: 50.0}, rel=1e-9)
     (note,) = (one for one in duty.warnings if one.code == "ring-table-exceeded")
-    assert "0 to 10000 rpm, for 44.4 % of the time" in str(note), "two of four and a half seconds"
+    assert "0 to 10\xa0000 rpm, for 44.4 % of the time" in str(note), "two of four and a half seconds"
 
 
 def test_the_example_holds_when_slow_and_not_when_fast():

@@ -13,6 +13,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
+from tests.helpers.readable import grouped
 
 NOTE = ResultWarning("isothermal-film", "smooth films")
 
@@ -42,8 +43,8 @@ def test_a_drive_that_discharges(drive):
     verdict = drive_verdict(drive.case, drive.summary(), drive.warnings)
     found = drive.summary()["drive_end"]
     assert verdict.level == "red"
-    rate = float(f"{found['events_per_second']:.3g}")
-    assert verdict.text.startswith(f"Discharges expected: {rate:g} a second")
+    rate = grouped(found["events_per_second"])
+    assert verdict.text.startswith(f"Discharges expected: {rate} a second")
     assert "at 95 %" in verdict.text
     assert " 10 Ω" in verdict.text
 

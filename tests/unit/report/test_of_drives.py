@@ -33,6 +33,7 @@ from ehlectric.report.report_texts import (
 from ehlectric.report.written_report import html_of
 from tests.helpers.drives import drive_with_remedy, small_drive
 from tests.helpers.places import ROOT
+from tests.helpers.readable import number_in
 from tests.helpers.reports import HOSTILE, Page, needs_pdftotext, text_of_pdf
 
 LOAD = "non_drive_end.bearing.radial_load"
@@ -99,7 +100,8 @@ def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
     assert events["number of discharges"][:2] == tuple(str(end["events"]) for end in ends)
     bounds = [[float(end[f"events_per_second_{side}"]) for side in ("low", "high")] for end in ends]
     shown = [
-        list(map(float, text.split(" to "))) for text in events["discharges per second, 95 % interval"][:2]
+        list(map(number_in, text.split(" to ")))
+        for text in events["discharges per second, 95 % interval"][:2]
     ]
     assert np.array(shown) == pytest.approx(np.array(bounds), rel=5e-3)
     assert events["energy of a discharge, mean"] == (
@@ -132,7 +134,7 @@ def test_voltages_of_the_shaft_and_signs_of_discharges_are_those_of_the_simulati
     for b, end in enumerate(("drive_end", "non_drive_end")):
         volts = np.array([row["voltage"] for row in drive.events() if row["bearing"] == end])
         for name, count in (("positive", np.sum(volts > 0.0)), ("negative", np.sum(volts < 0.0))):
-            rate = float(discharges[f"discharges per second, shaft {name}"][b])
+            rate = number_in(discharges[f"discharges per second, shaft {name}"][b])
             assert rate == pytest.approx(count / record.duration, rel=5e-3)
 
 
@@ -216,7 +218,7 @@ def test_remedies_stand_beside_the_drive_with_what_they_change(report, drive):
     high = drive.summary()["remedies"][0]["drive_end"]["events_per_second_high"]
     assert sides[3][2:5] == ("0", f"at most {high:.3g}", "–")
     both = drive.summary()["drive"]["events_per_second"]
-    assert float(sides[2][2]) == pytest.approx(both, rel=5e-3)
+    assert number_in(sides[2][2]) == pytest.approx(both, rel=5e-3)
     verdicts = rows(found["Verdict on each remedy"])
     assert verdicts["as it is"] == ("Discharges expected", "none")
     assert verdicts["Grounding ring"][0].endswith("in an ideal film (upper bound)")
@@ -324,7 +326,8 @@ def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
     assert Text(verdict.text) in report.sections[2].blocks
     points = tables(report, "Points")["Points of the sweep"]
     rates = [
-        float(row[points.heads.index("discharges per second, both bearings [1/s]")]) for row in points.rows
+        number_in(row[points.heads.index("discharges per second, both bearings [1/s]")])
+        for row in points.rows
     ]
     assert rates == pytest.approx(results.values("drive.events_per_second"), rel=1e-3)
     # The bearings differ from point to point, so that both ends have columns.

@@ -15,8 +15,10 @@ from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of, lis
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
+from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
-from ehlectric.quantities.units import rpm, rpm_text
+from ehlectric.quantities.units import rpm
+from ehlectric.readable import readable
 
 # A circle of a lambda ratio is left out where the smallest film is above this many times its thickness.
 _FAR = 4.0
@@ -168,7 +170,7 @@ def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], sy
         "name": f"{name} ring",
         "marker": {"color": color, "size": 7.0 + width, "symbol": marker},
         "hovertemplate": f"{name} contact of element %{{customdata}}<br>at %{{theta:.0f}}°<br>"
-        f"{symbol} = %{{r:.4g}} {unit}<extra></extra>",
+        f"{symbol} = %{{r:,.4~r}} {unit}<extra></extra>",
         "cliponaxis": False,
     }
 
@@ -178,7 +180,7 @@ def _circle(ratio: float, radius: float, words: str, dash: str) -> Plot:
     return scatter(
         range(0, 361, 5),
         [radius] * 73,
-        hover=f"λ = {ratio:g}<br>h = {radius:.4g} µm",
+        hover=f"λ = {ratio:g}<br>h = {readable(radius, 4)} µm",
         polar=True,
         line={"color": MIDDLE_GREY, "width": 1.5, "dash": dash},
         name=f"λ = {ratio:g}: surfaces {words} inside",
@@ -234,9 +236,9 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
         rows.append(
             (
                 rpm_text(speed),
-                f"{lambda_ratio:.3g}",
-                *(f"{1e12 * value:.4g}" for value in capacitances),
-                *(f"{value:.4g}" if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
+                readable(lambda_ratio),
+                *(readable(1e12 * value, 4) for value in capacitances),
+                *(readable(value, 4) if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
                 _state(lambda_ratio, summary["bearing"]["lubrication"], over.curves.summit_height),
             )
         )

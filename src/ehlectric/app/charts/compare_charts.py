@@ -26,7 +26,7 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
             whole = f"{name}, {curve.name}"
             over = {"x": list(curve.speed), "y": list(curve.voltage), "name": whole, "mode": "lines"}
             line = {"color": colour, "width": width, "dash": dash}
-            hover = f"{whole}<br>%{{x:.0f}} rpm: %{{y:.3g}} V<extra></extra>"
+            hover = f"{whole}<br>%{{x:.0f}} rpm: %{{y:,.3~r}} V<extra></extra>"
             traces.append({"type": "scatter", **over, "line": line, "hovertemplate": hover})
             at = {"x": [curve.own[0]], "y": [curve.own[1]], "mode": "markers+text", "text": [name]}
             look = {"marker": {"color": colour, "size": 11}, "textposition": "top left", "showlegend": False}
@@ -58,7 +58,7 @@ def films(sides: Sequence[Side]) -> dict[str, Any]:
                 "size": 9,
                 "symbol": f"{symbol}-open" if film.ring == "outer" else symbol,
             },
-            "hovertemplate": f"{name}, {film.ring} ring<br>%{{theta:.0f}}°: %{{r:.4g}} µm<extra></extra>",
+            "hovertemplate": f"{name}, {film.ring} ring<br>%{{theta:.0f}}°: %{{r:,.4~r}} µm<extra></extra>",
         }
         for side, name, colour, symbol in zip(
             sides, "AB", (_FIRST, _SECOND), ("circle", "square"), strict=False

@@ -39,10 +39,11 @@ from ehlectric.figures.drive_figures import (
 )
 from ehlectric.figures.duty_panels import drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
-from ehlectric.quantities.formats import formatted, number_text
+from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.palette import BLUE, MIDDLE_GREY, faint
 from ehlectric.quantities.results import EVENT_KEYS, STATISTICS
-from ehlectric.quantities.units import rpm_text, unit_for
+from ehlectric.quantities.units import unit_for
+from ehlectric.readable import formatted, readable
 
 # Largest number of discharges of a bearing in the table.
 _LISTED = 400
@@ -93,7 +94,7 @@ def voltages_figure(result: DriveResult) -> Figure:
     along = time_axis(result)
 
     rows = [
-        (name, f"{at:.4g}", f"{volts:.3g}")
+        (name, readable(at, 4), readable(volts))
         for b, name in enumerate(NAMES)
         for at, volts in list(zip(*shown_discharges(result, b), strict=True))[:_LISTED]
     ]
@@ -112,10 +113,10 @@ def cycle_figure(result: DriveResult, duty: DriveDuty) -> Figure:
     heads = ("begin [s]", "end [s]", "discharges", "energy [mJ]", "mean speed [rpm]", "least λ")
     rows = tuple(
         (
-            *(f"{value:.6g}" for value in (one.start, one.end)),
-            *(number_text(value) for value in (one.discharges, 1e3 * one.energy)),
+            *(readable(value, 6) for value in (one.start, one.end)),
+            *(readable(value) for value in (one.discharges, 1e3 * one.energy)),
             rpm_text(one.speed),
-            f"{one.lambda_ratio:.3g}",
+            readable(one.lambda_ratio),
         )
         for one in duty.stretches
     )
@@ -141,13 +142,13 @@ def histogram_figure(result: DriveResult) -> Figure:
     top = float(np.max(shares, initial=1e-12))
     # A logarithmic axis leaves out what has no share.
     known = np.where(shares > 0.0, shares, np.nan)
-    data = [_steps(factor * middle[inside], known[b], b, f"at %{{x:.4g}} {unit}") for b in range(2)]
+    data = [_steps(factor * middle[inside], known[b], b, f"at %{{x:,.4~r}} {unit}") for b in range(2)]
     positive = shares[shares > 0.0]
     least = max(0.5 * float(np.min(positive, initial=top)), _LEAST * top)
     near = sorted({volts for b in range(2) if (volts := breakdown_of(result, b)) <= most})
     threshold = {"color": MIDDLE_GREY, "width": 1.5, "dash": "dash"}
     rows = [
-        (f"{limit:g}", *(f"{100.0 * time / record.duration:.3g}" for time in column))
+        (f"{limit:g}", *(readable(100.0 * time / record.duration) for time in column))
         for limit, column in zip(record.limits, record.above.T, strict=True)
     ]
     heads = ("above [V]", *(f"{name} [% of time]" for name in NAMES))
@@ -159,7 +160,8 @@ def histogram_figure(result: DriveResult) -> Figure:
             height=_HEIGHT,
             xaxis=axis(f"voltage across the films [{unit}]", range=[-factor * most, factor * most]),
             yaxis=_log_axis(
-                f"share of time per {factor * width:.3g} {unit} [%]", (min(least, 0.01 * top), 2.0 * top)
+                f"share of time per {readable(factor * width)} {unit} [%]",
+                (min(least, 0.01 * top), 2.0 * top),
             ),
             shapes=[vertical(sign * factor * volts, line=threshold) for volts in near for sign in (1, -1)],
             hovermode="x",
@@ -181,7 +183,7 @@ def _steps(at: Array, share: Array, b: int, where: str, *, shape: str = "hvh", *
         at,
         share,
         digits=(5, 4),
-        hover=f"%{{y:.3g}} % {where}",
+        hover=f"%{{y:,.3~r}} % {where}",
         label=NAMES[b],
         name=NAMES[b],
         line={"color": COLOURS[b], "width": 2.0, "shape": shape, "dash": ("solid", "dash")[b]},
@@ -198,7 +200,7 @@ def spectrum_figure(result: DriveResult) -> Figure:
         frequencies,
         factor * amplitudes,
         digits=(6, 4),
-        hover=f"%{{y:.3g}} {unit} at %{{x:.5g}} Hz",
+        hover=f"%{{y:,.3~r}} {unit} at %{{x:,.5~r}} Hz",
         name="shaft voltage",
         line={"color": BLUE, "width": 1.5},
     )
@@ -210,7 +212,7 @@ def spectrum_figure(result: DriveResult) -> Figure:
         yaxis=_log_axis(f"amplitude of the shaft voltage [{unit}]", (factor * low, factor * high), dtick=1),
     )
     largest = np.argsort(-amplitudes, kind="stable")[:_LINES]
-    rows = tuple((f"{frequencies[k]:.6g}", f"{factor * amplitudes[k]:.4g}") for k in largest)
+    rows = tuple((readable(frequencies[k], 6), readable(factor * amplitudes[k], 4)) for k in largest)
     return Figure(
         "Spectrum of the shaft voltage",
         f"Amplitude of the shaft voltage over the frequency. {finding}.",
@@ -264,7 +266,7 @@ def _bars(edges: Array, values: Array, b: int, unit: str) -> Plot:
     counts, _ = np.histogram(np.clip(values, edges[0], edges[-1]), edges)
     share = np.append(100.0 * counts / values.size, 0.0)
     fill = {"fill": "tozeroy", "fillcolor": faint(BLUE, 0.25)} if b == 0 else {}
-    return _steps(edges, share, b, f"from %{{x:.4g}} {unit}", shape="hv", **fill)
+    return _steps(edges, share, b, f"from %{{x:,.4~r}} {unit}", shape="hv", **fill)
 
 
 def remedies_figure(result: DriveResult) -> Figure:
@@ -338,11 +340,11 @@ def _marks(rows: Sequence[tuple[int, str, Mapping[str, Any]]], key: str, b: int,
 
 
 def _rate_with_bounds(end: Mapping[str, Any]) -> str:
-    high = number_text(end["events_per_second_high"])
+    high = readable(end["events_per_second_high"])
     if not end["events"]:
         return f"none, at most {high}"
-    low = number_text(end["events_per_second_low"])
-    return f"{number_text(end['events_per_second'])} ({low} to {high})"
+    low = readable(end["events_per_second_low"])
+    return f"{readable(end['events_per_second'])} ({low} to {high})"
 
 
 def _broken(name: str) -> str:

@@ -10,8 +10,8 @@ from ehlectric.bearing.cycle_rows import STATES
 from ehlectric.bearing.duty_cycle import DutyResult
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.duty_panels import duty_panels, time_axis
-from ehlectric.quantities.formats import scale_of
-from ehlectric.quantities.units import rpm_text
+from ehlectric.quantities.formats import rpm_text, scale_of
+from ehlectric.readable import readable
 
 # Heads of the table over the time, and largest number of its rows.
 DUTY_HEADS = ("time [s]", "speed [rpm]", "temperature [°C]", "λ", "margin", "state")
@@ -50,10 +50,10 @@ def duty_rows(duty: DutyResult) -> list[tuple[str, ...]]:
     rows, celsius = duty.rows, scale_of("°C")
     return [
         (
-            f"{rows.time[k]:.6g}",
+            readable(rows.time[k], 6),
             rpm_text(rows.speed[k]),
-            f"{celsius.of(float(rows.temperature[k])):.4g}",
-            *(f"{one[k]:.3g}" if one[k] == one[k] else "none" for one in (rows.lambda_ratio, rows.margin)),
+            readable(celsius.of(float(rows.temperature[k])), 4),
+            *(readable(one[k]) if one[k] == one[k] else "none" for one in (rows.lambda_ratio, rows.margin)),
             STATES[int(rows.state[k])],
         )
         for k in kept_nodes(rows.time.size, MOST_DUTY_ROWS).tolist()

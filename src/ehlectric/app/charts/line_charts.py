@@ -40,6 +40,7 @@ from ehlectric.figures.contact_profiles import (
 from ehlectric.figures.data import Along
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,9 @@ def main_numbers(result: Result | PointResult) -> str:
     to_p, pressure = unit_for(film.max_pressure, "Pa")
     to_e, strength = unit_for(result.field.max_strength, "V/m")
     return (
-        f"{least} {to_h * film.minimum_thickness:.4g} {length}, maximum pressure "
-        f"{to_p * film.max_pressure:.4g} {pressure}, maximum field "
-        f"{to_e * result.field.max_strength:.4g} {strength}."
+        f"{least} {readable(to_h * film.minimum_thickness, 4)} {length}, maximum pressure "
+        f"{readable(to_p * film.max_pressure, 4)} {pressure}, maximum field "
+        f"{readable(to_e * result.field.max_strength, 4)} {strength}."
     )
 
 
@@ -109,7 +110,7 @@ def spots_text(result: Result | PointResult) -> str:
         return ""
     least = result.film.minimum_thickness
     factor, unit = unit_for(least, "m")
-    return f"Surfaces touch where the film is the boundary film of {factor * least:.3g} {unit}."
+    return f"Surfaces touch where the film is the boundary film of {readable(factor * least)} {unit}."
 
 
 # Largest number of columns of the map, and its rows.
@@ -150,7 +151,7 @@ def _profiles(result: Result) -> Figure:
         panels += [field_strength(line), *heat(line)]
     told = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
-        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
+        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{readable(b, 4)} {unit}.",
         spots_text(result),
         BEYOND if result.converged and touches(result) else "",
     )
@@ -185,11 +186,11 @@ def _section(result: Result) -> Figure:
         "zmax": to_e * scale,
         "colorscale": FIELD_COLOURS,
         "colorbar": {"title": {"text": strength}, "thickness": 12},
-        "hovertemplate": f"x = %{{x:.5g}} {unit}<br>height %{{y:.4g}} {height}<br>"
-        f"field %{{z:.4g}} {strength}<extra></extra>",
+        "hovertemplate": f"x = %{{x:,.5~r}} {unit}<br>height %{{y:,.4~r}} {height}<br>"
+        f"field %{{z:,.4~r}} {strength}<extra></extra>",
         "hoverongaps": False,
     }
-    name = f"maximum, {to_e * field.max_strength:.4g} {strength}"
+    name = f"maximum, {readable(to_e * field.max_strength, 4)} {strength}"
     cross = mark(to_x * field.x[k], to_z * field.y[k, j], name)
     traces = [heat, *_bodies(x, walls), _potentials(result, kept, to_x, to_z), cross]
     return Figure(
@@ -204,8 +205,8 @@ def _section(result: Result) -> Figure:
             hovermode="closest",
         ),
         caption=f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
-        f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own."
-        + (f" {BEYOND}" if touches(result) else ""),
+        f"{readable(to_e * low)} {strength}. Values between nodes are interpolated; the maximum is a "
+        "node's own." + (f" {BEYOND}" if touches(result) else ""),
     )
 
 
@@ -251,6 +252,6 @@ def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> Plot
         digits=(5, 4),
         # Seen on the colours of the field, and in the legend on a light and on a dark page.
         line={"color": "#1098ad", "width": 1},
-        name=f"equal potential, every {step:.3g} V",
+        name=f"equal potential, every {readable(step)} V",
         visible="legendonly",
     )

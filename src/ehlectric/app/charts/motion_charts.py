@@ -30,6 +30,7 @@ from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages
 from ehlectric.quantities.palette import AMBER, BLUE, GREEN, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # Largest number of pieces of a line over time, each drawn by its lowest and its highest point.
 _PIECES = 1000
@@ -91,7 +92,7 @@ def history(run: MotionRun) -> Plot:
                 time[kept],
                 of["film"][0] * film[kept],
                 digits=(6, 5),
-                hover=f"time step halved, t = %{{x:.4g}} {unit}",
+                hover=f"time step halved, t = %{{x:,.4~r}} {unit}",
                 name="time step not converged at once, and halved",
                 marker={"color": MIDDLE_GREY, "symbol": "x", "size": 7},
             )
@@ -116,7 +117,7 @@ def _over_time(name: str, unit: Unit, curve: tuple[Array, Array], of_time: str, 
         curve[0][chosen],
         unit[0] * curve[1][chosen],
         digits=(6, 5),
-        hover=f"{name} %{{y:.4g}} {unit[1]}{solved}<br>t = %{{x:.4g}} {of_time}",
+        hover=f"{name} %{{y:,.4~r}} {unit[1]}{solved}<br>t = %{{x:,.4~r}} {of_time}",
         name=f"{name}, recorded" if dots else name,
         showlegend=False,
         **look,
@@ -175,7 +176,7 @@ def texts(run: MotionRun, chosen: IntArray) -> list[str]:
             f"maximum field {_amount(fields[frame], of['field'])}",
         ]
         if voltages is not None:
-            parts.append(f"breakdown voltage {voltages[frame]:.4g} V")
+            parts.append(f"breakdown voltage {readable(voltages[frame], 4)} V")
         sentences.append(f"t = {_amount(run.frame_time[frame], of['time'])}: {', '.join(parts)}")
     return sentences
 
@@ -196,7 +197,7 @@ def _steps(run: MotionRun) -> Array:
 
 
 def _amount(value: float, unit: Unit) -> str:
-    return f"{unit[0] * value:.4g} {unit[1]}"
+    return f"{readable(unit[0] * value, 4)} {unit[1]}"
 
 
 def _stacked(titles: Sequence[str], along: str) -> Plot:
@@ -246,7 +247,7 @@ def _line_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plo
         )
         for number, ((_, unit, label, colour), rows) in enumerate(zip(panels, values, strict=True))
     ]
-    marks = _marks(BLUE, "#ffffff", " %{y:.4g}")
+    marks = _marks(BLUE, "#ffffff", " %{y:,.4~r}")
     marks[1]["yaxis"] = "y3"
     places = [_marked(run, frame, of) for frame in chosen.tolist()]
     frames = _frames([[{"y": listed(row, 4)} for row in rows] for rows in zip(*values, strict=True)], places)

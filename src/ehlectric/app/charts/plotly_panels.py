@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array, Mask
 from ehlectric.figures.data import Along, Area, Curve, Panel
 from ehlectric.quantities.palette import MIDDLE_GREY, faint
+from ehlectric.readable import readable
 
 # Maps of colours: film, pressure and field. Plotly has no Plasma of its own.
 FILM_COLOURS, PRESSURE_COLOURS = "Viridis", "Cividis"
@@ -73,6 +74,8 @@ def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = Tr
         "hoverlabel": {"font": {"size": 13}},
         "modebar": {"bgcolor": "rgba(0,0,0,0)"},
         "uirevision": "same",
+        # The decimal point, and a space that breaks no line between groups of three digits.
+        "separators": ".\xa0",
         **layout,
     }
     if not converged:
@@ -86,6 +89,7 @@ def axis(title: str = "", **more: Any) -> Plot:
     """Axis of a figure; ``title`` has its unit in brackets."""
     look: Plot = {"gridcolor": _GRID, "zerolinecolor": _LINE, "linecolor": _LINE, "ticks": "outside"}
     look |= {"tickcolor": _LINE, "automargin": True, "showline": True}
+    look |= {"separatethousands": True, "minexponent": 6}
     return look | ({"title": {"text": title, "standoff": 6}} if title else {}) | more
 
 
@@ -94,7 +98,7 @@ def log_ticks(*, log: bool) -> Plot:
     if not log:
         return {"type": "linear"}
     ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1.0, 2.0, 5.0)]
-    texts = [f"{tick:.12g}" for tick in ticks]
+    texts = [readable(tick, 12) for tick in ticks]
     return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
 
 
@@ -244,7 +248,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
         "xaxis": axis(
             f"{along.name} [{along.unit}]",
             anchor=axis_name(len(panels) - 1),
-            unifiedhovertitle={"text": f"{along.name} = %{{x:.5g}} {along.unit}"},
+            unifiedhovertitle={"text": f"{along.name} = %{{x:,.5~r}} {along.unit}"},
             **({"range": list(along.window)} if along.window else {}),
             **log_ticks(log=along.log),
         ),
@@ -296,7 +300,7 @@ def _trace(curve: Curve, panel: Panel, yaxis: str, *, converged: bool) -> Plot:
         curve.x[kept],
         curve.y[kept],
         # The name of a single mark has its value.
-        hover=f"%{{y:.4g}} {panel.unit}" if curve.name and curve.x.size > 1 else "",
+        hover=f"%{{y:,.4~r}} {panel.unit}" if curve.name and curve.x.size > 1 else "",
         label=curve.name,
         yaxis=yaxis,
         name=curve.name,

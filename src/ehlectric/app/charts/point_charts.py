@@ -51,6 +51,7 @@ from ehlectric.figures.contact_profiles import (
 from ehlectric.figures.data import Along
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
+from ehlectric.readable import readable
 
 # Largest number of nodes along an axis of the surface, and of a map.
 _MOST, _MAP = 129, 141
@@ -79,8 +80,8 @@ def film_surface(result: PointResult) -> Figure:
         "cmax": to_e * field_scale(result),
         "colorscale": FIELD_COLOURS,
         "colorbar": {"title": {"text": f"field<br>{unit}"}, "thickness": 12, "len": 0.7},
-        "hovertemplate": f"x = %{{x:.4g}} {lengths.unit}<br>y = %{{y:.4g}} {lengths.unit}<br>"
-        f"film %{{z:.4g}} {film_unit}<br>field %{{surfacecolor:.4g}} {unit}<extra></extra>",
+        "hovertemplate": f"x = %{{x:,.4~r}} {lengths.unit}<br>y = %{{y:,.4~r}} {lengths.unit}<br>"
+        f"film %{{z:,.4~r}} {film_unit}<br>field %{{surfacecolor:,.4~r}} {unit}<extra></extra>",
         "lighting": {"ambient": 0.75, "diffuse": 0.5, "specular": 0.1},
     }
     nodes = f"{gap.shape[0]} x {gap.shape[1]} nodes"
@@ -114,8 +115,8 @@ def _pins(result: PointResult, lengths: Lengths) -> list[Plot]:
     least = (*film.minimum_position, film.minimum_thickness)
     largest = (float(field.x[i]), float(field.y[j]), float(gap[i, j]))
     names = (
-        f"minimum film, {to_h * film.minimum_thickness:.4g} {height}",
-        f"maximum field, {to_e * field.max_strength:.4g} {strength}",
+        f"minimum film, {readable(to_h * film.minimum_thickness, 4)} {height}",
+        f"maximum field, {readable(to_e * field.max_strength, 4)} {strength}",
     )
     looks = (("#00a0ff", "circle"), ("#00b386", "diamond"))
     return [
@@ -182,11 +183,16 @@ def _cut(result: PointResult, along: str, at: float) -> Figure:
     edge = _edge(semi, place / conditions.semi_axes[1 if first else 0])
     window = (BEFORE * semi, BEHIND * semi) if first else (-1.5 * semi, 1.5 * semi)
     window = max(window[0], float(line.x[0])), min(window[1], float(line.x[-1]))
-    title = f"Cut along {along} at {'y' if first else 'x'} = {lengths.factor * place:.4g} {lengths.unit}"
+    title = (
+        f"Cut along {along} at {'y' if first else 'x'} = {readable(lengths.factor * place, 4)} {lengths.unit}"
+    )
     if edge is None:
         caption = "This cut is outside of the dry contact."
     else:
-        caption = f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {lengths.unit}."
+        caption = (
+            f"Dashed lines: edges of the dry contact on this cut, {along} = ±{readable(edge, 4)} "
+            f"{lengths.unit}."
+        )
     return Figure(
         title,
         f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
@@ -253,8 +259,8 @@ def _film_map(result: PointResult) -> _Map:
         limits=(least, max(highest, 1.001 * least)),
         colours=FILM_COLOURS,
         mark=film.minimum_position,
-        marked="" if touches(result) else f"minimum film, {least:.4g} {unit}",
-        caption=f"Film above {highest:.3g} {unit} has the last colour. {spots_text(result)}".strip(),
+        marked="" if touches(result) else f"minimum film, {readable(least, 4)} {unit}",
+        caption=f"Film above {readable(highest)} {unit} has the last colour. {spots_text(result)}".strip(),
     )
 
 
@@ -271,7 +277,7 @@ def _pressure_map(result: PointResult) -> _Map:
         limits=(0.0, most),
         colours=PRESSURE_COLOURS,
         mark=(float(film.x[i]), float(film.y[j])),
-        marked=f"maximum pressure, {most:.4g} {unit}",
+        marked=f"maximum pressure, {readable(most, 4)} {unit}",
     )
 
 
@@ -280,7 +286,7 @@ def _field_map(result: PointResult) -> _Map:
     scale = field_scale(result)
     factor, unit = unit_for(scale, "V/m")
     low = factor * _least_field(result)
-    below = f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
+    below = f"Field below {readable(low)} {unit}, outside of the dry contact, has the first colour."
     beyond = BEYOND if touches(result) else ""
     return _Map(
         title="Maximum field across the film",
@@ -290,7 +296,7 @@ def _field_map(result: PointResult) -> _Map:
         limits=(low, factor * scale),
         colours=FIELD_COLOURS,
         mark=field.max_strength_position,
-        marked="" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
+        marked="" if touches(result) else f"maximum field, {readable(factor * field.max_strength, 4)} {unit}",
         caption=f"{below} {beyond}".strip(),
     )
 
@@ -317,8 +323,9 @@ def _drawn(result: PointResult, what: _Map) -> Figure:
         "contours": {"coloring": "heatmap", **_levels(low, high)},
         "line": {"width": 0.6, "color": "rgba(255,255,255,0.55)"},
         "colorbar": {"title": {"text": what.unit}, "thickness": 12},
-        "hovertemplate": f"{names[0]} = %{{x:.4g}} {lengths.unit}<br>{names[1]} = %{{y:.4g}} {lengths.unit}"
-        f"<br>{what.title.lower()} %{{z:.4g}} {what.unit}<extra></extra>",
+        "hovertemplate": f"{names[0]} = %{{x:,.4~r}} {lengths.unit}<br>"
+        f"{names[1]} = %{{y:,.4~r}} {lengths.unit}<br>"
+        f"{what.title.lower()} %{{z:,.4~r}} {what.unit}<extra></extra>",
     }
     name = what.marked
     cross = [mark(across_at, down_at, name)] if name else []

@@ -82,7 +82,7 @@ def map_figure(surface: Map, voids: Array | None = None) -> dict[str, Any]:
         "zmax": factor * high,
         "colorscale": FILM_COLOURS,
         "colorbar": {"title": {"text": f"height [{unit}]", "side": "right"}, "thickness": 12, "len": 1.0},
-        "hovertemplate": f"x %{{x:.5g}} {length}<br>y %{{y:.5g}} {length}<br>height %{{z}} {unit}"
+        "hovertemplate": f"x %{{x:,.5~r}} {length}<br>y %{{y:,.5~r}} {length}<br>height %{{z}} {unit}"
         "<extra></extra>",
     }
     return plot(

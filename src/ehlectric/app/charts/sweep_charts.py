@@ -11,6 +11,7 @@ from typing import Any
 
 from ehlectric.app.answers import Axis, Chart, ChartPoint, PointState
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY, ORANGE
+from ehlectric.readable import readable
 
 # Colours of no value are greys, so that they are never read as numbers. Every state has a marker too.
 _MARKERS: Mapping[PointState, tuple[str, str, str]] = {
@@ -107,7 +108,10 @@ def _coloured(chart: Chart, values: Sequence[float], *, log: bool) -> dict[str, 
     }
     if log:
         ticks = _ticks(min(values), max(values))
-        bar |= {"tickvals": [math.log10(tick) for tick in ticks], "ticktext": [f"{t:.4g}" for t in ticks]}
+        bar |= {
+            "tickvals": [math.log10(tick) for tick in ticks],
+            "ticktext": [readable(t, 4) for t in ticks],
+        }
     return {
         "type": "heatmap",
         **_axes_of_cells(chart),
@@ -269,7 +273,11 @@ def _axis(axis: Axis) -> dict[str, Any]:
     }
     if axis.log and min(axis.values) > 0.0:
         ticks = _ticks(min(axis.values), max(axis.values))
-        about |= {"tickmode": "array", "tickvals": ticks, "ticktext": [f"{tick:.6g}" for tick in ticks]}
+        about |= {
+            "tickmode": "array",
+            "tickvals": ticks,
+            "ticktext": [readable(tick, 6) for tick in ticks],
+        }
     return about
 
 

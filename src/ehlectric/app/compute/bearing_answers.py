@@ -68,6 +68,7 @@ from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
+from ehlectric.readable import readable
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.files import plain
@@ -437,9 +438,12 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
     loaded = [row for row in rows if row["solved"]]
     most = max(loaded, key=lambda row: row["load"])
     least = min(loaded, key=lambda row: row["minimum_thickness"])
-    load = f"the largest is {most['load']:.4g} N, {most['ring']} contact of element {most['element']}"
+    load = (
+        f"the largest is {readable(most['load'], 4)} N, {most['ring']} contact of element {most['element']}"
+    )
     film = (
-        f"the smallest is {1e6 * least['minimum_thickness']:.4g} µm (λ {least['lambda_ratio']:.3g}), "
+        f"the smallest is {readable(1e6 * least['minimum_thickness'], 4)} µm (λ "
+        f"{readable(least['lambda_ratio'])}), "
         f"{least['ring']} contact of element {least['element']}"
     )
     return {
@@ -530,5 +534,5 @@ def _scaled(over: OverSpeed, keys: Mapping[str, str]) -> str:
     """End of a sentence: the factors by which quick curves are scaled to solved contacts, by name."""
     if not _is_solved(over):
         return ""
-    factors = [f"{over.curves.scaled[key]:.3g} ({name})" for name, key in keys.items()]
+    factors = [f"{readable(over.curves.scaled[key])} ({name})" for name, key in keys.items()]
     return f", scaled by {' and '.join(factors)} to the solved contacts (star)"

@@ -34,6 +34,7 @@ from ehlectric.quantities.sheets import (
     SPOT_CARDS,
     TOUCHING_CARDS,
 )
+from ehlectric.readable import readable
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -134,10 +135,11 @@ def verdict_by_formula(
     level, lead = doubted(level, lead_of(level, likely=margin < 1.0), doubts=bool(doubts))
     text = (
         f"{lead}: by formula the film breaks down at "
-        f"{estimate['breakdown_voltage']:.3g} V, {estimate['applied_voltage']:.3g} V are applied (margin "
+        f"{readable(estimate['breakdown_voltage'])} V, {readable(estimate['applied_voltage'])} V are "
+        "applied (margin "
         f"{ratio_text(margin)})."
     )
-    strength = f"dielectric strength {estimate['dielectric_strength'] / 1e6:.3g} V/µm is an assumption"
+    strength = f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm is an assumption"
     last = f"Upper bound: isothermal, fully flooded film; {strength}."
     return Verdict(level, " ".join([text, *doubts, last]), margin, (low, high))
 
@@ -240,7 +242,7 @@ def deciding(key: str, verdict: Verdict, voltage: float, figure: str = "") -> De
     if verdict.margin is None or verdict.interval is None:
         return Deciding(key, figure=figure)
     facts = (
-        ("applied voltage", f"{voltage:.3g} V"),
+        ("applied voltage", f"{readable(voltage)} V"),
         ("of this film, within its errors", " to ".join(map(ratio_text, verdict.interval))),
     )
     gauge = Gauge(gauge_text(verdict.margin, facts), verdict.margin, verdict.interval)

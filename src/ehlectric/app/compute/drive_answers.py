@@ -40,6 +40,7 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
+from ehlectric.readable import readable
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
@@ -252,7 +253,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
         title=case.title,
         simulated=True,
         judged=judged,
-        how=f"Simulated in {summary['seconds']:.3g} s, as ehlectric drive does it.",
+        how=f"Simulated in {readable(summary['seconds'])} s, as ehlectric drive does it.",
         shown=shown,
         deciding=deciding_rate(summary, judged, figures),
         ends=ends_table(summary, DRIVE),

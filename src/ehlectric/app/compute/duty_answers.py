@@ -16,6 +16,7 @@ from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, row_of
+from ehlectric.readable import readable
 from ehlectric.tables.bearing_tables import total_rows
 
 _STRETCH = "duty.stretches"
@@ -28,7 +29,7 @@ def look(file: str, session: Path) -> str:
     """
     cycle = read_cycle(with_own_files({"duty": {"file": file}}, session)["duty"]["file"])
     names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in cycle.values)
-    text = f"{cycle.time.size} rows over {cycle.time[-1] - cycle.time[0]:.6g} s: {names}."
+    text = f"{cycle.time.size} rows over {readable(cycle.time[-1] - cycle.time[0], 6)} s: {names}."
     text += f" Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else ""
     return text + "".join(f" {warning.text}" for warning in void_rows(cycle.read))
 

@@ -24,6 +24,7 @@ from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.units import to_si, unit_for
+from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.surfaces.generated_profiles import Domain
@@ -93,12 +94,12 @@ def plainly(
 
 
 def _times(ratio: float) -> str:
-    return f"{ratio:.0f}" if ratio >= 10.0 else f"{ratio:.2g}"
+    return f"{ratio:.0f}" if ratio >= 10.0 else readable(ratio, 2)
 
 
 def _length(length: float) -> str:
     factor, unit = unit_for(length, "m", least=1.0)
-    return f"{factor * length:.3g} {unit}"
+    return f"{readable(factor * length)} {unit}"
 
 
 # Memory that the reading and the processing of a surface may take beyond that of the process [bytes].
@@ -254,7 +255,7 @@ def _named(error: InputError, table: Mapping[str, Any], name: str) -> InputError
 
 def _micrometres(length: Any) -> str:
     """Length as the error of a filter shows it."""
-    return f"{(to_si(length, 'm') if isinstance(length, str) else length) * 1e6:.4g} µm"
+    return f"{readable((to_si(length, 'm') if isinstance(length, str) else length) * 1e6, 4)} µm"
 
 
 @contextmanager

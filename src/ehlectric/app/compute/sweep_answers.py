@@ -53,6 +53,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, si_unit, split
+from ehlectric.readable import readable
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
@@ -301,7 +302,7 @@ def _point(
         texts.append(f"{label}: {of_input.text(item)}")
     if value is not None and state == "solved":
         texts.append(f"{name}: {scale.text(float(value))}")
-        texts += [] if margin is None else [f"Margin: {margin:.3g}"]
+        texts += [] if margin is None else [f"Margin: {readable(margin)}"]
     else:
         texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
     serious = [warning for warning in page_warnings_of(point.warnings) if warning.severity != "note"]
@@ -335,8 +336,8 @@ def _reason(point: Point, state: PointState) -> str:
 
 def _row(results: SweepResults, point: Point, drawn: ChartPoint) -> tuple[str, ...]:
     inputs = [_input_scale(results, key).text(item) for key, item in point.inputs.items()]
-    value = "" if drawn.value is None else f"{drawn.value:.4g}"
-    margin = "" if drawn.margin is None else f"{drawn.margin:.3g}"
+    value = "" if drawn.value is None else readable(drawn.value, 4)
+    margin = "" if drawn.margin is None else readable(drawn.margin)
     reason = "" if drawn.state in ("solved", "open") else _reason(point, drawn.state)
     state = f"{drawn.state}: {reason}" if reason else drawn.state
     return (str(point.number), *inputs, value, margin, state)
@@ -494,7 +495,7 @@ def _short(number: float, key: str) -> str:
     """Number with two digits that count, in full up to a million; a whole number of a count."""
     if isinstance(kind_of(key), Count):
         return str(round(number))
-    return f"{float(f'{number:.2g}'):g}"
+    return readable(number, 2)
 
 
 def _in_si(value: float, key: str) -> tuple[float, str]:

@@ -29,6 +29,7 @@ from ehlectric.quantities.sheets import (
     SPOT_CARDS,
     TOUCHING_CARDS,
 )
+from ehlectric.readable import readable
 
 # Figures beside the verdict, further ones, and those on which a click chooses the point of the cuts.
 _LEADING = ("profiles", "surface")
@@ -78,7 +79,7 @@ class CutSlider:
         await self._changed()
 
     def _tell(self) -> None:
-        self._label.text = f"{self._name} = {self.value:.4g} {self._unit}"
+        self._label.text = f"{self._name} = {readable(self.value, 4)} {self._unit}"
         self._slider.props["aria-valuetext"] = self._label.text
 
 

@@ -11,6 +11,7 @@ from nicegui import events, ui
 from ehlectric.app.pages.page_parts import script, weakly
 from ehlectric.app.session import ENDINGS, LARGEST, Session, shown_name
 from ehlectric.errors import InputError, LostError
+from ehlectric.readable import readable
 
 # What pages say of an uploaded file, and of one that the session does not have.
 NOT_IN_LINKS = "A link cannot hold the file; a download with everything has it."
@@ -63,7 +64,7 @@ class UploadField:
         name, status = shown_name(str(event.args.get("name", ""))), event.args.get("status")
         if status is None:
             size = float(event.args.get("size", 0)) / 1e6
-            self._refuse(f"{name}: has {size:.4g} MB; expected at most {LARGEST / 1e6:g} MB")
+            self._refuse(f"{name}: has {readable(size, 4)} MB; expected at most {LARGEST / 1e6:g} MB")
         elif status == 0:
             self._state.text = f"Reading {name}"
         else:

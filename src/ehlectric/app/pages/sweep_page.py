@@ -62,6 +62,7 @@ from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.units import split
+from ehlectric.readable import readable
 from ehlectric.runtime.worker_processes import cores
 
 Change = Callable[[Inputs], Awaitable[None]]
@@ -842,7 +843,7 @@ def duration(seconds: float) -> str:
     """
     if seconds < 100.0:
         return f"{max(1, round(seconds))} s"
-    return f"{seconds / 60.0:.2g} min" if seconds < 5400.0 else f"{seconds / 3600.0:.2g} h"
+    return f"{readable(seconds / 60.0, 2)} min" if seconds < 5400.0 else f"{readable(seconds / 3600.0, 2)} h"
 
 
 def _in_words(plan: SweepPlan) -> str:

@@ -26,6 +26,7 @@ from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_
 from ehlectric.bearing.loads.ring import Batch, BearingEquilibrium, Operation, balance, refuse_unbalanced
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
+from ehlectric.readable import readable
 
 # q = c delta^(10/9). For both contacts of a steel roller together, c_L = 35 948 L^(8/9) N/mm^(10/9), L in mm.
 _POWER = 10.0 / 9.0
@@ -392,7 +393,8 @@ def check_roller_loads(bearing: RollerBearing, operation: Operation) -> None:
         raise InputError(
             "axial_load",
             got=f"{axial:g} N",
-            takes=f"one above {least:.4g} N: with less, an inclined row is pushed apart by its radial load",
+            takes=f"one above {readable(least, 4)} N: with less, an inclined row is pushed apart by its "
+            "radial load",
         )
 
 

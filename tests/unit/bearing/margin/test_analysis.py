@@ -21,7 +21,7 @@ from ehlectric.bearing.run import save
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError
-from ehlectric.quantities.units import rpm_text
+from ehlectric.quantities.formats import rpm_text
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
