@@ -25,7 +25,7 @@ from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.grid_inputs import Solver
 from ehlectric.cases.key_names import refuse_deep
-from ehlectric.cases.keywords import Keys, split, takes
+from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, with_class
 from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.cases.roughness_inputs import find_files
@@ -220,6 +220,10 @@ class _Tables(TypedDict, total=False):
 
 class _BearingCaseKeys(_Tables, BearingKeys, total=False):
     pass
+
+
+# Fields of these keywords, by the names of their tables in the book of inputs.
+_FIELDS: Fields = {"bearing": Bearing.model_fields, "bearing_file": dict.fromkeys(keys_of(_Tables))}
 
 
 class BearingCase(CaseFile, book="bearing_file"):
@@ -431,14 +435,17 @@ class BearingCase(CaseFile, book="bearing_file"):
         )
 
     @classmethod
-    @takes(_BearingCaseKeys)
+    @takes(_BearingCaseKeys, _FIELDS)
     def of(cls, **keys: Unpack[_BearingCaseKeys]) -> BearingCase:
-        """Make a bearing case from the keys of its table ``bearing``.
+        """Make a bearing case from the keys of its table ``bearing``, and its other tables.
 
-        ``lubricant`` is the name of one of the library or its table. The keys of ``bearing`` are floats in SI
-        units, texts with units, or quantities of pint (``ehlectric.cases.bearing_inputs.BearingKeys``); all
-        others are keys and tables of a bearing file.
+        A number is a float in the SI unit in brackets, a text with its unit, or a quantity of pint. Required
+        are the bearing, by ``base`` or its dimensions, a load, ``inner_speed``, a temperature,
+        ``composite_rq`` and ``lubricant``. Keys of the other tables are on the page "Bearings" of the
+        documentation.
 
+        Examples
+        --------
         >>> BearingCase.of(
         ...     base="6208",
         ...     radial_clearance="10 um",

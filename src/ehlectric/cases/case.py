@@ -21,7 +21,7 @@ from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.cases.film_inputs import FilmPhysics, Inlet, check_film
 from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_grid
 from ehlectric.cases.key_names import refuse_deep
-from ehlectric.cases.keywords import Keys, split, takes
+from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.replaced_keys import refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
@@ -61,6 +61,13 @@ class _LineCaseKeys(_Tables, LineKeys, total=False):
 
 class _PointCaseKeys(_Tables, PointKeys, total=False):
     pass
+
+
+# Fields of the keywords of both, by the names of their tables in the book of inputs.
+_FIELDS: Fields = {
+    "contact": Contact.model_fields,
+    "case_file": dict.fromkeys(key for key in keys_of(_Tables) if key != LAWS),
+}
 
 
 class Case(CaseFile, book="case_file"):
@@ -250,13 +257,16 @@ class Case(CaseFile, book="case_file"):
         return headline(self.title, f"{self.contact.geometry} contact", *numbers, motion, laws)
 
     @classmethod
-    @takes(_LineCaseKeys)
+    @takes(_LineCaseKeys, _FIELDS)
     def line(cls, **keys: Unpack[_LineCaseKeys]) -> LineCase:
-        """Make the case of a line contact from the keys of its table ``contact``.
+        """Make the case of a line contact from the keys of its table ``contact``, and its other tables.
 
-        Its keys (``ehlectric.cases.contact_inputs.LineKeys``) are floats in SI units, texts with units, or
-        quantities of pint; others are tables, ``lubricant`` also a name. Doubtful radii and moduli warn.
+        A number is a float in the SI unit in brackets, a text with its unit, or a quantity of pint. Required
+        are a radius, the elasticity, a load, a speed and ``lubricant``. Doubtful radii and moduli warn. Keys
+        of the other tables are on the page "Case files" of the documentation.
 
+        Examples
+        --------
         >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9}
         >>> Case.line(**steel, max_hertz_pressure="1 GPa", entrainment_speed=4.0, lubricant="paper")
         <LineCase line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
@@ -264,12 +274,15 @@ class Case(CaseFile, book="case_file"):
         return _of_keys(LineCase, "line", keys)
 
     @classmethod
-    @takes(_PointCaseKeys)
+    @takes(_PointCaseKeys, _FIELDS)
     def point(cls, **keys: Unpack[_PointCaseKeys]) -> PointCase:
-        """Make the case of a point contact from the keys of its table ``contact``.
+        """Make the case of a point contact from the keys of its table ``contact``, and its other tables.
 
-        Its keys (``ehlectric.cases.contact_inputs.PointKeys``) are given as the keys of ``Case.line``.
+        A number is a float in the SI unit in brackets, a text with its unit, or a quantity of pint. Required
+        are the radii, the elasticity, a load, a speed and ``lubricant``. Doubtful radii and moduli warn.
 
+        Examples
+        --------
         >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}
         >>> Case.point(**ball, load="20 N", entrainment_speed="2 m/s", lubricant="paper")
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>

@@ -15,6 +15,7 @@ from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.duty_inputs import Duty
 from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.keywords import with_keys
 from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title, read_toml
 from ehlectric.errors import InputError, shown, within
@@ -179,6 +180,12 @@ class DriveCase(CaseFile, book="drive_file"):
             with within(end):
                 table[end] = getattr(self, end).replace(change)
         return self.from_dict(table)
+
+
+with_keys(
+    DriveCase,
+    {"drive": Operation, "source": Source, "circuit": Circuit, "breakdown": Breakdown, "duty": Duty},
+)
 
 
 def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:

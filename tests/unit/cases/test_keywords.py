@@ -3,12 +3,14 @@
 
 import inspect
 import pickle
+import pydoc
+import re
 import warnings
 
 import pint
 import pytest
 
-from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
+from ehlectric import BearingCase, Case, DriveCase, InputError, LineCase, PointCase
 from ehlectric.cases.bearing_inputs import Bearing, BearingKeys
 from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys
 from ehlectric.cases.keywords import keys_of
@@ -54,6 +56,30 @@ def test_editors_see_the_keywords(constructor, keys):
     parameters = inspect.signature(constructor).parameters
     assert {"lubricant", "title", *keys_of(keys)} <= set(parameters)
     assert not any(p.kind is inspect.Parameter.VAR_KEYWORD for p in parameters.values())
+
+
+@each(
+    "constructor, entries",
+    [
+        (Case.line, ["load_per_length : number [N/m], load per length", "temperature : number [K], temperature of the oil"]),
+        (Case.point, ["radius_x : number [m]", "load : number [N], load", "lubricant : mapping or name,"]),
+        (BearingCase.of, ["inner_speed : number [rad/s], speed of the inner ring", "elements : int, rolling elements", "coating : mapping or name,"]),
+    ],
+)  # fmt: skip
+def test_help_shows_type_unit_and_meaning_of_every_keyword(constructor, entries):
+    text = pydoc.render_doc(constructor, renderer=pydoc.plaintext)
+    shown = re.findall(r"^ {4}(\w+) : \S", text, re.MULTILINE)
+    assert sorted(shown) == sorted(inspect.signature(constructor).parameters)
+    assert all(entry in " ".join(text.split()) for entry in entries), text
+    listed = text.partition("Parameters")[2].splitlines()
+    assert len(listed) <= 110
+    assert max(map(len, listed)) <= 110
+
+
+def test_help_shows_the_keys_and_units_of_a_drive():
+    text = " ".join(pydoc.render_doc(DriveCase, renderer=pydoc.plaintext).replace("|", " ").split())
+    for entry in ("dc_link [V]", "ground_inductance [H]", "arc_resistance [Ω]", "speed [rad/s]"):
+        assert entry in text, entry
 
 
 def test_a_line_contact(line):
