@@ -285,6 +285,11 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
         return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
 
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the dotted keys that the bearing does not have."""
+        return super().unused_keys(given) | {f"discharge.{key}" for key in _NOT_OF_BEARINGS}
+
     @field_validator("ranges", mode="plain")
     @classmethod
     def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:

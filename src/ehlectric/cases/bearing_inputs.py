@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from difflib import get_close_matches
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
@@ -275,6 +276,13 @@ def _given_ratings(life: Any) -> Iterator[float | None]:
             yield None if value is None else amount_at(f"bearing.life.{key}").parse(value)
 
 
+def _not_of_kind(kind: str) -> set[str]:
+    """Keys that bearings of some other kinds have, and of this kind have not."""
+    keys = KINDS_OF_BEARINGS[kind].keys
+    clearance = () if "radial_clearance" in keys else _OF_CLEARANCE
+    return {*(key for key in KEYS_OF_KINDS if key not in keys), *clearance}
+
+
 class Bearing(Table, book="bearing", named_by="base"):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
@@ -340,6 +348,16 @@ class Bearing(Table, book="bearing", named_by="base"):
         if table.get("clearance_class") is not None or table.get("fits") is not None:
             base.pop("radial_clearance", None)
         return with_clearance(_with_normal_class({**base, **table}))
+
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the keys that bearings of the given kind, or of the kind of the given base, do not have."""
+        kind = given.get("kind")
+        if kind is None and given.get("base") is not None:
+            with suppress(InputError):
+                kind = base_of(given)[1].get("kind")
+        unused = super().unused_keys(given)
+        return unused | _not_of_kind(str(kind)) if kind in KINDS_OF_BEARINGS else unused
 
     @property
     def oil_temperature(self) -> float:
@@ -463,8 +481,7 @@ class Bearing(Table, book="bearing", named_by="base"):
                 text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
                 raise InputError.worded(key, text, takes=_CHOICES.get(key))
         for key in (*KEYS_OF_KINDS, *_OF_CLEARANCE):
-            of_kind = "radial_clearance" if key in _OF_CLEARANCE else key
-            if of_kind not in kind.keys and getattr(self, key) is not None:
+            if key in _not_of_kind(self.kind) and getattr(self, key) is not None:
                 raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
         self._check_boundary()
         for key, carries in (("radial_load", kind.radial), ("axial_load", kind.axial)):

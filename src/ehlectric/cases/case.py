@@ -19,13 +19,13 @@ from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys, geometr
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.dry_contacts import hertz_pressure
 from ehlectric.cases.film_inputs import FilmPhysics, Inlet, check_film
-from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_grid
+from ehlectric.cases.grid_inputs import POINT_GRID_KEYS, Electric, Grid, Motion, Solver, point_grid
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.replaced_keys import refuse_replaced
-from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
-from ehlectric.cases.table import CaseFile, Title, read_toml, with_name_keys
+from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files, unused_of_surfaces
+from ehlectric.cases.table import CaseFile, Title, as_mapping, read_toml, with_name_keys
 from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
@@ -185,6 +185,15 @@ class Case(CaseFile, book="case_file"):
             object.__setattr__(self, "discharge", Discharge.from_dict(tables["discharge"]))
         private = {"_laws": laws, "_sampled": sampled, "_given_discharge": discharge}
         object.__setattr__(self, "__pydantic_private__", private)
+
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the dotted keys that a contact of the given geometry and its rough surfaces cannot use."""
+        geometry = as_mapping(given.get("contact")).get("geometry", "line")
+        unused = super().unused_keys(given) | unused_of_surfaces(given.get("roughness"), geometry)
+        if geometry == "line":
+            return unused | {f"grid.{key}" for key in POINT_GRID_KEYS}
+        return unused | {"discharge.length"}
 
     @property
     def oil(self) -> Oil:

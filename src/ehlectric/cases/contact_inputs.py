@@ -116,6 +116,12 @@ class Contact(Table, book="contact"):
 
     hardness: float | None = None
 
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the keys that only contacts of the other geometry have."""
+        other = OTHER.get(str(given.get("geometry", "line")))
+        return set() if other is None else set(ONLY[other])
+
     @property
     def touching_gap(self) -> float:
         """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
@@ -71,6 +72,14 @@ class Source(Table, book="source"):
         own = {"fundamental_frequency": frequency, "modulation_index": index}
         table = self.model_dump(exclude_none=True, exclude={"pole_pairs", "base_frequency"}) | own
         return self.from_dict({key: value for key, value in table.items() if value is not None})
+
+    @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the keys of a described source for a measured one, and the other way round."""
+        if given.get("file") is not None:
+            return set(DESCRIBED)
+        carrier = _ONLY_BY_CARRIER if given.get("modulation") == "six-step" else ()
+        return {*carrier, *(set(MEASURED) - {"file", "scale"} if given else ())}
 
     @model_validator(mode="after")
     def _check(self) -> Self:

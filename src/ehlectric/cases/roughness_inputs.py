@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.table import Table
+from ehlectric.cases.table import Table, as_mapping
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
 
@@ -70,8 +70,9 @@ class Roughness(Table, book="roughness"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         self.check_one_of(("file", "generator"), "either file or generator", needed=True)
-        allowed = {"surface", "shift", "shift_y"}
-        allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
+        if self.generator is not None:
+            self._check_generator()
+        allowed = used_by(self.generator)
         for name in sorted(self._given() - allowed):
             what = f"the generator {self.generator!r}" if self.generator else "a file"
             raise InputError.worded(name, f"is not used by {what}")
@@ -82,14 +83,13 @@ class Roughness(Table, book="roughness"):
         fields = type(self).model_fields.items()
         return {name for name, field in fields if getattr(self, name) != field.default}
 
-    def _check_generator(self) -> set[str]:
-        """Check the keys of the generator, and return the names of all keys that it may have."""
+    def _check_generator(self) -> None:
+        """Check the keys of the generator."""
         if self.generator not in GENERATORS:
             raise InputError(
                 "generator", got=shown(self.generator), takes=f"one of {', '.join(map(repr, GENERATORS))}"
             )
-        needed, optional = GENERATORS[self.generator]
-        for name in needed:
+        for name in GENERATORS[self.generator][0]:
             if getattr(self, name) is None:
                 raise InputError.worded(name, f"missing; the generator {self.generator!r} needs it")
         rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
@@ -106,7 +106,6 @@ class Roughness(Table, book="roughness"):
                 got=f"{self.orientation:g} deg for an isotropic surface",
                 takes="correlation_length_y with it",
             )
-        return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
 
     def check_geometry(self, geometry: str) -> None:
         """Check that the surface has no key that only the other kind of contact may have. Raises InputError
@@ -127,6 +126,32 @@ class Roughness(Table, book="roughness"):
             raise InputError.worded(
                 "assume_transverse", "is not used by a point contact, only by a line contact"
             )
+
+
+def used_by(generator: str | None) -> set[str]:
+    """Keys of a rough surface from a file, or from a generator.
+
+    Examples
+    --------
+    >>> "x_unit" in used_by(None), "x_unit" in used_by("pit"), "depth" in used_by("pit")
+    (True, False, True)
+    """
+    used = {"surface", "shift", "shift_y"}
+    if generator is None:
+        return used | {"file", *_FILE_KEYS, *_STEPS}
+    needed, optional = GENERATORS[generator]
+    return used | {"generator", *needed, *optional, *(() if generator in SHAPES else _STEPS)}
+
+
+def unused_of_surfaces(tables: Any, geometry: Any) -> set[str]:
+    """Dotted keys that none of the rough surfaces of a contact can use; none if their kind is not known."""
+    given = [as_mapping(table) for table in tables] if isinstance(tables, list | tuple) else []
+    kinds = {table.get("generator") for table in given}
+    used = set(Roughness.model_fields)
+    if given and kinds <= {None, *GENERATORS} and all("file" in one or "generator" in one for one in given):
+        used = set().union(*map(used_by, kinds))
+    used -= set(_POINT_KEYS if geometry == "line" else ("assume_transverse",))
+    return {f"roughness.{key}" for key in Roughness.model_fields if key not in used}
 
 
 def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:

@@ -11,7 +11,7 @@ from functools import partial
 from inspect import Parameter, Signature
 from itertools import pairwise
 from pathlib import Path
-from types import UnionType
+from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
 from pydantic import (
@@ -56,6 +56,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "sign_of",
     "single",
     "toml_text",
+    "unused_keys",
     "with_arrays",
     "with_laws",
     "with_values",
@@ -142,7 +143,7 @@ class Table(BaseModel, metaclass=_Listed):
         try:
             super().__init__(**table)
         except ValidationError as error:
-            raise first_error(error, type(self)) from None
+            raise first_error(error, type(self), table) from None
 
     # Pydantic makes tables within tables without calling __init__, so that an error has its whole key.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
@@ -225,7 +226,7 @@ class Table(BaseModel, metaclass=_Listed):
         try:
             return cls.model_validate(dict(table), context={WRITTEN: written, **(context or {})})
         except ValidationError as error:
-            raise first_error(error, cls) from None
+            raise first_error(error, cls, table) from None
 
     def check_over(self, key: str, values: str) -> Self:
         """Table itself, if the numbers of a key increase, and another key has as many values."""
@@ -275,9 +276,29 @@ class Table(BaseModel, metaclass=_Listed):
         return ""
 
     @classmethod
+    def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
+        """Return the dotted keys that a table with given values cannot use, such as keys of another geometry.
+
+        ``given``, values or tables by key, which may be wrong. Messages do not propose these keys.
+        """
+        unused: set[str] = set()
+        for name, field in cls.known_keys().items():
+            inner, own = table_of(field.annotation), as_mapping(given.get(name))
+            if inner is not None:
+                unused |= {f"{name}.{key}" for key in inner.unused_keys(own)}
+        return unused
+
+    @classmethod
     def known_keys(cls) -> dict[str, FieldInfo]:
         """Keys of the table, each with its field (annotation and default)."""
         return dict(cls.model_fields)
+
+
+def as_mapping(table: Any) -> Mapping[str, Any]:
+    """Values of a table by key; none of what is no table."""
+    if isinstance(table, Table):
+        return table.__dict__
+    return table if isinstance(table, Mapping) else {}
 
 
 class CaseFile(Tabled, Table):
@@ -403,15 +424,15 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return difflib.get_close_matches(name[:100], list(known), n=1, cutoff=0.0)[0]
 
 
-def first_error(error: ValidationError, model: type[Table]) -> InputError:
-    """Convert a validation error to one InputError, about everything that the user should correct.
+def first_error(error: ValidationError, model: type[Table], given: Mapping[str, Any]) -> InputError:
+    """Convert a validation error of given tables to one InputError, with all that the user should correct.
 
     An unknown key comes before a missing key, because it is often the missing key with a wrong name.
     """
     # A default that is made from other keys says nothing beside the errors of these keys.
     details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
-    return InputError.together([_error(detail, model) for detail in details])
+    return InputError.together([_error(detail, model, given) for detail in details])
 
 
 def details_of(error: ValidationError) -> list[InitErrorDetails]:
@@ -424,13 +445,13 @@ def details_of(error: ValidationError) -> list[InitErrorDetails]:
     ]
 
 
-def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
+def _error(detail: ErrorDetails, model: type[Table], given: Mapping[str, Any]) -> InputError:
     # The number of an item in a list is left out, because it does not help the user.
     key = ".".join(_shown_key(part) for part in detail["loc"] if isinstance(part, str))
     value = shown(detail["input"])
     match detail["type"]:
         case "extra_forbidden":
-            return _unknown(key, model)
+            return _unknown(key, model, given)
         case "missing" if isinstance(detail["loc"][-1], str):
             return _missing(key, model, detail["input"])
         case "value_error":
@@ -473,13 +494,13 @@ def _takes(key: str, field: FieldInfo | None, model: type[Table]) -> str:
     return "a text" if field.annotation is str else "a list"
 
 
-def _unknown(key: str, model: type[Table]) -> InputError:
+def _unknown(key: str, model: type[Table], given: Mapping[str, Any]) -> InputError:
     """Error of an unknown key: advice for a key that users look for, else the nearest known key."""
     advice = _advice(key, model)
     return (
         InputError.worded(key, f"unknown key; {advice}")
         if advice
-        else InputError.unknown(key, nearest_key(key, model))
+        else InputError.unknown(key, nearest_key(key, model, given))
     )
 
 
@@ -496,9 +517,9 @@ def _shown_key(key: str) -> str:
     return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
-def nearest_key(key: str, model: type[Table]) -> str:
+def nearest_key(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyType({})) -> str:
     """Known keys that an unknown key may mean, as a text of a message; see ``meant``."""
-    return any_of(meant(key, model))
+    return any_of(meant(key, model, given))
 
 
 def any_of(keys: Sequence[str]) -> str:
@@ -513,14 +534,15 @@ def any_of(keys: Sequence[str]) -> str:
     return f"{', '.join(first)} or {last}" if first else last
 
 
-def meant(key: str, model: type[Table]) -> list[str]:
-    """Known keys that an unknown key may mean.
+def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyType({})) -> list[str]:
+    """Known keys that an unknown key may mean, and that a file with the given tables can use.
 
     Those of ``ALIASES`` come first, then a key with the same name in another table, then the most similar
     key in the same table.
     """
     table, _, leaf = key.rpartition(".")
-    known = list(fields_within(model))
+    unused = model.unused_keys(given) if given else ()
+    known = [name for name in fields_within(model) if name not in unused]
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]

@@ -49,12 +49,13 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
         return
     model: type[Table] = BearingCase if isinstance(case, BearingCase) else Case
     if is_of_drive(key):
-        raise InputError.unknown(key, nearest_key(key, model))
+        raise InputError.unknown(key, nearest_key(key, model, case.__dict__))
     try:
         input_field(key)
     except InputError as error:
-        if model is BearingCase and "unknown key" in error.text:
-            raise InputError.unknown(key, nearest_key(key, model)) from None
+        # The error of a rough surface has its number.
+        if "unknown key" in error.text and not key.startswith("roughness."):
+            raise InputError.unknown(key, nearest_key(key, model, case.__dict__)) from None
         raise
 
 
