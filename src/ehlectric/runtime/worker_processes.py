@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ehlectric.runtime.locks import held_back
+from ehlectric.runtime.progress import LOGGER
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future, ProcessPoolExecutor
@@ -117,16 +118,62 @@ class _Packed:
 def processes(number: int) -> Iterator[Crew]:
     """Context manager that yields a crew of processes on this machine.
 
-    The processes end when the context or the calling process ends.
+    The processes end when the context or the calling process ends. If this process may have no children, the
+    crew is this process.
     """
-    number = min(number, _MOST)
-    pool = _pool(number)
+    pool = None if _is_daemonic() else _pool_or_none(min(number, _MOST))
+    if pool is None:
+        yield this_process()
+    else:
+        with _of_pool(pool, min(number, _MOST)) as crew:
+            yield crew
+
+
+def _is_daemonic() -> bool:
+    """Whether this process may have no children, such as a worker of ``multiprocessing.Pool`` or Celery."""
+    import multiprocessing
+
+    return multiprocessing.current_process().daemon
+
+
+def _pool_or_none(number: int) -> ProcessPoolExecutor | None:
+    """Pool of processes; None where the machine has no semaphores for it, as some services have none."""
+    try:
+        return _pool(number)
+    except (ImportError, NotImplementedError, OSError) as error:
+        LOGGER.info(_HERE, error)
+        return None
+
+
+_HERE = "everything is solved in this process, which cannot start others: %s"
+
+
+@contextmanager
+def _of_pool(pool: ProcessPoolExecutor, number: int) -> Iterator[Crew]:
+    """Context with the crew of a pool, or with this process if no process can be started."""
+    here: Crew | None = None
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        nonlocal here
+        if here is not None:
+            return here.submit(call, *values)
+        from concurrent.futures import BrokenExecutor
+
         # The first calls start the processes, which inherit the setting that ignores interrupts (Ctrl-C).
         # Later calls hold an interrupt back: it would be lost.
-        with without_interrupts() if len(_of(pool)) < number else held_back():
-            return pool.submit(call, *values)
+        first = not _of(pool)
+        try:
+            with without_interrupts() if len(_of(pool)) < number else held_back():
+                return pool.submit(call, *values)
+        except (OSError, RuntimeError) as error:
+            if not first or isinstance(error, BrokenExecutor):
+                raise
+            LOGGER.info(_HERE, error)
+        # Limits of a service or a shell, such as that of ``ulimit -u``, allow no process.
+        _terminate(pool)
+        pool.shutdown(wait=False, cancel_futures=True)  # a thread that did not start cannot be waited for
+        here = this_process()
+        return here.submit(call, *values)
 
     def renew() -> None:
         nonlocal pool
@@ -141,8 +188,11 @@ def processes(number: int) -> Iterator[Crew]:
         if any(process.exitcode is not None for process in _of(pool)):
             _terminate(pool)
 
+    def width() -> int:
+        return _AHEAD * number + 1 if here is None else 1
+
     try:
-        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon, check=check)
+        yield Crew(submit, width, renew, one_machine=True, abandon=abandon, check=check)
     finally:
         # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
         # too late to tell them, and the process then waits for them for ever. This is also faster.

@@ -3,7 +3,7 @@
 Compiled functions stay on the disk for the next run. Numba takes one as up to date if the file of its source
 is, but it contains the functions that it calls, from other files too. The folder of the compiled functions is
 therefore named by the contents of all files of the package ``drive``. Where no folder can be written to,
-functions are compiled in every run.
+functions are compiled in every run. With NUMBA_DISABLE_JIT, as for debuggers, nothing is compiled.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+import numpy as np
 from numba.core import event
 
 from ehlectric.runtime.progress import MACHINE
@@ -29,6 +30,9 @@ def compiled(function: F) -> F:
 
     The function and those that it calls make no arrays.
     """
+    if _uncompiled():
+        # Compiled functions warn of no overflow either.
+        return np.errstate(all="ignore")(function)
     # The folder is chosen when a function is decorated. Other packages keep theirs.
     config: Any = numba.config
     before, folder = config.CACHE_DIR, _folder(config.CACHE_DIR)
@@ -62,6 +66,9 @@ def compile_for(
     text before the function is compiled, and not where it is on the disk.
     """
     dispatcher, typeof = cast("Any", function), cast("Any", numba.typeof)
+    if _uncompiled():
+        _slow()
+        return
     listener = _Told(told, dispatcher)
     try:
         with event.install_listener("numba:compile", listener):
@@ -88,6 +95,18 @@ class _Told(event.Listener):
 
     def on_end(self, event: Any) -> None:
         """Do nothing."""
+
+
+def _uncompiled() -> bool:
+    """Whether numba leaves functions as they are, as NUMBA_DISABLE_JIT asks it to."""
+    return bool(cast("Any", numba.config).DISABLE_JIT)
+
+
+@cache
+def _slow() -> None:
+    """Log once that the simulation is slow."""
+    text = "the simulation of discharges runs uncompiled, hundreds of times slower: unset NUMBA_DISABLE_JIT"
+    MACHINE.warning(text)
 
 
 @cache

@@ -1,6 +1,7 @@
 """Compiled functions on the disk belong to the sources of all functions that they call."""
 
 import errno
+import json
 import os
 import subprocess
 import sys
@@ -86,3 +87,29 @@ def test_a_user_without_a_home_has_the_other_folders(monkeypatch):
 
     monkeypatch.setattr(Path, "home", none)
     assert list(compiled._bases("")) == [SOURCE / "discharges" / "__pycache__"]
+
+
+SHORT = """
+import json, sys
+from pathlib import Path
+from ehlectric import DriveCase, example, solve
+case = DriveCase.from_toml(example("drive")).replace({"drive.duration": "0.2 ms"})
+print(json.dumps(solve(case, workers=1).summary()))
+"""
+
+
+@pytest.mark.slow
+def test_a_simulation_that_is_not_compiled():
+    """The order of sums differs from that of compiled functions, and nothing else."""
+    found = {}
+    for disabled in ("0", "1"):
+        environment = os.environ | {"NUMBA_DISABLE_JIT": disabled}
+        command = [sys.executable, "-W", "error", "-c", SHORT]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        found[disabled] = json.loads(done.stdout)
+    for end in ("drive_end", "non_drive_end"):
+        quick, slow = (found[disabled][end] for disabled in ("0", "1"))
+        assert slow["events"] == quick["events"]
+        assert slow["rms_voltage"] == pytest.approx(quick["rms_voltage"], rel=1e-9)
+        assert slow["energy_mean"] == pytest.approx(quick["energy_mean"], rel=1e-9)
