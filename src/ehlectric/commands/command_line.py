@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import warnings
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -31,6 +32,7 @@ from ehlectric.runtime.progress import MACHINE
 from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
+READER_LEFT = SIGNALLED + 13  # as after SIGPIPE, which Windows does not have
 
 app = typer.Typer(
     help=TEXTS["help"],
@@ -76,6 +78,11 @@ def _status() -> int:
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         return SIGNALLED + signal.SIGINT
+    except SystemExit as ended:
+        if not isinstance(ended.__context__, BrokenPipeError):
+            raise
+        # The library of the command line has its own status for a reader that leaves.
+        return _failed(ended.__context__)
     except Exception as error:
         return _failed(error)
     return int(status or 0)
@@ -85,20 +92,21 @@ def _failed(error: Exception) -> int:
     """Exit status of an error that no command tells, with its line; another error is raised again."""
     if is_out_of_memory(error):
         # What ran out before anything was solved is told by the commands.
-        typer.echo(f"error: {out_of_memory(error)}", err=True)
+        say(f"error: {out_of_memory(error)}", err=True)
         return NOT_CONVERGED
     if isinstance(error, OSError):
         # Nothing can be printed any more, also not by the interpreter at its exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        if not isinstance(error, BrokenPipeError):
-            reason = (error.strerror or str(error)).lower()
-            typer.echo(f"error: standard output: cannot be written to, {reason}", err=True)
+        if isinstance(error, BrokenPipeError):
+            return READER_LEFT
+        reason = (error.strerror or str(error)).lower()
+        say(f"error: standard output: cannot be written to, {reason}", err=True)
         return WRONG_INPUT
     message = getattr(error, "format_message", None)
     if message is None:
         raise error
     # Its text is one line, with what the user typed escaped.
-    typer.echo(f"error: {InputError(message())}", err=True)
+    say(f"error: {InputError(message())}", err=True)
     return WRONG_INPUT
 
 
@@ -126,8 +134,28 @@ def _free_of_the_display() -> None:
     logging.getLogger("matplotlib.font_manager").setLevel(logging.WARNING)
 
 
+def _open_closed_streams() -> None:
+    """Let a standard stream that is closed or missing, as for a service, lead to nothing.
+
+    Otherwise the first file that is opened would get its number, and what libraries print would be in it.
+    """
+    while (number := os.open(os.devnull, os.O_RDWR)) <= _STDERR:
+        os.set_inheritable(number, True)
+    os.close(number)
+    for name in ("stdin", "stdout", "stderr"):
+        if getattr(sys, name) is None:
+            stream = Path(os.devnull).open("r" if name == "stdin" else "w", encoding="utf-8")  # noqa: SIM115
+            setattr(sys, name, stream)
+            setattr(sys, f"__{name}__", stream)
+
+
+# Number of the file of stderr, the last one of the standard streams.
+_STDERR = 2
+
+
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
+    _open_closed_streams()
     _free_of_the_display()
     for number in not_ignored():
         if number != signal.SIGINT:  # Python raises KeyboardInterrupt.

@@ -14,6 +14,7 @@ from ehlectric.commands.terminal import (
     print_table,
     progress_bar,
     refuse_undrawn,
+    say,
     user_errors,
 )
 from ehlectric.errors import InputError, shown
@@ -61,7 +62,7 @@ def reproduce(
         refuse_undrawn(undrawn)
     finally:
         if not made.converged:
-            typer.echo("error: not converged: some films of the study", err=True)
+            say("error: not converged: some films of the study", err=True)
             raise typer.Exit(NOT_CONVERGED)
 
 

@@ -221,15 +221,15 @@ def bearings(as_json: bool = False) -> None:
         from ehlectric.tables.oil_tables import catalogue_tables, described
 
         found = bearing_catalogue()
-        if as_json:
-            typer.echo(json.dumps([described(bearing) for bearing in found], indent=2))
-            return
-        for table in catalogue_tables(found):
-            print_table(table)
-            say("")
-        say('in a bearing file: base = "6208"; the sources of all values are in the guide')
-        for line in _SERIES:
-            say(line)
+    if as_json:
+        typer.echo(json.dumps([described(bearing) for bearing in found], indent=2))
+        return
+    for table in catalogue_tables(found):
+        print_table(table)
+        say("")
+    say('in a bearing file: base = "6208"; the sources of all values are in the guide')
+    for line in _SERIES:
+        say(line)
 
 
 @command("bearing")

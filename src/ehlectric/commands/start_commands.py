@@ -89,12 +89,12 @@ def examples(
 
     Without arguments, the examples are listed. With names or with --output they are copied.
     """
+    if not names and output is None:
+        for name in _names():
+            typer.echo(f"{name:18}  {_about(name)}")
+        typer.echo("copy all with: ehlectric examples -o DIR; one with: ehlectric examples NAME")
+        return
     with user_errors():
-        if not names and output is None:
-            for name in _names():
-                typer.echo(f"{name:18}  {_about(name)}")
-            typer.echo("copy all with: ehlectric examples -o DIR; one with: ehlectric examples NAME")
-            return
         wanted = [_known(name) for name in names] if names else _names()
         files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
         target = output or Path()

@@ -196,7 +196,7 @@ def _lines() -> Iterator[Progress]:
         last = now
         rate = (done - first) / max(now - started, 1e-9)
         left = f", {readable(rate)} a second, {_duration((of - done) / rate)} left" if rate else ""
-        typer.echo(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
+        say(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
 
     yield show
 

@@ -40,9 +40,16 @@ _WIDTH = 90
 def say(line: str, *, err: bool = False) -> None:
     """Print one line on stdout or stderr; characters that a terminal obeys are escaped in it.
 
-    Titles and paths in the line may hold any character.
+    Titles and paths in the line may hold any character. A stderr that cannot be written to, as on a full
+    disk, changes neither the output nor the exit status.
     """
-    typer.echo(printable(line), err=err)
+    try:
+        typer.echo(printable(line), err=err)
+    except BrokenPipeError:
+        raise
+    except OSError:
+        if not err:
+            raise
 
 
 @contextmanager
