@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, N, Numbers
 from ehlectric.runtime.stored import stored
+from ehlectric.runtime.values import read_only_property
 
 
 def series(first: Array, second: Array) -> Array:
@@ -59,42 +59,42 @@ class Circuit:
     # None for a strength without scatter.
     shape: Numbers | None = None
 
-    @cached_property
+    @read_only_property
     def elements(self) -> Array:
         """Capacitance of each element from ring to ring, shape (..., n) [F]."""
         return series(self.inner, self.outer)
 
-    @cached_property
+    @read_only_property
     def capacitance(self) -> Numbers:
         """Capacitance of the bearing, shape (...) [F]."""
         return np.sum(self.elements, axis=-1)
 
-    @cached_property
+    @read_only_property
     def inner_share(self) -> Array:
         """Share of the bearing voltage on each inner contact, shape (..., n); the outer one has the rest."""
         return self.outer / (self.inner + self.outer)
 
-    @cached_property
+    @read_only_property
     def inner_breaks(self) -> Array:
         """Bearing voltages at which the inner contacts break down, outer ones intact, shape (..., n) [V]."""
         return self.inner_breakdown / self.inner_share
 
-    @cached_property
+    @read_only_property
     def outer_breaks(self) -> Array:
         """Bearing voltages at which the outer contacts break down, inner ones intact, shape (..., n) [V]."""
         return self.outer_breakdown / (1.0 - self.inner_share)
 
-    @cached_property
+    @read_only_property
     def inner_first(self) -> Mask:
         """Whether the inner contact breaks down before or with the outer one, shape (..., n)."""
         return self.inner_breaks <= self.outer_breaks
 
-    @cached_property
+    @read_only_property
     def first_breaks(self) -> Array:
         """Bearing voltages at which the first contact of each element breaks down, shape (..., n) [V]."""
         return np.minimum(self.inner_breaks, self.outer_breaks)
 
-    @cached_property
+    @read_only_property
     def first_break(self) -> Numbers:
         """Smallest bearing voltage at which a contact breaks down, shape (...) [V].
 

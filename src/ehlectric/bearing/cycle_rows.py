@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -26,7 +25,7 @@ from ehlectric.runtime.stored import (
     values_of,
     warnings_in_tables,
 )
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.values import Values, read_only_property
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -113,7 +112,7 @@ class StoredDuty(Generic[R]):
     later: Mapping[str, type[Any]] = field(default_factory=dict)
     name: str = "duty"  # of the attribute with the numbers, and before the names of all others
 
-    @cached_property
+    @read_only_property
     def _part(self) -> Part:
         return Part(self.rows, prefix=f"{self.name}_")
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -38,6 +38,7 @@ from ehlectric.bearing.gaps import (
 )
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
+from ehlectric.runtime.values import read_only_property
 
 # Least number of contacts for which polynomials are made, which need the integrals of some hundred contacts.
 LEAST = 200
@@ -135,7 +136,7 @@ class _Contacts:
         """Angles of the points [rad], shape (n,)."""
         return np.broadcast_to(np.abs(self.race.contact_angle), self.unit.ratio.shape)
 
-    @cached_property
+    @read_only_property
     def size(self) -> _Size | None:
         """Dimensions of the raceway; None where the ratio of the radii or the shoulder varies."""
         race, unit = self.race, self.length
@@ -156,7 +157,7 @@ class _Contacts:
             varying=tuple(varying),
         )
 
-    @cached_property
+    @read_only_property
     def length(self) -> Numbers:
         """Unit of lengths [m]: 1, or the radius of the ball of each point where it varies."""
         return 1.0 if np.ndim(self.race.ball_radius) == 0 else self.race.ball_radius

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
@@ -35,7 +34,7 @@ from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.values import Shown, headline, is_number
+from ehlectric.runtime.values import Shown, headline, is_number, read_only_property
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -154,7 +153,7 @@ class BearingResult(Shown):
         """
         return contact_rows(self.solution)
 
-    @cached_property
+    @read_only_property
     def margin_analysis(self) -> MarginAnalysis:
         """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
 
@@ -172,7 +171,7 @@ class BearingResult(Shown):
         """
         return self._uncertainty_or_reason[0]
 
-    @cached_property
+    @read_only_property
     def _uncertainty_or_reason(self) -> tuple[Uncertainty | None, str]:
         """Distribution of the margin, or the reason for which it could not be computed."""
         try:
@@ -190,7 +189,7 @@ class BearingResult(Shown):
         of_cycle = () if self.duty is None else self.duty.warnings
         return (*self.warnings, *uncertain, *of_cycle)
 
-    @cached_property
+    @read_only_property
     def margin_band(self) -> MarginBand | None:
         """Margin over the speed within what is uncertain; None where it is known at no speed.
 
@@ -201,7 +200,7 @@ class BearingResult(Shown):
         band = margin_band(self.solution, QuickMargins.of(self.solution))
         return band if band.speed.size else None
 
-    @cached_property
+    @read_only_property
     def verdict(self) -> Verdict:
         """Verdict: whether breakdown is expected at the shaft voltage, and where the margin is below 1."""
         found, why = self._uncertainty_or_reason
@@ -210,7 +209,7 @@ class BearingResult(Shown):
         cycle = "" if self.duty is None else self.duty.sentence
         return replace(verdict, text=f"{verdict.text} {cycle}") if cycle else verdict
 
-    @cached_property
+    @read_only_property
     def capacitive_speed(self) -> float | None:
         """Speed of the inner ring from which the bearing is capacitive at its temperature [rad/s].
 
@@ -219,7 +218,7 @@ class BearingResult(Shown):
         """
         return capacitive_speed(self.solution)
 
-    @cached_property
+    @read_only_property
     def duty(self) -> DutyResult | None:
         """Result of the duty cycle of the case, lubrication and margins over time; None without one.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import ClassVar, Generic, TypeAlias
 
 import numpy as np
@@ -45,7 +45,7 @@ from ehlectric.formulas.monotone_cubic import MonotoneCubic, end_slope, inner_sl
 from ehlectric.lubricant.oil import Oil
 from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.values import Values, read_only_property
 
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.
 REFINE = 0.02
@@ -136,26 +136,26 @@ class RingContacts(Generic[G_co]):
         """Part of the film factor by the supply of oil, dimensionless; 1 where it is not known."""
         return 1.0 if self._own.supply_factor is None else self._own.supply_factor
 
-    @cached_property
+    @read_only_property
     def radii(self) -> ContactRadii:
         """Radii of element and ring at the contact angle [m]."""
         return self.conditions.geometry.radii(self.angle, inner=self.inner)
 
-    @cached_property
+    @read_only_property
     def shape(self) -> tuple[int, ...]:
         """Shape (...) of the points of operation; () for one bearing."""
         radii, oil = self.radii, self.oil
         quantities = (self.angle, self.speed, self.conditions.modulus, self.film_factor, radii.radius_x)
         return np.broadcast_shapes(*map(np.shape, (*quantities, radii.radius_y, oil.viscosity)))
 
-    @cached_property
+    @read_only_property
     def entrainment_speed(self) -> Numbers:
         """Entrainment speed [m/s]; of many points, NaN where it is too slow for a film."""
         if np.ndim(self.speed) == 0:
             return self.speed
         return np.where(self.speed >= _LEAST_SPEED, self.speed, np.nan)
 
-    @cached_property
+    @read_only_property
     def unit_contact(self) -> DryContact:
         """Dry contact of a ball under a load of 1 N."""
         rx: Numbers = self.radii.radius_x
@@ -165,7 +165,7 @@ class RingContacts(Generic[G_co]):
             rx, ry = (np.where(np.isfinite(radius), radius, 1.0) for radius in (rx, ry))
         return dry_contact(1.0, rx, ry, self.conditions.modulus)
 
-    @cached_property
+    @read_only_property
     def raceway(self: RingContacts[BallBearing]) -> Raceway:
         """Groove of the ring, with a ball at the contact angle."""
         geometry, shoulder_height = self.conditions.geometry, self.conditions.bearing.shoulder_height
@@ -184,12 +184,12 @@ class RingContacts(Generic[G_co]):
             first_angle=first,
         )
 
-    @cached_property
+    @read_only_property
     def ratio(self) -> Numbers:
         """Ratio of the semi-axes of a ball's contact, across over along entrainment."""
         return self.unit_contact.semi_axis_y / self.unit_contact.semi_axis_x
 
-    @cached_property
+    @read_only_property
     def ellipse(self) -> Ellipse:
         """Shape of the dry contact of a ball."""
         return Ellipse.of(self.ratio, self.radii.radius_y / self.radii.radius_x)
@@ -209,7 +209,7 @@ class BallContact:
     load: Numbers  # [N]
     coarse: bool = False  # whether only ratios of results are used, so that gaps are computed coarsely
 
-    @cached_property
+    @read_only_property
     def dry(self) -> DryContact:
         """Dry contact under the load."""
         unit, root = self.ring.unit_contact, as_float(np.cbrt(self.load))
@@ -220,7 +220,7 @@ class BallContact:
             approach=unit.approach * root**2,
         )
 
-    @cached_property
+    @read_only_property
     def conditions(self) -> PointConditions:
         """Operating conditions of the point contact, which ``check_contact`` may still refuse."""
         bearing, oil, radii, dry = self.ring.conditions, self.ring.oil, self.ring.radii, self.dry
@@ -264,7 +264,7 @@ class BallContact:
         across = _smallest(radii.radius_y, radii.ring_y, radii.element_y)
         return (self.axes[0], along), (self.axes[1], across)
 
-    @cached_property
+    @read_only_property
     def film(self) -> Numbers:
         """Central film thickness [m] by the formula of Nijenbanning, Venner and Moes.
 
@@ -277,7 +277,7 @@ class BallContact:
         """Largest film thickness [m] for which there is room between ball and groove."""
         return _ROOM * self.ring.conditions.geometry.offsets[0 if self.ring.inner else 1]
 
-    @cached_property
+    @read_only_property
     def _lengths(self) -> tuple[Numbers, Numbers]:
         """Lengths sqrt(2 R h) over which the pressure builds up, along and across, in semi-axes."""
         radii, axes = self.ring.radii, self.axes
@@ -287,7 +287,7 @@ class BallContact:
         )
         return along, across
 
-    @cached_property
+    @read_only_property
     def domain(self) -> tuple[Numbers, Numbers, Numbers]:
         """Inlet, outlet and side in semi-axes of a domain wide enough for the thick film of a light load.
 
@@ -349,7 +349,7 @@ class RollerContact:
         """Length of the roller [m]."""
         return self.ring.conditions.geometry.roller_length
 
-    @cached_property
+    @read_only_property
     def conditions(self) -> Conditions:
         """Operating conditions of the line contact, which ``check_contact`` may still refuse."""
         bearing, oil, radii = self.ring.conditions, self.ring.oil, self.ring.radii
@@ -385,7 +385,7 @@ class RollerContact:
         radii = self.ring.radii
         return ((self.conditions.half_width, _smallest(radii.radius_x, radii.ring_x, radii.element_x)),)
 
-    @cached_property
+    @read_only_property
     def film(self) -> Numbers:
         """Central film thickness [m] by the formula of Moes, which holds for light contacts too."""
         return moes(self.conditions.contact).central_thickness
@@ -396,13 +396,13 @@ class RollerContact:
         radius = 0.5 * self.ring.conditions.geometry.roller_diameter
         return (_ROOM * radius) ** 2 / (2.0 * self.conditions.reduced_radius)
 
-    @cached_property
+    @read_only_property
     def _build_up(self) -> Numbers:
         """Length sqrt(2 R h) over which the pressure builds up, in half-widths."""
         conditions = self.conditions
         return np.sqrt(2.0 * conditions.reduced_radius * self.film) / conditions.half_width
 
-    @cached_property
+    @read_only_property
     def _inlets(self) -> tuple[Numbers, Numbers]:
         """Inlet that the film needs, and the longest one, in half-widths.
 
@@ -412,7 +412,7 @@ class RollerContact:
         longest = np.minimum(0.5 * self.ring.radii.element_x / self.conditions.half_width, _LINE_MOST)
         return np.minimum(_LINE_INLET * length, np.maximum(_LINE_FAR, _LINE_SHORTER * length)), longest
 
-    @cached_property
+    @read_only_property
     def domain(self) -> tuple[Numbers, Numbers, float]:
         """Inlet and outlet in half-widths, long enough for the thick film of a light load; and 1."""
         needed, most = self._inlets
@@ -742,12 +742,12 @@ class ContactCurve(Values):
 
     __hash__ = None
 
-    @cached_property
+    @read_only_property
     def warnings(self) -> tuple[tuple[ResultWarning, ...], ...]:
         """Warnings about each contact in use, of a single bearing."""
         return tuple(self.warnings_of())
 
-    @cached_property
+    @read_only_property
     def solutions(self) -> tuple[ContactSolution, ...]:
         """Contacts of a single bearing by increasing load."""
         used = self.used
@@ -820,7 +820,7 @@ class ContactCurve(Values):
             values[name] = factor * _power(at / last[..., -1:], exponent)
         return ContactValues(**values)
 
-    @cached_property
+    @read_only_property
     def _law(self) -> tuple[list[str], Mask, MonotoneCubic]:
         """Quantities that are interpolated, whether they are finite, shape (n, ...), and their logarithms."""
         names = [name for name in vars(self.values) if name not in self.follows]
@@ -829,7 +829,7 @@ class ContactCurve(Values):
         logs = np.log(np.where(finite[..., np.newaxis] & self.used, columns, 1.0))
         return names, finite, MonotoneCubic(np.log(self.loads), logs, self.first)
 
-    @cached_property
+    @read_only_property
     def counted(self) -> ContactCurve:
         """Contacts whose films decide about the circuit: those that are not light."""
         heavy = self.used & self._heavy
@@ -843,7 +843,7 @@ class ContactCurve(Values):
         """Loads that are not light."""
         return self.loads >= _ROUNDED * _LIGHT * self.loads[..., -1:]
 
-    @cached_property
+    @read_only_property
     def interpolation_error(self) -> Numbers:
         """Largest relative error of capacitance and breakdown voltage when one load is left out, shape (...).
 

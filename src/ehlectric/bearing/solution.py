@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from ehlectric.cases.bearing_kinds import has_rollers
 from ehlectric.errors import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.values import Values, read_only_property
 from ehlectric.version import __version__
 
 # Lambda ratios below which surfaces touch nearly always, and below which they touch at times.
@@ -324,7 +323,7 @@ class BearingSolution(Values):
         """Whether the films of all contacts are converged."""
         return all(bool(np.all(curve.converged)) for curve in self.curves)
 
-    @cached_property
+    @read_only_property
     def least_film(self) -> Numbers:
         """Smallest film thickness of the loaded contacts, at all positions of the cage, shape (...) [m]."""
         return np.min([ring.least_film for position in self.positions for ring in position.rings], axis=0)
@@ -340,7 +339,7 @@ class BearingSolution(Values):
         """Height of the highest summits in the contacts [m], shape (...); 0 for smooth films."""
         return self.case.bearing.summit_height * self.case.bearing.composite_rq
 
-    @cached_property
+    @read_only_property
     def _own_circuits(self) -> tuple[Circuit, ...]:
         """Circuits with ``fill`` of the case, which most numbers of a bearing need."""
         return self.circuits(self.case.bearing.fill)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.formulas.variance_shares import variance_shares
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
+from ehlectric.runtime.values import read_only_property
 
 # Points of the design, a power of 2, and the seed of its random shifts.
 SAMPLES, SEED = 2048, 1
@@ -123,7 +123,7 @@ class MarginSpread:
         """
         return self.chance.error
 
-    @cached_property
+    @read_only_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
         return Chance.of(self.margins, self.failed, neglected=self.left_out)
@@ -177,7 +177,7 @@ class Uncertainty(MarginSpread):
     # Share of the variance of ln(margin) that the polynomial behind the shares of the inputs predicts.
     predicted: float = field(kw_only=True)
 
-    @cached_property
+    @read_only_property
     def chance(self) -> Chance:
         """Probability and interval as a verdict says them."""
         first = self.inputs[0]

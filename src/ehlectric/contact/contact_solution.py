@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -31,7 +30,7 @@ from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import contact_zones
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.runtime.stored import stored
-from ehlectric.runtime.values import Shown, Values
+from ehlectric.runtime.values import Shown, Values, read_only_property
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.maps import statistics as of_map
 from ehlectric.surfaces.profiles import FLAT, Profile
@@ -134,7 +133,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         places = np.atleast_1d(position)
         return all(bool(axis[0] <= at <= axis[-1]) for at, axis in zip(places, self.field.axes, strict=True))
 
-    @cached_property
+    @read_only_property
     def asperities(self) -> Asperities | None:
         """Asperities of a converged contact that is rough or whose surfaces touch; None of any other."""
         if not self.film.converged or not (self.rough or np.any(self.film.contact)):
@@ -155,14 +154,14 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         found = self.asperities
         return found if found is not None and found.spots.number else None
 
-    @cached_property
+    @read_only_property
     def discharge(self) -> Assessment | None:
         """Assessment of the discharge; None if the case has no table ``discharge``."""
         if self.case.discharge is None:
             return None
         return assess(self.case.discharge, self.case.oil, self.conditions.semi_axes, self.film, self.field)
 
-    @cached_property
+    @read_only_property
     def meter(self) -> MeterReading | None:
         """Capacitance that a meter at the two bodies reads; None if the case has no table ``meter``."""
         if not isinstance(self.case, Case) or self.case.meter is None:
@@ -189,7 +188,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             isothermal=self.film.temperature is None,
         )
 
-    @cached_property
+    @read_only_property
     def capacitance_by_zone(self) -> dict[str, float]:
         """Capacitance of each zone of the field range [F]; for a line contact per length [F/m]."""
         return self.field.capacitance_by_zone(*self.conditions.semi_axes)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +21,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import CONTACT_BOOK
-from ehlectric.runtime.values import headline
+from ehlectric.runtime.values import headline, read_only_property
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -87,7 +86,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         """Film thickness from each published formula [m], keyed by the name of the formula."""
         return formulas_of(self.conditions)
 
-    @cached_property
+    @read_only_property
     def roughness_statistics(self) -> RoughnessStatistics:
         """Statistics of the roughness over the Hertz zone, SI units."""
         statistics: RoughnessStatistics = KINDS[self.conditions.geometry].roughness(self)

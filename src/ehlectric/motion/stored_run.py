@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
@@ -21,7 +20,7 @@ from ehlectric.motion.stored import SCHEMA, solved_part
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
 from ehlectric.runtime.result_names import MOTION
-from ehlectric.runtime.values import Values
+from ehlectric.runtime.values import Values, read_only_property
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +38,7 @@ class FieldHistory:
     strength: Array  # largest field strength at the steps [V/m], shape (steps,)
     settled_from: float  # time at which the statistics begin [s]
 
-    @cached_property
+    @read_only_property
     def _settled(self) -> Mask:
         """Mask of the steps that count for statistics, shape (steps,)."""
         return np.asarray(self.time >= self.settled_from)
@@ -231,7 +230,7 @@ class MotionRun(Values):
         """Functions for this kind of contact, line or point."""
         return KINDS[self.case.contact.geometry]
 
-    @cached_property
+    @read_only_property
     def schedule(self) -> Schedule:
         """Time steps and speeds of the surfaces."""
         return schedule_of(self.case, self.conditions)
@@ -241,18 +240,18 @@ class MotionRun(Values):
         """Whether all time steps of the run are solved."""
         return bool(self.dataset.attrs.get("complete", 1))
 
-    @cached_property
+    @read_only_property
     def speeds(self) -> dict[int, float]:
         """Speed of each rough surface by its number, 1 or 2 [m/s]."""
         mean, ratios = self.conditions.entrainment_speed, surface_ratios(self.conditions.slide_to_roll_ratio)
         return {k: mean * ratios[k - 1] for k in sorted({table.surface for table in self.case.roughness})}
 
-    @cached_property
+    @read_only_property
     def x(self) -> Array:
         """Positions of the nodes of the film along entrainment, shape (nx,) [half-widths]."""
         return np.asarray(self.dataset["x"].values / self.conditions.half_width)
 
-    @cached_property
+    @read_only_property
     def frame_time(self) -> Array:
         """Times of the recorded instants, shape (frames,) [s]."""
         return self.values("frame_time")
@@ -292,7 +291,7 @@ class MotionRun(Values):
             values = values.isel(frame=frame)
         return np.asarray(values.values, dtype=float)
 
-    @cached_property
+    @read_only_property
     def field_history(self) -> FieldHistory:
         """Largest field strength at every time step."""
         time, estimate = self.values("time"), self.values("thin_gap_strength")

@@ -55,11 +55,14 @@ def read_dataset(path: Path) -> xr.Dataset:
         with own_filters(), opened(path) as file:
             warnings.simplefilter("ignore")  # xarray warns about files that are refused below
             check_netcdf_values(path, file)
-            return xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
+            dataset = xr.open_dataset(xr.backends.H5NetCDFStore(file)).load()
     except (InputError, MemoryError):
         raise
     except Exception:  # HDF5 and its wrappers raise errors of many types for damaged files
         raise DamagedError.of(path, "its header cannot be read") from None
+    # All values are in memory. A reference to the file would prevent that the dataset is pickled.
+    dataset.set_close(None)
+    return dataset
 
 
 def load_library() -> None:

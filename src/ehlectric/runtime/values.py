@@ -16,9 +16,9 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import fields, is_dataclass
-from functools import partial
+from functools import cached_property, partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeGuard, TypeVar, overload
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from ehlectric.errors import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+
+T = TypeVar("T")
+R = TypeVar("R")
 
 # Longest representation [characters].
 WIDTH = 200
@@ -52,6 +55,9 @@ class Values:
     (Film(thickness=float64 (2,), status='converged'), True, False)
     """
 
+    # Names of fields and properties that contain no arrays, but many other values.
+    NO_ARRAYS: ClassVar[frozenset[str]] = frozenset()
+
     __hash__: ClassVar[None]  # type: ignore[assignment]  # as of every class with __eq__ alone
 
     def __eq__(self, other: object) -> bool:
@@ -59,6 +65,58 @@ class Values:
 
     def __repr__(self) -> str:
         return shortened(f"{type(self).__name__}({', '.join(_entries(self))})")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        # Pickles do not contain that an array is read-only.
+        self._make_read_only()
+
+    def _make_read_only(self) -> None:
+        """Make all arrays of the instance read-only."""
+        read_only([value for name, value in self.__dict__.items() if name not in self.NO_ARRAYS])
+
+
+def read_only(value: T) -> T:
+    """Value itself, with all arrays in it made read-only: in dataclasses, mappings, lists and datasets.
+
+    Examples
+    --------
+    >>> read_only({"pressure": np.zeros(2)})["pressure"][0] = 1.0
+    Traceback (most recent call last):
+    ValueError: assignment destination is read-only
+    """
+    left: list[Any] = [value]
+    seen: set[int] = set()
+    while left:
+        one = left.pop()
+        if id(one) in seen:
+            continue
+        seen.add(id(one))
+        if isinstance(one, np.ndarray):
+            one.flags.writeable = False
+        elif hasattr(one, "identical"):
+            left += [variable.values for variable in one.variables.values()]
+        elif isinstance(one, Mapping):
+            left += one.values()
+        elif isinstance(one, list | tuple):
+            left += one
+        elif is_dataclass(one):
+            left += getattr(one, "__dict__", {}).values()
+    return value
+
+
+class read_only_property(cached_property[R]):  # noqa: N801  # as cached_property
+    """Property of a result that is computed once, and whose arrays are read-only."""
+
+    @overload
+    def __get__(self, result: None, owner: type[Any] | None = None) -> Self: ...
+
+    @overload
+    def __get__(self, result: object, owner: type[Any] | None = None) -> R: ...
+
+    def __get__(self, result: object, owner: type[Any] | None = None) -> R | Self:
+        found = super().__get__(result, owner)
+        return found if result is None else read_only(found)
 
 
 def shortened(text: str) -> str:
@@ -194,7 +252,13 @@ class Tabled:
 
 
 class Shown(Tabled, Values):
-    """Result that prints as one line, that a notebook shows as a table, and that draws its figures."""
+    """Result that prints as one line, that a notebook shows as a table, and that draws its figures.
+
+    Its arrays are read-only.
+    """
+
+    def __post_init__(self) -> None:
+        self._make_read_only()
 
     def plot(self, name: str | None = None, **options: Any) -> Figure:
         """Figure of this result.

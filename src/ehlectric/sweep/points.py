@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from ehlectric.arrays import Mask
 from ehlectric.cases.drive_case import SweptCase
 from ehlectric.errors import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
-from ehlectric.runtime.values import Values, is_number
+from ehlectric.runtime.values import Values, is_number, read_only_property
 
 # Codes of warnings with which numbers may be used.
 _HARMLESS = frozenset(code for code, cause in CODES.items() if cause.severity != "severe")
@@ -108,6 +108,8 @@ class SweepPoints(Values):
         Samples of the probability of breakdown at each point; 0 where it is not computed.
     """
 
+    NO_ARRAYS: ClassVar[frozenset[str]] = frozenset({"axes", "ranges", "points", "columns", "numbers"})
+
     case: SweptCase
     design: str
     axes: Mapping[str, tuple[Any, ...]]
@@ -148,7 +150,7 @@ class SweepPoints(Values):
                 numbers[key] = [value if is_number(value) else None for value in column] if mixed else column
         return numbers
 
-    @cached_property
+    @read_only_property
     def doubtful(self) -> Mask:
         """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points], dtype=bool)

@@ -27,7 +27,7 @@ from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of
 from ehlectric.runtime.result_names import OF_SWEEPS, SWEEP_CSV, SWEEP_NETCDF, SWEEP_PARQUET
-from ehlectric.runtime.values import Shown, headline, is_number
+from ehlectric.runtime.values import Shown, headline, is_number, read_only
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
 from ehlectric.sweep.sweep_verdict import sweep_verdict
@@ -212,7 +212,7 @@ class SweepResults(Shown, SweepPoints):
         -------
         ndarray, shape (points,)
             Values in SI units, doubtful points included; NaN where a point is not solved, or its summary has
-            no number at this key.
+            no number at this key. The array is read-only.
 
         Raises
         ------
@@ -220,10 +220,10 @@ class SweepResults(Shown, SweepPoints):
             If ``key`` is neither a varied key nor a key of the summary; the message has the nearest key.
         """
         if key in self.varied:
-            return np.array([as_number(point.inputs.get(key)) for point in self.points])
+            return read_only(np.array([as_number(point.inputs.get(key)) for point in self.points]))
         self._check(key)
         # None becomes NaN.
-        return np.array(self.numbers.get(key, [None] * len(self.points)), dtype=float)
+        return read_only(np.array(self.numbers.get(key, [None] * len(self.points)), dtype=float))
 
     @cached_property
     def verdict(self) -> Verdict | None:
