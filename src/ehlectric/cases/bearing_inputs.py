@@ -5,10 +5,8 @@ summits and life.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
-from difflib import get_close_matches
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
 
@@ -28,10 +26,11 @@ from ehlectric.cases.library.bearing_catalogue import (
     NORMAL_CLASS,
     ClearanceClass,
     clearance_range,
-    has_classes,
+    has_class,
     with_class,
     with_clearance,
 )
+from ehlectric.cases.library.designation_types import no_such_bearing
 from ehlectric.cases.library.designations import known_bearings, read_designation
 from ehlectric.cases.library.estimated_bearings import estimated_bearing, series
 from ehlectric.cases.oil_inputs import library_choice
@@ -210,9 +209,14 @@ def _with_normal_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
 
     A designation without a suffix stands for this class.
     """
-    kind, bore = KINDS_OF_BEARINGS.get(str(table.get("kind"))), table.get("bore")
-    classed = kind is not None and "radial_clearance" in kind.keys and has_classes(str(table["kind"]))
-    if not classed or bore is None or table.get("inner_ring") is False or _has_clearance(table):
+    kind, given = KINDS_OF_BEARINGS.get(str(table.get("kind"))), table.get("bore")
+    if kind is None or "radial_clearance" not in kind.keys or given is None:
+        return table
+    if table.get("inner_ring") is False or _has_clearance(table):
+        return table
+    with within("bore"):
+        bore = amount_at("bearing.bore").parse(given)
+    if not has_class(str(table["kind"]), NORMAL_CLASS, bore):
         return table
     return {**table, "clearance_class": NORMAL_CLASS}
 
@@ -232,26 +236,15 @@ def class_of(base: Any) -> ClearanceClass | None:
 
 
 def _base_table(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Table of the bearing that ``base`` names, of the library or estimated for its load ratings; the error
-    for another name tells how to do without.
+    """Table of the bearing that ``base`` names, of the library or estimated for its load ratings. Raises
+    InputError for another name.
     """
     base = table["base"]
     if isinstance(base, str) and base in library.bearing_names():
         return library.bearing(base)
     if isinstance(base, str) and base in series():
         return estimated_bearing(base, *_given_ratings(table.get("life")))
-    names = tuple(known_bearings())
-    # Suffixes are no part of a name.
-    short = re.match(r"[a-z]*[ -]*\w*", str(base).lower())
-    text = short[0].replace(" ", "-") if short else ""
-    alike = get_close_matches(text, names, n=30, cutoff=0.4) or names[:3]
-    near = sorted(alike, key=lambda name: not name.startswith(text[:2]))[:3]
-    takes = (
-        f"a bearing of the library or a designation of the usual series, as a string, such as "
-        f"{', '.join(repr(name) for name in near)} (list: ehlectric bearings); or leave base out and give "
-        "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
-    )
-    raise InputError("base", got=shown(base), takes=takes)
+    raise no_such_bearing(base)
 
 
 def base_of(table: Mapping[str, Any]) -> tuple[Mapping[str, Any], dict[str, Any]]:

@@ -87,11 +87,20 @@ def fitted_to_kind(inputs: Inputs) -> dict[str, Any]:
     changes: dict[str, Any] = {key: None for key in given if inputs.value(key) is not None}
     for name, value in form_data("kinds")[kind_of(inputs)].items():
         key = f"bearing.{name}"
-        if name == "radial_clearance" and classed:
+        if name == "radial_clearance" and classed and _of_a_class(kind_of(inputs), known):
             key, value = _clearance(inputs, value, NORMAL_CLASS)
         if inputs.value(key) is None and name not in known:
             changes[key] = value
     return changes
+
+
+def _of_a_class(kind: str, known: Mapping[str, Any]) -> bool:
+    """Whether the normal class of clearance exists for the bore of a designation, or no bore is known."""
+    from ehlectric.cases.amounts import amount_at
+    from ehlectric.cases.library.bearing_catalogue import NORMAL_CLASS, has_class
+
+    bore = known.get("bore")
+    return bore is None or has_class(kind, NORMAL_CLASS, amount_at("bearing.bore").parse(bore))
 
 
 def _clearance(inputs: Inputs, first: str, normal: str) -> tuple[str, str]:

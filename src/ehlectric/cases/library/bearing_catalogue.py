@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -12,7 +12,7 @@ from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS
 from ehlectric.cases.library.library_oils import Kind, Source, sources_of, weakest
 from ehlectric.errors import InputError, shown, within
 
-ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5"]
+ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5", "CM"]
 CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 # Class of a bearing whose designation names none.
@@ -49,21 +49,47 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     >>> clearance_range("deep-groove ball", "C3", 40e-3)
     ClearanceRange(least=1.5e-05, most=3.3e-05)
     """
-    size = 1e3 * bore
-    rows = [row for row in library.rows("clearances.csv") if row["kind"] == _TABLE_OF.get(kind, kind)]
-    for row in rows:
-        # A bore in metres may be above a round number of millimetres by its rounding error.
-        if float(row["above"]) < size - 1e-9 <= float(row["to"]):
-            low, high = (float(row[f"{clearance_class}_{end}"]) for end in ("min", "max"))
-            return ClearanceRange(float(f"{low * 1e-6:.12g}"), float(f"{high * 1e-6:.12g}"))
+    rows = _clearance_rows(kind, clearance_class)
+    row = _row_of_bore(rows, bore)
+    if row is not None:
+        low, high = (float(row[f"{clearance_class}_{end}"]) for end in ("min", "max"))
+        return ClearanceRange(float(f"{low * 1e-6:.12g}"), float(f"{high * 1e-6:.12g}"))
     if not rows:
-        text = f"has no table for a bearing of kind {kind!r}"
+        of_class = f" of class {clearance_class}" if has_classes(kind) else ""
+        text = f"has no table{of_class} for a bearing of kind {kind!r}"
         raise InputError.worded("clearance_class", text, takes="radial_clearance, where the kind has one")
     raise InputError(
         "bore",
-        got=f"{size:.6g} mm",
-        takes=f"above {rows[0]['above']} and at most {rows[-1]['to']} mm with a clearance_class",
+        got=f"{1e3 * bore:.6g} mm",
+        takes=f"above {rows[0]['above']} and at most {rows[-1]['to']} mm with the clearance_class "
+        f"{clearance_class!r}; or radial_clearance",
     )
+
+
+def _clearance_rows(kind: str, clearance_class: ClearanceClass) -> list[Mapping[str, str]]:
+    """Rows of the table of a kind that contain a class; the class CM is not printed for needle bearings."""
+    if clearance_class == "CM" and kind in _TABLE_OF:
+        return []
+    rows = (row for row in library.rows("clearances.csv") if row["kind"] == _TABLE_OF.get(kind, kind))
+    return [row for row in rows if row[f"{clearance_class}_min"]]
+
+
+def _row_of_bore(rows: Sequence[Mapping[str, str]], bore: float) -> Mapping[str, str] | None:
+    """Row that contains a bore [m]."""
+    # A bore in metres may be above a round number of millimetres by its rounding error.
+    size = 1e3 * bore - 1e-9
+    return next((row for row in rows if float(row["above"]) < size <= float(row["to"])), None)
+
+
+def has_class(kind: str, clearance_class: ClearanceClass, bore: float) -> bool:
+    """Whether the table of a kind contains a class for a bore [m].
+
+    Examples
+    --------
+    >>> has_class("deep-groove ball", "CN", 8e-3), has_class("deep-groove ball", "CN", 5e-3)
+    (True, False)
+    """
+    return _row_of_bore(_clearance_rows(kind, clearance_class), bore) is not None
 
 
 def has_classes(kind: str) -> bool:

@@ -1,38 +1,54 @@
 """Designations of makers, such as "NU 208 ECP" or "6208-2RS1/C3": the bearing and its class of clearance.
 
-The bearings are in the library or in the usual series, whose geometry is estimated. ``suffixes.csv`` lists
-the suffixes that do not change the elements, such as suffixes of seals, cages and tolerances, and the kinds
-of bearings for which this is known. Other suffixes are refused: they may change geometry or insulation.
+The bearings are in the library or in the usual series, whose geometry is estimated. A designation contains
+words of makers and prefixes, a number with the letters of its type, the letter of a contact angle, and
+suffixes. What is unknown, or may change geometry or insulation, is refused by its name.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+import unicodedata
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
 from ehlectric.cases import library
-from ehlectric.cases.library.bearing_catalogue import CLASSES, ClearanceClass
+from ehlectric.cases.library.bearing_catalogue import ClearanceClass
+from ehlectric.cases.library.designation_suffixes import Suffix, known_suffix, parted
 from ehlectric.cases.library.estimated_bearings import series
 from ehlectric.errors import InputError, shown
 
-# Letters of a bearing type before the number, the number, and what stands behind it.
-_DESIGNATION = re.compile(r"([A-Z]{0,3})\s*-?\s*(\d{2,3}/\d{2,3}|\d{3,6})\s*-?\s*(.*)")
+# Types with the same rollers and raceways as another one: they differ in the flanges.
+_SAME_ROLLERS = {"NJ": "NU", "NUP": "NU", "N": "NU", "NF": "NU"}
 
-# Types with the same rollers and raceways as another one: they differ in the flanges. Of NSK's "HR" tapered
-# roller bearings the letters stand for their load ratings.
-_SAME_ROLLERS = {"NJ": "NU", "NUP": "NU", "N": "NU", "NF": "NU", "HR": ""}
+# Thin bearings, in whose number ISO has a digit more than NSK: 61808, 71908, and 618/8 with a bore of 8 mm.
+_THIN = re.compile(r"(?:(6|7)1(?=[89]\d\d)|(6)1(?=[89]/\d\b))")
 
-# Thin deep-groove ball bearings, in whose number ISO has a digit more than NSK.
-_THIN = re.compile(r"61([89]\d\d)")
-_SEPARATORS = re.compile(r"[\s/.,+-]+")
+# Letters of a type; its number, with a bore in millimetres after a slash; and what stands behind it.
+_NUMBERED = re.compile(
+    r"([A-Z]{0,3})[\s.-]*(\d{2,3}\s?/\s?\d{2,3}(?!\d)|6[1-9]\d/\d(?![\dA-Z])|\d+)(.*)", re.DOTALL
+)
 
-# Suffixes of insulation, which a bearing file has in other keys.
-_INSULATED = {
-    "VL0241": "coating", "VL2071": "coating", "J20A": "coating", "J20AA": "coating", "J20B": "coating",
-    "J20C": "coating", "HC5": "element_material", "HC4": "element_material", "HC": "element_material",
-}  # fmt: skip
+# Number of a type whose number is two dimensions, with any sign between them.
+_SIZED = re.compile(r"(HK|NK|AXK|NA|RNA)[\s.-]*(\d{2,3})(\s?[\sX*/.-]\s?)(\d{2,3})(?![\dX])(.*)", re.DOTALL)
+
+# Types in whose number a slash has a meaning.
+_SLASHED = ("NK", "NA", "RNA")
+
+# Series of cylindrical roller bearings that makers have with and without reinforced rollers.
+_REINFORCED = ("nu-2", "nu-22", "nu-3", "nu-23")
+
+_SEPARATORS = re.compile(r"[\s/.,;:+_()-]+")
+_DASHES = dict.fromkeys(map(ord, "‐‑‒–—―−⁃﹘﹣－"), "-")
+_MARKS = dict.fromkeys(map(ord, "®™©℠\"'`´“”„‘’"), " ")
+
+# Letters of contact angles, the longest first, and their letter in the names of series: 25 degrees are A5 of
+# NSK and AC of SKF and Koyo.
+_ANGLES = {"A5": "a5", "AC": "a5", "A": "a", "B": "b", "C": "c"}
+
+# Sealed on both sides, written without a sign behind the number: 62082RS.
+_TWO_SEALS = re.compile(r"(RS|RZ|Z(?!Z)|NSE|NKE|RU|RD|RK|HRS|BRS)")
 
 
 @dataclass(frozen=True)
@@ -43,122 +59,220 @@ class Designation:
     clearance_class: ClearanceClass | None
 
 
+@dataclass(frozen=True)
+class Prefix:
+    """Word or letters before the number of a bearing, with the kinds whose elements they do not change."""
+
+    pattern: re.Pattern[str]
+    group: str
+    kinds: tuple[str, ...]
+    meaning: str
+    instead: str
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Designation without words of makers: letters of its type, number, and the parts behind it."""
+
+    prefixes: tuple[tuple[str, Prefix], ...]
+    head: str  # what stands behind the prefixes, without a space behind the letters of the type
+    stems: tuple[str, ...]  # names that the number can mean, without a contact angle
+    rest: tuple[str, ...]
+
+
 @cache
 def known_bearings() -> Mapping[str, None]:
     """Names of the bearings of the library and of the usual series, those of the library first."""
     return dict.fromkeys((*library.bearing_names(), *series()))
 
 
-# Kinds of bearings that a word in ``suffixes.csv`` stands for.
-_BALL_KINDS = ("deep-groove ball", "angular-contact ball", "four-point contact ball")
-_ANY = "any"
+@cache
+def _prefixes() -> tuple[Prefix, ...]:
+    """Known prefixes. After letters a sign or a digit follows, after a digit a sign."""
+    found = []
+    for row in library.rows("designation_prefixes.csv"):
+        pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?<=[A-Z])(?=\d)|$)"
+        if row["group"] == "maker":
+            pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?=\d|NU|NJ|N\d|QJ|HK|NK|NA|RNA|AXK)|$)"
+        kinds = tuple(kind for kind in row["kinds"].split("|") if kind)
+        found.append(Prefix(re.compile(pattern), row["group"], kinds, row["meaning"], row["instead"]))
+    return tuple(found)
 
 
-@dataclass(frozen=True)
-class Suffix:
-    """Suffix of designations, with the kinds of bearings whose elements it does not change."""
+def plain(text: str) -> str:
+    r"""Text in capital letters with plain spaces, dashes and digits.
 
-    text: str
-    meaning: str  # meaning for these kinds
-    kinds: tuple[str, ...]
-    not_series: tuple[str, ...]  # series of these kinds whose elements it changes
-    elsewhere: str  # meaning for other kinds; empty if it is unknown
-
-    def harmless(self, kind: str, of_series: str) -> bool:
-        """Whether the suffix does not change the elements of a bearing of a kind and a series."""
-        return (_ANY in self.kinds or kind in self.kinds) and of_series not in self.not_series
-
-    def meaning_for(self, kind: str) -> str:
-        """Meaning for a bearing whose elements the suffix may change."""
-        if not self.kinds or (self.elsewhere and kind.endswith("ball")):
-            return f"it means {self.elsewhere or self.meaning}"
-        of = "any other kind" if _ANY in self.kinds else f"bearings of kind {' or '.join(self.kinds)}"
-        return f"it means {self.meaning} on {of}, and may change the elements here"
+    Examples
+    --------
+    >>> plain("nu\u00a0208 – ecp"), plain("６２０８")
+    ('NU 208 - ECP', '6208')
+    """
+    normal = unicodedata.normalize("NFKC", text.translate(_DASHES).translate(_MARKS))
+    return " ".join(normal.translate(_DASHES).upper().replace("X-LIFE", "XL").split())
 
 
 @cache
-def suffixes() -> dict[str, Suffix]:
-    """Suffixes whose meaning is known, by their text."""
-    found = {}
-    for row in library.rows("suffixes.csv"):
-        kinds = [kind for kind in row["kinds"].split("|") if kind]
-        found[row["suffix"]] = Suffix(
-            text=row["suffix"],
-            meaning=row["meaning"],
-            kinds=tuple(one for kind in kinds for one in (_BALL_KINDS if kind == "ball" else (kind,))),
-            not_series=tuple(part for part in row["not_series"].split("|") if part),
-            elsewhere=row["elsewhere"],
-        )
-    return found
+def parts_of(text: str) -> Parts:
+    """Prefixes, number and suffixes of a designation."""
+    rest, prefixes = plain(text).lstrip("( #"), []
+    while rest:
+        found = next(((one, hit) for one in _prefixes() if (hit := one.pattern.match(rest))), None)
+        if found is None:
+            break
+        if found[0].group == "prefix":
+            prefixes.append((found[1][1], found[0]))
+        rest = rest[found[1].end() :].lstrip()
+    head = re.sub(r"^([A-Z]+)[\s.-]+(?=\d)", r"\1", rest)
+    stems, behind = _stems(rest)
+    words = tuple(part for part in _SEPARATORS.split(behind) if part)
+    while words and any(one.group != "prefix" and one.pattern.fullmatch(words[-1]) for one in _prefixes()):
+        words = words[:-1]
+    return Parts(tuple(prefixes), head, stems, words)
+
+
+def _stems(text: str) -> tuple[tuple[str, ...], str]:
+    """Names that letters and number can mean, and the text behind them; no names without a number."""
+    sized = _SIZED.fullmatch(text)
+    if sized is not None:
+        letters, first, sign, second, behind = sized.groups()
+        stems = f"{letters}-{first}/{second}".lower(), f"{letters}-{first}{second}".lower()
+        if letters not in _SLASHED:
+            return stems[1:], behind
+        # NA 49/22 has a bore of 22 mm and NA 4922 one of 110 mm.
+        return (stems[:1] if letters == "NK" or "/" in sign else stems), behind
+    found = _NUMBERED.fullmatch(text)
+    if found is None:
+        return (), ""
+    letters, number, behind = found[1], re.sub(r"\s", "", found[2]), found[3]
+    if not letters:
+        number = _THIN.sub(lambda hit: hit[1] or hit[2], number)
+        number = re.sub(r"^(6[89])/(\d)$", r"\1\2", number)
+    letters = _SAME_ROLLERS.get(letters, letters)
+    return ("-".join(part for part in (letters, number) if part).lower(),), behind
 
 
 def read_designation(text: str, names: Collection[str]) -> Designation | None:
     """Bearing with a maker's designation; None where there is no such bearing.
 
-    ``names``, names of bearings, as "nu-208" or "7208-b". Raises InputError for a suffix that is not known or
-    may change the elements of the bearing, and for a suffix of an insulated ring or of ceramic elements.
+    ``names``, names of bearings, as "nu-208" or "7208-b". Raises InputError for a prefix or a suffix that is
+    not known or may change the elements of the bearing, such as that of an insulated ring.
 
     Examples
     --------
     >>> read_designation("NJ 208 ECP/C3", ["nu-208"])
     Designation(name='nu-208', clearance_class='C3')
     """
-    found = _DESIGNATION.fullmatch(text.strip().upper())
-    if found is None:
+    parts = parts_of(text)
+    found = [reading for stem in parts.stems if (reading := _named(stem, parts.rest, names)) is not None]
+    found += _with_two_seals(parts, names)
+    if not found:
         return None
-    letters, number, rest = found.groups()
-    letters, number = _SAME_ROLLERS.get(letters, letters), _THIN.sub(r"6\1", number)
-    stem = "-".join(part for part in (letters, number) if part).lower()
-    parts = [part for part in _SEPARATORS.split(rest) if part]
-    name = stem if stem in names else None
-    if name is None and parts:
-        name, parts = _with_angle(stem, parts, names)
-    if name is None:
-        return None
-    classes = [own for part in parts for own in CLASSES if own == part]
-    for part in parts:
-        _check_suffix(text, part, name)
-    if len(classes) > 1:
-        raise InputError("base", got=shown(text), takes="one class of clearance, C2, CN, C3, C4 or C5")
+    if len(found) > 1:
+        takes = "a sign between number and suffix: it can be " + " or ".join(one.upper() for one, _ in found)
+        raise InputError("base", got=shown(text), takes=takes)
+    name, rest = found[0]
+    for word, prefix in parts.prefixes:
+        _check_prefix(text, word, prefix, name)
+    suffixes = tuple(_checked_suffixes(text, rest, name))
+    _check_reinforced(text, suffixes, name)
+    classes = [one.clearance for one in suffixes if one.clearance]
+    if len(set(classes)) > 1:
+        raise InputError("base", got=shown(text), takes="one class of clearance, C2, CN, C3, C4, C5 or CM")
     return Designation(name, classes[0] if classes else None)
 
 
-def _with_angle(stem: str, parts: list[str], names: Collection[str]) -> tuple[str | None, list[str]]:
-    """Name of an angular-contact bearing, whose suffixes begin with the letter of its contact angle, as in
-    7208 BEP or 7908 A5, and the suffixes without it; None where there is no such bearing.
+def _named(stem: str, rest: Sequence[str], names: Collection[str]) -> tuple[str, tuple[str, ...]] | None:
+    """Name of a bearing and its suffixes; those of an angular-contact bearing begin with the letter of its
+    contact angle, as in 7208 BEP or 7908 A5. None where there is no such bearing.
     """
-    whole, letter = f"{stem}-{parts[0].lower()}", f"{stem}-{parts[0][0].lower()}"
-    if whole in names:
-        return whole, parts[1:]
-    more = parts[0][1:]
-    return (letter, [*([more] if more else []), *parts[1:]]) if letter in names else (None, parts)
+    if stem in names:
+        return stem, tuple(rest)
+    if not rest:
+        return None
+    letter = next((one for one in _ANGLES if rest[0].startswith(one)), None)
+    name = f"{stem}-{_ANGLES[letter]}" if letter else ""
+    if letter is None or name not in names:
+        whole = f"{stem}-{rest[0].lower()}"
+        return (whole, tuple(rest[1:])) if whole in names else None
+    more = rest[0][len(letter) :]
+    return name, ((more,) if more else ()) + tuple(rest[1:])
 
 
-def _check_suffix(text: str, part: str, name: str) -> None:
+def _with_two_seals(parts: Parts, names: Collection[str]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Reading of a number whose last digit belongs to the suffix, as in 62082RS."""
+    for stem in parts.stems:
+        if stem.endswith("2") and parts.rest and _TWO_SEALS.match(parts.rest[0]):
+            attached = parts.head.upper().find("2" + parts.rest[0]) > 0
+            if attached and stem[:-1] in names:
+                yield stem[:-1], ("2" + parts.rest[0], *parts.rest[1:])
+
+
+def _check_prefix(text: str, word: str, prefix: Prefix, name: str) -> None:
+    """Refuse a prefix that may change the elements of a bearing."""
+    if "any" not in prefix.kinds and kind_and_series(name)[0] not in prefix.kinds:
+        raise refused(text, word, prefix.meaning, prefix.instead)
+
+
+def refused(text: object, part: str, meaning: str, instead: str) -> InputError:
+    """Error of a part of a designation that is not read; ``instead``, what to give, or a choice with "or"."""
+    also = f", {instead}" if instead.startswith("or ") else f", and {instead}"
+    takes = f"the designation without {part!r}, which means {meaning}{also}"
+    return InputError("base", got=shown(text), takes=takes)
+
+
+def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suffix]:
+    """Suffixes of a bearing; raises InputError for one that is unknown or may change its elements."""
+    kind, of_series = kind_and_series(name)
+    bore = 1e3 * series()[name].bore if name in series() else None
+    for part in _joined(rest, bore):
+        known, unknown = parted(part, bore)
+        if unknown:
+            latin = "" if unknown.isascii() else " in Latin letters"
+            takes = (
+                f"a designation without {unknown!r}, which is no suffix that is known{latin}: it may change "
+                "the geometry; omit it only if the maker's catalogue says that the elements are the same"
+            )
+            raise InputError("base", got=shown(text), takes=takes)
+        for one in known:
+            _check_suffix(text, one, kind, of_series)
+        yield from known
+
+
+def _joined(rest: Sequence[str], bore: float | None) -> Iterator[str]:
+    """Parts of which two are joined where only both together are a suffix, as "2 RS" or "C 3"."""
+    parts = list(rest)
+    while parts:
+        part = parts.pop(0)
+        if parts and known_suffix(part + parts[0], bore) and (part.isdigit() or parts[0].isdigit()):
+            part += parts.pop(0)
+        yield part
+
+
+def _check_suffix(text: str, suffix: Suffix, kind: str, of_series: str) -> None:
     """Refuse a suffix that may change the geometry or the insulation of a bearing."""
-    if part in _INSULATED:
-        given = {"element_material": "'silicon-nitride'", "coating": "that of the ring, such as 'alumina'"}
-        takes = f"the designation without {part}, and bearing.{_INSULATED[part]}: {given[_INSULATED[part]]}"
-        raise InputError("base", got=shown(text), takes=takes)
-    if part in CLASSES:
+    if suffix.harmless(kind, of_series):
         return
-    known = suffixes().get(part)
-    if known is None:
-        reason = "which is no suffix that is known: it may change the geometry"
-        raise InputError("base", got=shown(text), takes=f"a designation without {part!r}, {reason}")
-    kind, of_series = _kind_and_series(name)
-    if not known.harmless(kind, of_series):
-        if of_series in known.not_series:
-            meaning = f"the load ratings of the series {of_series.upper()} here belong to another design"
-        else:
-            meaning = known.meaning_for(kind)
-        takes = f"a designation without {part!r}: on this {kind} bearing {meaning}"
-        raise InputError(
-            "base", got=shown(text), takes=f"{takes}; or the elements of the bearing without base"
-        )
+    part = suffix.text
+    if suffix.instead:
+        raise refused(text, part, suffix.meaning, suffix.instead)
+    if of_series in suffix.not_series:
+        meaning = f"the load ratings of the series {of_series.upper()} here belong to another design"
+    else:
+        meaning = suffix.meaning_for(kind)
+    takes = f"a designation without {part!r}: on this {kind} bearing {meaning}"
+    raise InputError("base", got=shown(text), takes=f"{takes}; or the elements of the bearing without base")
 
 
-def _kind_and_series(name: str) -> tuple[str, str]:
+def _check_reinforced(text: str, suffixes: Sequence[Suffix], name: str) -> None:
+    """Refuse a cage without a reinforced design: makers with both designs mean the smaller rollers by it."""
+    cage = next((one.text for one in suffixes if one.group == "cage"), None)
+    reinforced = any(one.group == "design" and one.text.startswith("E") for one in suffixes)
+    if kind_and_series(name)[1] in _REINFORCED and cage is not None and not reinforced:
+        meaning = "smaller rollers if no E stands before the cage"
+        raise refused(text, cage, meaning, f"or with E, such as 'E {cage}', for the reinforced design")
+
+
+def kind_and_series(name: str) -> tuple[str, str]:
     """Kind and series of a bearing by its name; the series of a bearing of the library may be unknown."""
     if name in series():
         return series()[name].kind, series()[name].series

@@ -38,6 +38,16 @@ BALL_STEP, METRIC_STEP, NEEDLE_STEP = 25.4e-3 / 64.0, 0.5e-3, 0.5e-3
 # Series of thin bearings, which also contain metric balls: the 6804 has 13 balls of 3.5 mm.
 _METRIC = ("68", "69")
 
+# Bore below which bearings of all series also contain metric balls [m]: the 626 has 6 balls of 3.5 mm.
+_SMALL_BORE = 10.0 * _MILLIMETRE
+
+# Small bearings of several bores or outside diameters with the same two ratings contain the same balls on the
+# same pitch circle: the pitch circle of the bearing that fits the ratings best.
+_SAME_BALLS = {
+    "604": "694", "633": "624", "634": "625", "607": "626", "635": "626", "627": "608", "636": "608",
+    "628": "609", "629": "6000", "637": "6000", "638": "6000", "639": "6200",
+}  # fmt: skip
+
 # Pitch diameter of balls and of tapered rollers over the mean of bore and outside diameter.
 PITCH_RATIO = 1.0
 
@@ -111,13 +121,14 @@ class SeriesBearing:
 
         Examples
         --------
-        >>> [series()[name].series for name in ("nu-2310", "na-49/22", "7210-b", "nk-20/20")]
-        ['nu-23', 'na-49', '72-b', 'nk']
+        >>> [series()[name].series for name in ("nu-2310", "na-49/22", "7210-b", "nk-20/20", "608")]
+        ['nu-23', 'na-49', '72-b', 'nk', '60']
         """
         stem, _, angle = self.name.partition("-") if self.name[0].isdigit() else (self.name, "", "")
         if stem.startswith(_SIZED):
             return stem.partition("-")[0]
-        stem = stem.rpartition("/")[0] if "/" in stem else stem[:-2]
+        # The bore is two digits, or one of three.
+        stem = stem.rpartition("/")[0] if "/" in stem else stem[: max(2, len(stem) - 2)]
         return f"{stem}-{angle}" if angle else stem
 
     @property
@@ -226,7 +237,8 @@ class Target:
 
 def _balls(bearing: SeriesBearing, target: Target, rules: Rules) -> EstimatedGeometry:
     """Whole number of standard balls whose ratings are nearest to both ratings."""
-    pitch, angle = rules.pitch_ratio * bearing.middle, bearing.contact_angle or 0.0
+    like = series().get(_SAME_BALLS.get(bearing.name, ""), bearing)
+    pitch, angle = rules.pitch_ratio * like.middle, bearing.contact_angle or 0.0
     rates = (
         lambda number, ball: ball_dynamic_rating(number, ball, pitch, angle),
         lambda number, ball: ball_static_rating(number, ball, pitch, angle),
@@ -273,7 +285,8 @@ def _best_balls(
 def _standard_balls(bearing: SeriesBearing) -> Iterator[float]:
     """Diameters of standard balls that fit between the rings of a bearing [m]."""
     space = bearing.outer_diameter - bearing.bore
-    for step in (BALL_STEP, *((METRIC_STEP,) if bearing.series in _METRIC else ())):
+    metric = bearing.series in _METRIC or bearing.bore < _SMALL_BORE
+    for step in (BALL_STEP, *((METRIC_STEP,) if metric else ())):
         first, last = round(_BALL_PARTS[0] * space / step), int(_BALL_PARTS[1] * space / step)
         yield from (float(f"{number * step:.9g}") for number in range(first, last + 1))
 
