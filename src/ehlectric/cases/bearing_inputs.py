@@ -31,7 +31,7 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_clearance,
 )
 from ehlectric.cases.library.designation_types import no_such_bearing
-from ehlectric.cases.library.designations import known_bearings, read_designation
+from ehlectric.cases.library.designations import kind_and_series, known_bearings, read_designation
 from ehlectric.cases.library.estimated_bearings import estimated_bearing, series
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
@@ -188,6 +188,10 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if found is None:
         return table
     named, given = found.clearance_class, table.get("clearance_class")
+    kind = kind_and_series(found.name)[0]
+    if named is not None and "radial_clearance" not in KINDS_OF_BEARINGS[kind].keys:
+        takes = f"the designation without {named!r}: a {kind} bearing has no class of radial clearance"
+        raise InputError("base", got=shown(base), takes=takes)
     if named is not None and given in CLASSES and given != named:
         takes = f"{named!r}, as in base, or base without its class"
         raise InputError("clearance_class", got=f"{given!r} with base {base!r}", takes=takes)

@@ -1,13 +1,20 @@
 """Designations of makers, read as bearings of the library with their class of clearance."""
 
+import csv
+import math
+from collections import Counter
+from pathlib import Path
+
 import pytest
 
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.library.designation_suffixes import suffixes
+from ehlectric.cases.library.designation_suffixes import parted, suffixes
+from ehlectric.cases.library.designation_types import no_such_bearing, type_of
 from ehlectric.cases.library.designations import known_bearings, read_designation
-from ehlectric.cases.library.estimated_bearings import series
+from ehlectric.cases.library.estimated_bearings import estimated_geometry, series
 from ehlectric.errors import InputError
+from ehlectric.formulas.load_ratings import ball_static_rating
 from tests.helpers.each import each
 
 NAMES = library.bearing_names()
@@ -208,3 +215,172 @@ def test_bearings_without_classes_still_need_a_clearance(base, key):
     with pytest.raises(InputError) as caught:
         BearingCase.of(base=base, lubricant=OIL, **REST)
     assert caught.value.key == f"bearing.{key}"
+
+
+LIST = Path(__file__).parent / "designations.csv"
+
+
+def _listed():
+    lines = (line for line in LIST.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
+    return list(csv.DictReader(lines))
+
+
+def _reading(text):
+    """Name and class of a designation, or the text of its refusal."""
+    try:
+        found = read_designation(text, known_bearings())
+    except InputError as error:
+        return str(error)
+    return str(no_such_bearing(text)) if found is None else (found.name, found.clearance_class or "")
+
+
+def test_designations_as_people_type_them():
+    """Each is read as the right bearing with its class, or refused with what is unknown about it."""
+    rows = _listed()
+    wrong = {}
+    for row in rows:
+        reading, expected = _reading(row["text"]), (row["name"], row["clearance"])
+        right = reading == expected if row["name"] else isinstance(reading, str) and row["refused"] in reading
+        if not right:
+            wrong[row["text"]] = reading
+    assert wrong == {}
+    assert len({row["text"] for row in rows}) == len(rows) >= 300
+    assert Counter(bool(row["name"]) for row in rows)[True] >= 150
+
+
+@each("shape", ["{0}", "skf {0}", "{0}/C3", "{0} c3", "{1}", "{2}", "FAG {1}"])
+def test_every_bearing_is_read_by_its_own_name(shape):
+    """In capital and small letters, with spaces, and without a sign behind the letters of the type."""
+    for name in series():
+        text = shape.format(name.upper(), name.replace("-", " "), name.upper().replace("-", "", 1))
+        assert _reading(text)[0] == name, text
+
+
+@each("base", ["22210 E", "1208", "3208 A", "5308", "81208", "29412", "C 2210", "UC 208", "4208", "NN 3010"])
+def test_a_kind_that_is_not_modelled_is_refused_by_its_name_without_examples_of_other_kinds(base):
+    with pytest.raises(InputError) as caught:
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+    assert caught.value.key == "bearing.base"
+    assert "a kind that is not modelled" in str(caught.value)
+    assert "such as" not in str(caught.value)
+
+
+@each(
+    ("base", "kind"),
+    [
+        ("6298", "deep-groove ball"),
+        ("NU 299 ECP", "cylindrical roller"),
+        ("QJ 299", "four-point contact ball"),
+        ("7299 B", "angular-contact ball"),
+        ("32298", "tapered roller"),
+        ("LM11749/LM11710", "tapered roller"),
+        ("51298", "thrust ball"),
+        ("NK 99/20", "needle roller"),
+        ("HK 9920", "needle roller"),
+        ("AXK 9920", "thrust needle roller"),
+        ("R8ZZ", "deep-groove ball"),
+    ],
+)
+def test_examples_of_a_refusal_are_of_the_kind_that_was_typed(base, kind):
+    with pytest.raises(InputError, match="such as") as caught:
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+    text = str(caught.value).partition("such as ")[2].partition(" (list")[0]
+    names = [name.strip("'") for name in text.split(", ")]
+    assert [series()[name].kind for name in names] == [kind] * 3
+
+
+def test_types_of_designations_agree_with_the_series():
+    """Each bearing of the series has the type of its kind, so that no example is of another kind."""
+    for name, bearing in series().items():
+        found = type_of(name.upper().replace("-", "", 1) if name[0].isalpha() else name.upper())
+        assert found is not None, name
+        assert found.kind == bearing.kind, name
+
+
+@each(
+    ("text", "bore", "pieces"),
+    [
+        ("2RS1C3WT", 40.0, ["2RS1", "C3", "WT"]),
+        ("C3LHT23", 40.0, ["C3", "LHT23"]),
+        ("C3HT", 40.0, ["C3", "HT"]),
+        ("MC3", 80.0, ["M", "C3"]),
+        ("MC3", 8.0, ["MC3"]),
+        ("C3VL0241", 80.0, ["C3", "VL0241"]),
+        ("P6C4", 40.0, ["P6", "C4"]),
+    ],
+)
+def test_suffixes_that_are_written_together(text, bore, pieces):
+    known, unknown = parted(text, bore)
+    assert ([one.text for one in known], unknown) == (pieces, "")
+
+
+@each("text", ["MN", "ZM", "C3C4", "2RSZZ", "TNP"])
+def test_letters_are_not_divided_into_single_ones_or_into_two_suffixes_of_a_group(text):
+    assert parted(text, 40.0)[1]
+
+
+@each(
+    ("base", "clearance"),
+    [
+        # Middle of CM of NSK's table 9.13: balls on 10 mm 4 to 11 um, on 40 mm 9 to 17 um and on 150 mm 24 to
+        # 38 um; rollers on 50 mm 20 to 35 um.
+        ("6200ZZCM", 7.5e-6),
+        ("6208DDUCM", 13e-6),
+        ("6330CM", 31e-6),
+        ("NU210EMCM", 27.5e-6),
+        # C3 on 150 mm is 46 to 91 um, CN on 8 mm 2 to 13 um.
+        ("6330/C3", 68.5e-6),
+        ("608ZZ", 7.5e-6),
+    ],
+)
+def test_clearances_of_electric_motors_and_of_small_and_large_bearings(base, clearance):
+    more = {"profile": "logarithmic"} if base.startswith("N") else {}
+    case = BearingCase.of(base=base, lubricant=OIL, **REST, **more)
+    assert case.bearing.radial_clearance == pytest.approx(clearance)
+
+
+@each(("base", "key"), [("625", "radial_clearance"), ("6244", "radial_clearance")])
+def test_bores_outside_the_table_of_clearances_need_a_clearance(base, key):
+    with pytest.raises(InputError) as caught:
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+    assert (caught.value.key, caught.value.is_missing) == (f"bearing.{key}", True)
+
+
+@each("base", ["625 C3", "6234 CM", "NA 4908 CM"])
+def test_classes_that_are_not_printed_for_a_bore_are_refused(base):
+    with pytest.raises(InputError, match=r"radial_clearance"):
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+
+
+@each(
+    ("name", "factor"),
+    [("6226", 14.5), ("6240", 15.2), ("6248", 15.2), ("6330", 13.9), ("6348", 14.2), ("6030", 15.9)],
+)
+def test_large_balls_have_the_printed_factor_of_the_static_rating(name, factor):
+    """NSK prints f0 of ISO 76, which depends on ball over pitch circle, next to the ratings."""
+    bearing = series()[name]
+    found = estimated_geometry(bearing)
+    own = ball_static_rating(found.elements, found.element_diameter, found.pitch_diameter, 0.0)
+    f0 = own / (1e6 * found.elements * found.element_diameter**2)
+    assert f0 == pytest.approx(factor, abs=0.15)
+
+
+def test_small_bearings_contain_their_balls():
+    """608: seven balls of 5/32 in; 626: six of 3.5 mm, as makers sell them (unverified source)."""
+    found = {name: estimated_geometry(series()[name]) for name in ("608", "626", "627")}
+    assert [one.elements for one in found.values()] == [7, 6, 7]
+    assert found["608"].element_diameter == pytest.approx(25.4e-3 * 5 / 32, rel=1e-6)
+    assert found["626"].element_diameter == pytest.approx(3.5e-3)
+    assert (found["627"].pitch_diameter, found["608"].pitch_diameter) == (0.015, 0.015)
+
+
+def test_contact_angles_of_super_precision_designations():
+    angles = {base: series()[_reading(base)[0]].contact_angle for base in ("7014 CD/P4A", "7014 ACD/P4A")}
+    assert [math.degrees(angle) for angle in angles.values()] == pytest.approx([15.0, 25.0])
+
+
+@each("base", ["7208 B/C3", "32208 J2/C3", "51208 C3"])
+def test_a_class_of_a_kind_without_radial_clearance_is_refused_in_the_designation(base):
+    with pytest.raises(InputError, match="'C3'") as caught:
+        BearingCase.of(base=base, lubricant=OIL, **REST)
+    assert caught.value.key == "bearing.base"

@@ -57,7 +57,8 @@ def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> 
     if not rows:
         of_class = f" of class {clearance_class}" if has_classes(kind) else ""
         text = f"has no table{of_class} for a bearing of kind {kind!r}"
-        raise InputError.worded("clearance_class", text, takes="radial_clearance, where the kind has one")
+        takes = "radial_clearance, if the kind has one"
+        raise InputError.worded("clearance_class", f"{text}; expected {takes}", takes=takes)
     raise InputError(
         "bore",
         got=f"{1e3 * bore:.6g} mm",

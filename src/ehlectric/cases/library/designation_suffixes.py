@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -93,7 +93,7 @@ def parted(text: str, bore: float | None = None) -> tuple[tuple[Suffix, ...], st
     >>> [one.text for one in parted("2RS1C3WT")[0]], parted("C3XYZ")[1]
     (['2RS1', 'C3', 'WT'], 'XYZ')
     """
-    whole = min(_divided(text, bore), key=len, default=None)
+    whole = min(_divided(text, bore), key=lambda way: (len(way), _singles(way)), default=None)
     if whole is not None:
         return whole, ""
     # Single letters in front of what is unknown may belong to it.
@@ -102,13 +102,17 @@ def parted(text: str, bore: float | None = None) -> tuple[tuple[Suffix, ...], st
     return (), text[next(certain, 0) :]
 
 
+def _singles(suffixes: Sequence[Suffix]) -> int:
+    """Number of single letters."""
+    return sum(len(one.text) == 1 for one in suffixes)
+
+
 def _divided(text: str, bore: float | None, before: tuple[Suffix, ...] = ()) -> Iterator[tuple[Suffix, ...]]:
     """Ways to divide a text into suffixes."""
     if not text:
         yield before
     for end in range(len(text), 0, -1):
         one = known_suffix(text[:end], bore)
-        letters = [suffix for suffix in before if len(suffix.text) == 1]
-        if one is None or one.group in {suffix.group for suffix in before} or (end == 1 and letters):
+        if one is None or one.group in {suffix.group for suffix in before} or (end == 1 and _singles(before)):
             continue
         yield from _divided(text[end:], bore, (*before, one))

@@ -40,7 +40,7 @@ _SLASHED = ("NK", "NA", "RNA")
 _REINFORCED = ("nu-2", "nu-22", "nu-3", "nu-23")
 
 _SEPARATORS = re.compile(r"[\s/.,;:+_()-]+")
-_DASHES = dict.fromkeys(map(ord, "‐‑‒–—―−⁃﹘﹣－"), "-")
+_DASHES = dict.fromkeys(map(ord, "‐‑‒–—―−⁃﹘﹣－"), "-") | {ord("×"): "X"}
 _MARKS = dict.fromkeys(map(ord, "®™©℠\"'`´“”„‘’"), " ")
 
 # Letters of contact angles, the longest first, and their letter in the names of series: 25 degrees are A5 of
@@ -93,7 +93,7 @@ def _prefixes() -> tuple[Prefix, ...]:
     for row in library.rows("designation_prefixes.csv"):
         pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?<=[A-Z])(?=\d)|$)"
         if row["group"] == "maker":
-            pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?=\d|NU|NJ|N\d|QJ|HK|NK|NA|RNA|AXK)|$)"
+            pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?=\d|NU|NJ|QJ|HK|NK|NA|RNA|AXK)|$)"
         kinds = tuple(kind for kind in row["kinds"].split("|") if kind)
         found.append(Prefix(re.compile(pattern), row["group"], kinds, row["meaning"], row["instead"]))
     return tuple(found)
@@ -194,7 +194,12 @@ def _named(stem: str, rest: Sequence[str], names: Collection[str]) -> tuple[str,
     if letter is None or name not in names:
         whole = f"{stem}-{rest[0].lower()}"
         return (whole, tuple(rest[1:])) if whole in names else None
-    more = rest[0][len(letter) :]
+    # CD and ACD are SKF's super-precision designs with the usual balls; CDB, CDF and CDT are sets with C.
+    more = (
+        re.sub(r"^D(?![BFT])", "", rest[0][len(letter) :])
+        if letter in ("C", "AC")
+        else rest[0][len(letter) :]
+    )
     return name, ((more,) if more else ()) + tuple(rest[1:])
 
 
