@@ -41,6 +41,31 @@ def test_a_bearing_is_found_by_the_names_of_makers(page):
 
 
 @pytest.mark.slow
+def test_a_typed_designation_is_read_and_not_an_entry_that_contains_its_letters(page):
+    """Letters as E and C are in the labels of entries: "6308 E" became a 6308, and "7208 C" a 7208-B."""
+    box, error = field(page, "bearing.base"), page.get_by_test_id("error-bearing-base")
+    for text, says in (
+        ("6308 E", "reinforced set"),
+        ("7208", "the letter of its contact angle"),
+        ("22210 E", "spherical roller"),
+        ("6316/C3VL0241", "bearing.coating"),
+    ):
+        search(page, text)
+        box.press("Enter")
+        error.filter(has_text=says).wait_for()
+    for text, address in (
+        ("7208 C", "base=7208-c"),
+        ("skf nu 208 ecp", "base=nu-208"),
+        ("6208DDUCM", "clearance_class=CM"),
+        ("6208-2Z/C3WT", "clearance_class=C3"),
+    ):
+        search(page, text)
+        box.press("Enter")
+        wait_for_address(page, address)
+        error.wait_for(state="detached")
+
+
+@pytest.mark.slow
 def test_a_designation_keeps_its_class_and_a_kind_its_first_values(page, tmp_path):
     """Class and roughness of the page, its address and its file are those of the designation and its kind."""
     wait_for_number(page, "bearing.capacitance", capacitance())

@@ -81,6 +81,7 @@ export default {
       held: false,
       helped: false,
       opened: false,
+      moved: false,
       query: "",
       typed: false,
       active: 0,
@@ -132,6 +133,10 @@ export default {
       if (!this.ignored || this.matching(query.toLowerCase()).length) return "";
       return query.slice(this.bare(query.toLowerCase()).length);
     },
+    // Whether Enter takes the typed text, a designation, and no entry that only contains its words.
+    named() {
+      return this.free && this.typed && !this.moved && /\d/.test(this.query);
+    },
     found() {
       // Where nothing is found, the entry for own values stays.
       const found = this.matches.length ? this.matches : this.options.filter((o) => o.value === OWN);
@@ -159,7 +164,9 @@ export default {
     matching(query) {
       const words = query.split(/\s+/).filter(Boolean);
       const text = (o) => (o.value + " " + o.label + " " + o.group).toLowerCase();
-      return this.options.filter((o) => words.every((word) => text(o).includes(word)));
+      // One or two letters of a designation, such as a contact angle, are in nearly every label.
+      const where = (o, word) => (this.free && /^[a-z]{1,2}$/.test(word) ? o.value.toLowerCase() : text(o));
+      return this.options.filter((o) => words.every((word) => where(o, word).includes(word)));
     },
     labelOf(value) {
       const found = this.options.find((o) => o.value === value);
@@ -207,6 +214,7 @@ export default {
     search() {
       this.opened = true;
       this.typed = true;
+      this.moved = false;
       this.active = this.matches.length ? 0 : -1;
     },
     close() {
@@ -220,11 +228,13 @@ export default {
         if (!this.opened) return this.open();
         const step = event.key === "ArrowDown" ? 1 : -1;
         const count = this.found.length;
+        this.moved = true;
         if (count) this.active = this.active < 0 ? 0 : (this.active + step + count) % count;
         this.seen();
       } else if (event.key === "Enter") {
         event.preventDefault();
-        if (this.opened && this.found[this.active]) this.pick(this.found[this.active]);
+        if (this.opened && this.named) this.choose(this.query.trim());
+        else if (this.opened && this.found[this.active]) this.pick(this.found[this.active]);
         else if (this.opened && this.free && this.query.trim()) this.choose(this.query.trim());
         else this.open();
       } else if (event.key === "Escape") {
