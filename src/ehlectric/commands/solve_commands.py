@@ -196,13 +196,13 @@ def plot(
     refuse_undrawn(drawn.undrawn)
 
 
-# Designations that are understood beside the bearings of the library.
+# Designations that are understood in addition to the bearings of the library.
 _SERIES = (
-    "designations of these series are understood, too, as 6314-C3 or NU 210 ECP, with",
-    "elements that are estimated from load ratings (bores of 10 to 120 mm): 60, 62, 63,",
-    "68, 69, 160, 618, 619; 70, 72, 73, 79 with A, B or C; QJ 2, 3, 10; NU, NJ, NUP, N",
-    "2, 3, 4, 10, 22, 23; 302, 303, 313, 320, 322, 323, 329, 330, 331, 332; NA, RNA 49,",
-    "59, 69; HK, NK, AXK; 511 to 514",
+    "designations of these series are also understood, such as 6314-C3 or SKF NU 210 ECP,",
+    "with elements that are estimated from load ratings: 60, 62, 63, 68, 69, 160, 618, 619",
+    "(bores of 3 to 240 mm); 70, 72, 73, 79, 719 with A, AC, B or C; QJ 2, 3, 10; NU, NJ,",
+    "NUP, N 2, 3, 4, 10, 22, 23; 302, 303, 313, 320, 322, 323, 329, 330, 331, 332; NA, RNA",
+    "49, 59, 69; HK, NK, AXK; 511 to 514 (bores of 10 to 120 mm)",
 )
 
 
