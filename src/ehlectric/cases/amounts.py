@@ -21,6 +21,9 @@ from ehlectric.quantities.unit_spelling import typed
 # Temperatures without a unit whose size is below this are meant in degC [K].
 _COLDEST_BARE = 200.0
 
+# Text of an infinite number in files, because JSON has no such number.
+INFINITE = "inf"
+
 # Key of the context of a validation: whether a person wrote the tables into a file.
 WRITTEN = "written"
 
@@ -48,6 +51,11 @@ def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], 
     return validate
 
 
+def finite_or_text(value: Any) -> Any:
+    """Number, or the text of an infinite number."""
+    return INFINITE if isinstance(value, float) and math.isinf(value) else value
+
+
 @dataclass(frozen=True)
 class Amount(Bounds):
     """Pydantic annotation of a physical quantity: SI number or string with its unit, within bounds."""
@@ -55,7 +63,11 @@ class Amount(Bounds):
     unit: str  # SI unit as pint writes it; empty for a dimensionless quantity
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.with_info_plain_validator_function(_with_context(self.parse))
+        # JSON has no infinite number.
+        written = core_schema.plain_serializer_function_ser_schema(finite_or_text, when_used="json")
+        return core_schema.with_info_plain_validator_function(
+            _with_context(self.parse), serialization=written if self.infinite else None
+        )
 
     def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> dict[str, Any]:
         keywords = {
@@ -81,6 +93,8 @@ class Amount(Bounds):
         self._check_bare(item, written=written)
         try:
             value = self._number(item)
+            if self.infinite and math.isinf(value):
+                return math.inf
             if not math.isfinite(value):
                 raise ValueError("it is not finite")
             if not self.allow(value):
@@ -116,6 +130,8 @@ class Amount(Bounds):
             )
 
     def _number(self, entry: object) -> float:
+        if isinstance(entry, str) and units.is_infinite(entry, self.unit):
+            return math.inf
         if self.difference and units.on_scale(entry):
             raise ValueError("it is a difference of temperatures, not a temperature: write K or delta_degF")
         if isinstance(entry, str) and self.unit:
@@ -170,6 +186,7 @@ class Amount(Bounds):
         ]
         if bounds:
             text += ", " + " and ".join(bounds)
+        text += ", or 'inf' for a plane" if self.infinite else ""
         return text + (f": {self.reason}" if self.reason else "")
 
 

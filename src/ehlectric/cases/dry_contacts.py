@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.errors import InputError
 from ehlectric.formulas import hertz
@@ -26,6 +28,8 @@ def line_radius(contact: Contact) -> tuple[float, float]:
         return contact.reduced_radius, 0.5
     r1, r2 = contact.radius_1, contact.radius_2
     assert r1 is not None and r2 is not None
+    if math.isinf(r1) and math.isinf(r2):
+        raise _planes("radius_1", "a finite radius of one body: two planes do not touch along a line")
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
         raise _gapless("radius_1", f"{r1:g} m with radius_2 {r2:g} m", "1/radius_1 + 1/radius_2")
     radius = hertz.reduced_radius(r1, r2)
@@ -38,11 +42,19 @@ def point_radius(contact: Contact, key: str) -> float:
     if reduced is not None:
         return reduced
     r1, r2 = (contact.value(f"{body}.{key}") for body in ("body_1", "body_2"))
+    if math.isinf(r1) and math.isinf(r2):
+        takes = "a finite radius of one body; a cylinder on a plane has geometry = 'line'"
+        raise _planes(f"body_1.{key}", takes)
     if not 1.0 / r1 + 1.0 / r2 > 0.0:
         curvatures = "1/radius of body_1 + 1/radius of body_2"
         raise _gapless(f"body_1.{key}", f"{r1:g} m with {r2:g} m of body_2", curvatures)
     radius: float = hertz.reduced_radius(r1, r2)
     return radius
+
+
+def _planes(key: str, takes: str) -> InputError:
+    """Error of two bodies without curvature in a direction."""
+    return InputError(f"contact.{key}", got="two planes: the radii of both bodies are infinite", takes=takes)
 
 
 def _gapless(key: str, got: str, curvatures: str) -> InputError:

@@ -72,6 +72,8 @@ class Bounds:
     fraction: bool = False  # whether the value may be a string in percent
     # Whether the value is a difference of temperatures, which has no zero of a scale.
     difference: bool = False
+    # Whether the value may be infinite, as the radius of a plane; the sign of infinity does not count.
+    infinite: bool = False
     # Smallest and largest value that is typical in machines; None if unknown. Values beyond are allowed.
     typical: tuple[float, float] | None = None
 
@@ -83,6 +85,8 @@ class Bounds:
         >>> Bounds(above=0.0, most=1.0).allow(0.0), Bounds(above=0.0, most=1.0).allow(1.0)
         (False, True)
         """
+        if math.isinf(value):
+            return self.infinite
         return self.above < value < self.below and self.least <= value <= self.most
 
 

@@ -447,6 +447,27 @@ def parts(text: str) -> tuple[str, str] | None:
         return None
 
 
+# Texts of an infinite number, in small letters; a plane has an infinite radius.
+_INFINITE = re.compile(r"[-+]?(?:inf|infinity|infinite|∞|flat|plane)(?:\s++(.*))?")
+
+
+def is_infinite(text: str, unit: str) -> bool:
+    """Whether a text is an infinite number, with or without a unit that converts to an SI unit.
+
+    Examples
+    --------
+    >>> is_infinite("inf", "m"), is_infinite("∞ mm", "m"), is_infinite("flat", "m"), is_infinite("inf N", "m")
+    (True, True, True, False)
+    """
+    found = _INFINITE.fullmatch(typed(text[:LONGEST]).strip().lower())
+    if found is None:
+        return False
+    try:
+        return not found[1] or factor(found[1], unit) > 0.0
+    except ValueError:
+        return False
+
+
 def split(text: str) -> tuple[float, str] | None:
     """Number and unit of a text, the unit as it is written; None where it is no number.
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.cases import library
-from ehlectric.cases.amounts import Amount
+from ehlectric.cases.amounts import INFINITE, Amount
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
@@ -106,6 +106,8 @@ def parts_of(case: SweptCase, *, apart: bool = False) -> dict[str, Case | Bearin
 
 def input_text(case: SweptCase, key: str, value: Any) -> str:
     """Value of an input as a report shows it, in a unit that suits it."""
+    if value == INFINITE:
+        return "infinite, a plane"
     text = input_row(case, key, value).text
     return with_units_kept(printable(text.replace("ohm", "Ω") if is_number(value) else text))
 

@@ -4,7 +4,9 @@ points.
 
 from __future__ import annotations
 
+import math
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -368,6 +370,7 @@ def take(
         raise InputError(
             "at", f"no point of the sweep has {', '.join(f'{k} = {v}' for k, v in fixed.items())}"
         )
+    chosen = _finite(results, chosen, x, y)
     points = tuple(results.points[k] for k in chosen)
     # Values of points with a severe warning are left out of figures.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
@@ -390,6 +393,19 @@ def take(
         voltage=usable * breakdown.voltages(results)[chosen],
         margin=usable * breakdown.margins(results)[chosen],
     )
+
+
+def _finite(results: SweepResults, chosen: Sequence[int], x: str, y: str | None) -> list[int]:
+    """Numbers of the chosen points that have a place on both axes. Warns of points with an infinite input."""
+    axes = [key for key in (x, y) if key is not None]
+    inputs = {k: [results.points[k].inputs.get(key) for key in axes] for k in chosen}
+    kept = [k for k, row in inputs.items() if not any(isinstance(v, float) and math.isinf(v) for v in row)]
+    if not kept:
+        raise InputError("x", got="infinite inputs only", takes="a key with finite values")
+    if len(kept) < len(chosen):
+        text = f"{len(chosen) - len(kept)} of {len(chosen)} points have an infinite input and are not drawn"
+        warnings.warn(text, stacklevel=3)
+    return kept
 
 
 def _drawn(points: Sequence[Point]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sqlite3
 import zlib
@@ -15,9 +16,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self, get_args
 
+from ehlectric.cases.amounts import INFINITE, Amount, finite_or_text
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
-from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.input_keys import input_field, kind_of
 from ehlectric.cases.table import number_of
 from ehlectric.contact.stored import case_with_stored_laws
 from ehlectric.errors import (
@@ -162,7 +164,7 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
     results = SweepResults(
         case=case,
         design=settings["design"],
-        axes={key: tuple(values) for key, values in settings["axes"].items()},
+        axes={key: tuple(_read(key, value) for value in values) for key, values in settings["axes"].items()},
         ranges={key: Range(**over) for key, over in settings["ranges"].items()},
         samples=settings["samples"],
         points=tuple(_points(rows, case)),
@@ -188,8 +190,32 @@ def _is_varied(value: Any, right: Callable[[str, Any], bool]) -> bool:
 
 
 def _is_axis(key: str, value: Any) -> bool:
-    numeric = number_of(input_field(key)) is not None
-    return is_list(value, is_number if numeric else _is_small) and bool(value)
+    kind = number_of(input_field(key))
+    right = (
+        _is_small
+        if kind is None
+        else lambda one: is_number(one) or (_may_be_infinite(key) and one == INFINITE)
+    )
+    return is_list(value, right) and bool(value)
+
+
+def _may_be_infinite(key: str) -> bool:
+    """Whether a key is a number that may be infinite."""
+    kind = kind_of(key)
+    return isinstance(kind, Amount) and kind.infinite
+
+
+def _read(key: str, value: Any) -> Any:
+    """Value of an input from JSON."""
+    return math.inf if value == INFINITE and _may_be_infinite(key) else value
+
+
+def _written_inputs(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: finite_or_text(value) for key, value in inputs.items()}
+
+
+def _read_inputs(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: _read(key, value) for key, value in inputs.items()}
 
 
 def _is_small(value: Any) -> bool:
@@ -269,6 +295,7 @@ def _points(rows: Sequence[tuple[Any, ...]], case: SweptCase) -> Iterator[Point]
     ):
         name = f"point {number}"
         _check(name, right=is_text(refused) and isinstance(inputs, dict))
+        inputs = _read_inputs(inputs)
         if refused or status is None:
             yield Point(number, inputs, "failed" if refused else "open", refused)
             continue
@@ -470,7 +497,7 @@ class Store:
             "case": sweep.case.toml_text(),
             _LAWS: None if (laws := _law_values(sweep.case)) is None else laws.stored(),
             "design": sweep.design,
-            "axes": sweep.axes,
+            "axes": {key: [finite_or_text(value) for value in values] for key, values in sweep.axes.items()},
             "ranges": {key: asdict(over) for key, over in sweep.ranges.items()},
             "samples": sweep.samples or 0,
             "seed": sweep.seed,
@@ -479,7 +506,9 @@ class Store:
             "version": __version__,
             "date": now(),
         }
-        rows = ((point.number, json.dumps(point.inputs), point.key, point.refused) for point in planned)
+        rows = (
+            (one.number, json.dumps(_written_inputs(one.inputs)), one.key, one.refused) for one in planned
+        )
         with self._transaction():
             for statement in _TABLES.split(";"):
                 self._file.execute(statement)
@@ -501,7 +530,7 @@ class Store:
                 f"WHERE points.key IS NOT NULL AND (results.key IS NULL OR NOT {_DONE}) "
                 "GROUP BY points.key ORDER BY min(number)"
             ).fetchall()
-        return [(key, json.loads(inputs)) for key, inputs, _ in rows]
+        return [(key, _read_inputs(json.loads(inputs))) for key, inputs, _ in rows]
 
     def counts(self) -> dict[str, int]:
         """Number of points by status; points that are to be tried again count as "open"."""

@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.uncertainty import LEAST_SAMPLES, MOST_SAMPLES
-from ehlectric.cases.amounts import WRITTEN, Amount, Count
+from ehlectric.cases.amounts import INFINITE, WRITTEN, Amount, Count
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, check_changes
 from ehlectric.cases.drive_case import (
@@ -560,10 +560,11 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
 
 def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool) -> Iterator[Any]:
     """Values of a varied key as a case stores them; numbers are in SI units."""
-    parse = parser_of(field, key)
+    parse, number = parser_of(field, key), number_of(field)
     for each in values:
         value = each.item() if isinstance(each, np.generic) else each
-        yield parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
+        stored = parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
+        yield math.inf if number is not None and stored == INFINITE else stored
 
 
 def _range(
@@ -601,6 +602,11 @@ def _over(table: Mapping[str, Any], number: Amount | Count, *, written: bool) ->
         with within(name):
             ends.append(number.parse(table[name], written=written))
     start, stop = ends
+    if not all(map(math.isfinite, ends)):
+        name = "from" if math.isinf(start) else "to"
+        raise InputError(
+            name, got=shown(table[name]), takes="a finite number; a list of values may have 'inf'"
+        )
     spacing = table.get("spacing", "linear")
     if spacing not in _SPACINGS:
         raise InputError("spacing", got=shown(spacing), takes="'linear' or 'log'")
