@@ -135,6 +135,20 @@ def test_every_suffix_names_kinds_of_bearings():
         assert set(one.not_series) <= {bearing.series for bearing in series().values()}, one.text
 
 
+def test_long_and_strange_texts_are_refused_at_once():
+    for text in (
+        "6208" * 10_000,
+        "6208" + "Z" * 100_000,
+        "6208" + "C3" * 10_000,
+        "🙂",
+        "-",
+        "NU",
+        "209-HAMROCK",
+    ):
+        reading = _reading(text)
+        assert reading[0] == "209-hamrock" or len(reading) < 600
+
+
 def test_every_suffix_has_a_meaning():
     assert all(one.meaning for one in suffixes().values())
     assert {"2RS", "ECP", "TN9"} <= set(suffixes())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 from ehlectric.cases import library
@@ -14,6 +14,9 @@ from ehlectric.cases.library.bearing_catalogue import ClearanceClass
 # Kinds of bearings that a word in ``suffixes.csv`` stands for.
 _BALL_KINDS = ("deep-groove ball", "angular-contact ball", "four-point contact ball")
 _ANY = "any"
+
+# Letters of a suffix at most.
+_LONGEST = 12
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,7 @@ def suffixes() -> dict[str, Suffix]:
     return found
 
 
-@cache
+@lru_cache(maxsize=4096)
 def known_suffix(text: str, bore: float | None = None) -> Suffix | None:
     """Suffix of a bearing with a bore [mm]; None if it is not known.
 
@@ -81,7 +84,7 @@ def known_suffix(text: str, bore: float | None = None) -> Suffix | None:
     return replace(found, text=text)
 
 
-@cache
+@lru_cache(maxsize=1024)
 def parted(text: str, bore: float | None = None) -> tuple[tuple[Suffix, ...], str]:
     """Suffixes that are written together, and what is unknown of them.
 
@@ -97,7 +100,7 @@ def parted(text: str, bore: float | None = None) -> tuple[tuple[Suffix, ...], st
     if whole is not None:
         return whole, ""
     # Single letters in front of what is unknown may belong to it.
-    ends = range(len(text) - 1, 1, -1)
+    ends = range(min(len(text) - 1, 5 * _LONGEST), 1, -1)
     certain = (end for end in ends for way in _divided(text[:end], bore) if len(way[-1].text) > 1)
     return (), text[next(certain, 0) :]
 
@@ -111,7 +114,7 @@ def _divided(text: str, bore: float | None, before: tuple[Suffix, ...] = ()) -> 
     """Ways to divide a text into suffixes."""
     if not text:
         yield before
-    for end in range(len(text), 0, -1):
+    for end in range(min(len(text), _LONGEST), 0, -1):
         one = known_suffix(text[:end], bore)
         if one is None or one.group in {suffix.group for suffix in before} or (end == 1 and _singles(before)):
             continue

@@ -68,7 +68,7 @@ def no_such_bearing(text: object) -> InputError:
         why = f", a designation of {found.kind} bearings, a kind that is not modelled"
         takes = f"a bearing of one of the kinds {', '.join(KINDS_OF_BEARINGS)}"
     elif angles:
-        where = f", and {parts.rest[0]!r} begins with none" if parts.rest else ""
+        where = f", and {shown(parts.rest[0])} begins with none" if parts.rest else ""
         why = f", a number of angular-contact ball bearings that needs the letter of its contact angle{where}"
         takes = angles
     else:
@@ -100,8 +100,8 @@ def _unknown(parts: Parts) -> str:
     """What is unknown about a designation whose type is not known."""
     letters = re.match(r"[^\W\d_]+", parts.head)
     if letters is not None and any(sign.isdigit() for sign in parts.head):
-        return f", of which the type or the prefix {letters[0]!r} is not known"
-    return f", of which {_number(parts.head)!r} is no number of a known type" if parts.head else ""
+        return f", of which the type or the prefix {shown(letters[0])} is not known"
+    return f", of which {shown(_number(parts.head))} is no number of a known type" if parts.head else ""
 
 
 def _angles(parts: Parts) -> str:

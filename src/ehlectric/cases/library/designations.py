@@ -11,7 +11,7 @@ import re
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 from ehlectric.cases import library
 from ehlectric.cases.library.bearing_catalogue import ClearanceClass
@@ -111,7 +111,7 @@ def plain(text: str) -> str:
     return " ".join(normal.translate(_DASHES).upper().replace("X-LIFE", "XL").split())
 
 
-@cache
+@lru_cache(maxsize=1024)
 def parts_of(text: str) -> Parts:
     """Prefixes, number and suffixes of a designation."""
     rest, prefixes = plain(text).lstrip("( #"), []
@@ -155,13 +155,16 @@ def read_designation(text: str, names: Collection[str]) -> Designation | None:
     """Bearing with a maker's designation; None where there is no such bearing.
 
     ``names``, names of bearings, as "nu-208" or "7208-b". Raises InputError for a prefix or a suffix that is
-    not known or may change the elements of the bearing, such as that of an insulated ring.
+    not known or may change the elements of the bearing, such as VL0241 of an insulated ring.
 
     Examples
     --------
     >>> read_designation("NJ 208 ECP/C3", ["nu-208"])
     Designation(name='nu-208', clearance_class='C3')
     """
+    whole = "-".join(text.lower().split())
+    if whole in names:
+        return Designation(whole, None)
     parts = parts_of(text)
     found = [reading for stem in parts.stems if (reading := _named(stem, parts.rest, names)) is not None]
     found += _with_two_seals(parts, names)
@@ -182,8 +185,8 @@ def read_designation(text: str, names: Collection[str]) -> Designation | None:
 
 
 def _named(stem: str, rest: Sequence[str], names: Collection[str]) -> tuple[str, tuple[str, ...]] | None:
-    """Name of a bearing and its suffixes; those of an angular-contact bearing begin with the letter of its
-    contact angle, as in 7208 BEP or 7908 A5. None where there is no such bearing.
+    """Name of a bearing and its suffixes, or None. The suffixes of an angular-contact bearing begin with the
+    letter of its contact angle, as in 7208 BEP or 7908 A5.
     """
     if stem in names:
         return stem, tuple(rest)
@@ -234,8 +237,8 @@ def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suf
         if unknown:
             latin = "" if unknown.isascii() else " in Latin letters"
             takes = (
-                f"a designation without {unknown!r}, which is no suffix that is known{latin}: it may change "
-                "the geometry; omit it only if the maker's catalogue says that the elements are the same"
+                f"a designation without {shown(unknown)}, which is no suffix that is known{latin}: it may "
+                "change the geometry; omit it only if the catalogue says that all elements are the same"
             )
             raise InputError("base", got=shown(text), takes=takes)
         for one in known:
