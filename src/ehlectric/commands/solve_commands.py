@@ -200,9 +200,9 @@ def plot(
 _SERIES = (
     "designations of these series are also understood, such as 6314-C3 or SKF NU 210 ECP,",
     "with elements that are estimated from load ratings: 60, 62, 63, 68, 69, 160, 618, 619",
-    "(bores of 3 to 240 mm); 70, 72, 73, 79, 719 with A, AC, B or C; QJ 2, 3, 10; NU, NJ,",
-    "NUP, N 2, 3, 4, 10, 22, 23; 302, 303, 313, 320, 322, 323, 329, 330, 331, 332; NA, RNA",
-    "49, 59, 69; HK, NK, AXK; 511 to 514 (bores of 10 to 120 mm)",
+    "(bores of 3 to 240 mm); 70, 72, 73, 79, 719 with A, AC, B or C; NU, NJ, NUP, N 2, 3, 4,",
+    "10, 22, 23 (to 160 mm); QJ 2, 3, 10; 302, 303, 313, 320, 322, 323, 329, 330, 331, 332;",
+    "NA, RNA 49, 59, 69; HK, NK, AXK; 511 to 514 (to 120 mm)",
 )
 
 

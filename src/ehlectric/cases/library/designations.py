@@ -272,12 +272,15 @@ def _check_suffix(text: str, suffix: Suffix, kind: str, of_series: str) -> None:
 
 
 def _check_reinforced(text: str, suffixes: Sequence[Suffix], name: str) -> None:
-    """Refuse a cage without a reinforced design: makers with both designs mean the smaller rollers by it."""
-    cage = next((one.text for one in suffixes if one.group == "cage"), None)
+    """Refuse a cage or the type NF without a reinforced design: they mean smaller rollers at some makers."""
+    if kind_and_series(name)[1] not in _REINFORCED:
+        return
     reinforced = any(one.group == "design" and one.text.startswith("E") for one in suffixes)
-    if kind_and_series(name)[1] in _REINFORCED and cage is not None and not reinforced:
-        meaning = "smaller rollers if no E stands before the cage"
-        raise refused(text, cage, meaning, f"or with E, such as 'E {cage}', for the reinforced design")
+    old = ["NF"] if parts_of(text).head.startswith("NF") else []
+    old += [one.text for one in suffixes if one.group == "cage"]
+    if old and not reinforced:
+        meaning = "smaller rollers at some makers if there is no E"
+        raise refused(text, old[0], meaning, "or with E, such as 'NU 208 E' or 'NU 208 EM'")
 
 
 def kind_and_series(name: str) -> tuple[str, str]:
