@@ -238,7 +238,7 @@ def touching_case(geometry, **tables):
     slow = {"entrainment_speed": "0.01 m/s", "boundary_friction": 0.12}
     if geometry == "line":
         table = table_of("rough_contact", contact=slow, grid={"nodes": 401})
-        table["roughness"] = [rough | {"rq": "150 nm", "correlation_length": "10 um"}]
+        table["roughness"] = [rough | {"rq": "150 nm", "correlation_length": "20 um"}]
     else:
         table = table_of("ball_contact", contact=slow, grid=SMALL)
         table["roughness"] = [rough | {"rq": "250 nm", "correlation_length": "60 um"}]
