@@ -127,7 +127,8 @@ def _check_margin(case: Case, conditions: Conditions | PointConditions) -> None:
         raise InputError(
             "electric.potential_2",
             got=f"a voltage of {case.electric.voltage:g} V",
-            takes=f"at least {readable(least, 2)} V, above which the margin is at most {MOST_MARGIN:.0e}",
+            # Rounding to two digits changes a number by at most 5 %.
+            takes=f"at least {readable(1.05 * least, 2)} V: the margin is at most {MOST_MARGIN:.0e} there",
         )
 
 

@@ -261,8 +261,8 @@ def test_paper_result_needs_no_warning(paper_result):
 @pytest.mark.slow
 def test_roughness_higher_than_the_film_touches(paper_case):
     """The smooth film stands beside it; the minimum is the boundary film, and its error is not known."""
-    rough = {"surface": 2, "generator": "gaussian", "rq": "400 nm", "correlation_length": "5 um", "seed": 1}
-    changes = {"contact.max_hertz_pressure": "1 GPa", "contact.entrainment_speed": 0.2, "grid.nodes": 801}
+    rough = {"surface": 2, "generator": "gaussian", "rq": "400 nm", "correlation_length": "20 um", "seed": 1}
+    changes = {"contact.max_hertz_pressure": "1 GPa", "contact.entrainment_speed": 0.02, "grid.nodes": 801}
     result = solve(paper_case.replace(changes | {"roughness": [rough]}))
     assert result.converged
     assert result.smooth is not None

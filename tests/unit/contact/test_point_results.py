@@ -222,7 +222,7 @@ contacts = st.fixed_dictionaries(
             {"base": st.just("paper"), "viscosity_law": st.sampled_from(["roelands", "barus", "constant"])}
         ),
         "electric": st.fixed_dictionaries(
-            {"potential_1": st.just(0.0), "potential_2": powers_of_ten(-5.0, 6.0)}
+            {"potential_1": st.just(0.0), "potential_2": powers_of_ten(-2.0, 6.0)}
         ),
         "discharge": discharges.map(lambda table: {k: v for k, v in table.items() if k != "length"}),
         "grid": st.fixed_dictionaries(

@@ -20,7 +20,7 @@ def test_the_script_of_the_guide_gives_its_numbers(tmp_path, monkeypatch, capsys
     names = {}
     exec(script, names)
     mean = names["found"].mean
-    assert capsys.readouterr().out == f"{mean.value:.2f} 8\n"
+    assert capsys.readouterr().out == f"{round(mean.value, 2)} 8\n"
     assert f"mean film factor | {mean.value:.3f} for this example" in page
     assert f"95 % interval | {mean.low:.3f} to {mean.high:.3f}:" in page
     assert isinstance(names["found"], ehlectric.FilmFactors)

@@ -317,7 +317,7 @@ def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
 def test_a_film_that_did_not_converge_shows_the_temperature_it_reached(tmp_path, monkeypatch):
     """Command and report mark the temperatures, and warning, summary.json and file have the same rise."""
     with monkeypatch.context() as patch:
-        patch.setattr(heated_film, "_LOOPS", 3)
+        patch.setattr(heated_film, "MOST_LOOPS", 3)
         result = solve(Case.from_dict(HOT_LINE | {"grid": {"nodes": 101}}))
     assert result.film.status == "stalled"
     save(result, tmp_path)
