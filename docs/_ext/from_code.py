@@ -401,7 +401,8 @@ _GROUPS = {
         "film_factors",
     ),
     "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep", "example"),
-    "Oils": ("oil",),
+    "Without a solution": ("check", "film", "formulas", "surface"),
+    "Oils and bearings of the library": ("oil", "oils", "bearings"),
     "Results": (
         "Result",
         "PointResult",

@@ -5,7 +5,9 @@ A public name is imported when it is first used, so ``import ehlectric`` takes h
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.version import __version__
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from ehlectric.report.written_report import write_report
     from ehlectric.runs.example_files import example
     from ehlectric.runs.exports import export
+    from ehlectric.runs.lookups import bearings, check, film, formulas, oils, surface
     from ehlectric.runs.measured_film_factors import film_factors
     from ehlectric.runs.solve import Solved, load, save, solve, solve_many, solve_motion
     from ehlectric.sweep.evaluation import evaluate
@@ -52,7 +55,13 @@ __all__ = [  # noqa: RUF022
     "PointCase",
     "BearingCase",
     "DriveCase",
+    "check",
+    "film",
+    "formulas",
+    "surface",
     "oil",
+    "oils",
+    "bearings",
     "example",
     "Sweep",
     "run_sweep",
@@ -96,7 +105,13 @@ _HOMES = {
     "LineCase": "cases.case",
     "PointCase": "cases.case",
     "BearingCase": "cases.bearing_case",
+    "check": "runs.lookups",
+    "film": "runs.lookups",
+    "formulas": "runs.lookups",
+    "surface": "runs.lookups",
     "oil": "cases.case_oil",
+    "oils": "runs.lookups",
+    "bearings": "runs.lookups",
     "example": "runs.example_files",
     "Sweep": "sweep.sweep_inputs",
     "run_sweep": "sweep.run",
@@ -129,6 +144,20 @@ _HOMES = {
     "ConvergenceError": "errors",
     "LostError": "errors",
 }
+
+
+class _Package(ModuleType):
+    """Package whose functions have priority over its subpackages of the same names, such as ``film``.
+
+    An import of a subpackage would otherwise replace the function.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in _HOMES or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> Any:

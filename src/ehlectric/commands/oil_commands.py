@@ -30,10 +30,10 @@ def oils(as_json: bool = False) -> None:
     table names the keys that a case must give, because no source of them was found.
     """
     with user_errors():
-        from ehlectric.cases.library.library_oils import library_oils
-        from ehlectric.tables.oil_tables import LETTERS, listed_oil, listed_tables
+        from ehlectric.runs.lookups import oils as library_oils
+        from ehlectric.tables.oil_tables import LETTERS, listed_tables
 
-        listed = [listed_oil(oil) for oil in library_oils()]
+        listed = library_oils()
     if as_json:
         typer.echo(json.dumps(listed, indent=2))
         return

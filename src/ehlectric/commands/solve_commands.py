@@ -218,11 +218,12 @@ def bearings(as_json: bool = False) -> None:
     """
     with user_errors():
         from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
-        from ehlectric.tables.oil_tables import catalogue_tables, described
+        from ehlectric.runs.lookups import bearings as library_bearings
+        from ehlectric.tables.oil_tables import catalogue_tables
 
         found = bearing_catalogue()
     if as_json:
-        typer.echo(json.dumps([described(bearing) for bearing in found], indent=2))
+        typer.echo(json.dumps(library_bearings(), indent=2))
         return
     for table in catalogue_tables(found):
         print_table(table)

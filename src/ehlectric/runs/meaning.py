@@ -24,6 +24,7 @@ from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
+from ehlectric.runtime.values import headline
 from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 _MOST_CHECKED = 2000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Meaning:
     """Meaning of a file before it is solved."""
 
@@ -45,6 +46,10 @@ class Meaning:
     warnings: tuple[ResultWarning, ...]  # warnings about the case and its surfaces
     # Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
     verdict: Verdict | None = None
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.rows)} rows", f"{len(self.warnings)} warnings"
+        return f"<Meaning {headline(self.title, *counts, verdict=self.verdict)}>"
 
 
 @singledispatch

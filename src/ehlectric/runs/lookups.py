@@ -1,0 +1,342 @@
+"""Answers without a solution, as the commands check, film, surface, oils and bearings give them, in SI units.
+
+Numbers equal those that the commands print with ``--json``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.errors import InputError, shown, within
+from ehlectric.runtime.values import is_number
+
+if TYPE_CHECKING:
+    from ehlectric.cases.bearing_case import BearingCase
+    from ehlectric.cases.case import Case
+    from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.cases.keywords import Value
+    from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
+    from ehlectric.film.atlas.atlas_groups import Groups
+    from ehlectric.formulas.film_line import Thickness
+    from ehlectric.runs.meaning import Meaning
+    from ehlectric.sweep.sweep_inputs import Sweep
+
+# Films of the atlas, and arguments for Moes' groups.
+_FILMS, _GROUPS = ("central", "minimum", "mean"), ("m", "l", "k")
+
+
+def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str | Path) -> Meaning:
+    """Check a case of any kind without solving it, and return what it means, as ``ehlectric check`` does.
+
+    Parameters
+    ----------
+    case : Case, BearingCase, DriveCase, Sweep, mapping, str or Path
+        Case or sweep, its nested tables, or the path of its TOML file.
+
+    Returns
+    -------
+    ehlectric.runs.meaning.Meaning
+        ``summary``, nested tables of numbers in SI units: dry contact, groups and film formulas of a contact;
+        loads, films and margin of a bearing; circuit of a drive; number of points of a sweep and its first
+        point. ``rows`` of the table, ``warnings``, and ``verdict`` of a bearing with a dielectric strength.
+
+    Raises
+    ------
+    InputError
+        If the case cannot be solved; the message names the key, its value, and what is allowed.
+
+    Examples
+    --------
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
+    >>> contact |= {"entrainment_speed": "4 m/s"}
+    >>> meaning = check({"contact": contact, "lubricant": "paper"})
+    >>> round(meaning.summary["hertz"]["half_width"] * 1e6, 1)
+    249.6
+    """
+    from ehlectric.runs.file_kinds import kind_of_file, kind_of_tables
+    from ehlectric.runs.meaning import check as meaning_of
+    from ehlectric.runs.solve import case_of
+    from ehlectric.sweep.sweep_inputs import Sweep
+
+    if isinstance(case, Sweep):
+        return meaning_of(case)
+    if isinstance(case, str | Path) and kind_of_file(case) == "sweep":
+        return meaning_of(Sweep.from_toml(case))
+    if isinstance(case, Mapping) and kind_of_tables(case) == "sweep":
+        return meaning_of(Sweep.from_dict(case))
+    return meaning_of(case_of(case))
+
+
+def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness]:
+    """Compute the film thickness of a contact from each published formula, without solving it.
+
+    Films are isothermal, fully flooded and smooth. ``check`` gives the ranges of the formulas.
+
+    Parameters
+    ----------
+    case : Case, mapping, str or Path
+        Case of a line or point contact, its nested tables, or the path of its TOML file.
+
+    Returns
+    -------
+    dict of str to Thickness
+        ``minimum_thickness`` and ``central_thickness`` [m] by the name of the formula; None for a thickness
+        that a formula does not give.
+
+    Raises
+    ------
+    InputError
+        If the case is not valid, or not the case of a contact.
+
+    Examples
+    --------
+    >>> ball = {"geometry": "point", "radius_x": "10 mm", "radius_y": "10 mm", "load": "20 N"}
+    >>> ball |= {"reduced_modulus": "226 GPa", "entrainment_speed": "2 m/s"}
+    >>> films = formulas({"contact": ball, "lubricant": "paper"})
+    >>> round(films["hamrock_dowson"].central_thickness * 1e9)
+    422
+    """
+    from ehlectric.cases.case import Case
+    from ehlectric.contact.check import check_case
+    from ehlectric.contact.summary import formulas_of
+    from ehlectric.runs.solve import case_of
+
+    found = case_of(case)
+    if not isinstance(found, Case):
+        raise InputError(
+            "case", got=type(found).__name__, takes="the case of a contact; check takes any case"
+        )
+    return dict(formulas_of(check_case(found).conditions))
+
+
+def film(
+    *,
+    m: float | None = None,
+    l: float | None = None,  # noqa: E741  # Moes' L
+    k: float | None = None,
+    oil: str | Path | Mapping[str, Any] | None = None,
+    temperature: str | float | None = None,
+    radius: Value | None = None,
+    radius_across: Value | None = None,
+    modulus: Value | None = None,
+    load: Value | None = None,
+    speed: Value | None = None,
+) -> dict[str, Any]:
+    """Interpolate the films of a smooth contact in the atlas of solved films, as ``ehlectric film`` does.
+
+    The contact is given by Moes' groups, or by an oil, radii, modulus, load and speed. Films are isothermal
+    and fully flooded. A number is a float in SI units, a text with its unit, or a quantity of pint.
+
+    Parameters
+    ----------
+    m, l, k : float, optional
+        Moes' load parameter M and material parameter L, and the ratio of the semi-axes k of a point contact.
+    oil : str, Path or mapping, optional
+        Oil, as ``ehlectric.oil`` takes it.
+    temperature : str or float, optional
+        Temperature of the oil with its unit, or in kelvin.
+    radius, radius_across : number, optional
+        Reduced radius along entrainment, and across entrainment for a point contact [m].
+    modulus : number, optional
+        Reduced modulus E', with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa].
+    load : number, optional
+        Load [N], of a line contact per length [N/m].
+    speed : number, optional
+        Entrainment speed, mean speed of both surfaces [m/s].
+
+    Returns
+    -------
+    dict
+        ``moes_m``, ``moes_l``, ``ratio``; ``central``, ``minimum`` and ``mean`` film in Moes' unit;
+        ``errors``, relative error of each; and, with an oil, ``central_thickness``, ``minimum_thickness`` and
+        ``mean_thickness`` [m].
+
+    Raises
+    ------
+    InputError
+        If a value is missing or wrong, both ways are mixed, or the contact is outside the atlas.
+
+    Notes
+    -----
+    The atlas is on the page "Atlas of films" of the documentation, with its range and its errors.
+
+    Examples
+    --------
+    >>> found = film(oil="fva-3", temperature="70 degC", radius=0.01, modulus=226e9, load=1e5, speed=5.0)
+    >>> round(found["central_thickness"] * 1e9)
+    652
+    """
+    given = {"m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed}
+    return film_summary(
+        *film_of(given | {"radius": radius, "radius_across": radius_across, "modulus": modulus})
+    )
+
+
+def film_of(
+    given: Mapping[str, Any], *, options: bool = False
+) -> tuple[Groups, AtlasFilm, ContactFilm | None]:
+    """Films of the arguments of ``film``: groups, films in Moes' unit, and of a contact with an oil in m.
+
+    Errors name ``options`` of the command if the arguments are texts of them, whose numbers have units.
+    """
+    groups = [given.get(name) for name in _GROUPS]
+    others = {name: value for name, value in given.items() if name not in _GROUPS and value is not None}
+    if all(value is None for value in groups):
+        found = _by_numbers(others, options=options)
+        return found.groups, found.film, found
+    m, l, k = (_named(name, options=options) for name in _GROUPS)  # noqa: E741
+    for name in others:
+        got = f"it with {m}, {l} or {k}"
+        raise InputError(_named(name, options=options), got=got, takes="one way of the two")
+    for name, value in zip((m, l, k), groups, strict=True):
+        if value is None and name == k:
+            continue
+        if not is_number(value) or not 0.0 < value < math.inf:
+            raise InputError(name, got="nothing" if value is None else shown(value), takes="a number above 0")
+    from ehlectric.film.atlas.atlas_films import atlas_film
+    from ehlectric.film.atlas.atlas_groups import Groups
+
+    of_groups = Groups(*groups)
+    return of_groups, atlas_film(of_groups), None
+
+
+def _named(name: str, *, options: bool) -> str:
+    """Name of an argument, or of its option of the command."""
+    return f"--{name.replace('_', '-')}" if options else name
+
+
+# Numbers of a contact with an oil: name, SI unit.
+_UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
+
+
+def _by_numbers(given: Mapping[str, Any], *, options: bool) -> ContactFilm:
+    """Film of a contact in SI units and an oil."""
+    from ehlectric.cases import case_oil
+    from ehlectric.film.atlas.atlas_films import contact_film
+    from ehlectric.formulas.film_line import LineContact
+    from ehlectric.formulas.film_point import PointContact
+
+    if "oil" not in given:
+        oil, m, l = (_named(name, options=options) for name in ("oil", "m", "l"))  # noqa: E741
+        raise InputError(oil, got="nothing", takes=f"an oil, or {m} and {l}")
+    at = case_oil.oil(given["oil"], given.get("temperature"))
+    point = "radius_across" in given
+    needed = [name for name in _UNITS if point or name != "radius_across"]
+    values = {name: _number(name, given, _UNITS[name], options=options) for name in needed}
+    force = _number("load", given, "N" if point else "N/m", options=options)
+    common = (values["modulus"], force, values["speed"], at.viscosity, 0.0)
+    if point:
+        return contact_film(PointContact(values["radius"], values["radius_across"], *common), at)
+    return contact_film(LineContact(values["radius"], *common), at)
+
+
+def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) -> float:
+    """Number above zero in an SI unit."""
+    from ehlectric.cases.amounts import Amount
+
+    key = _named(name, options=options)
+    if name not in given:
+        raise InputError(key, got="nothing", takes=f"a number in {unit}")
+    with within(key):
+        return Amount(unit=unit, above=0.0).parse(given[name], written=options)
+
+
+def film_summary(groups: Groups, result: AtlasFilm, found: ContactFilm | None) -> dict[str, Any]:
+    """Numbers of a film of the atlas by name: in Moes' unit, and in m for a contact with an oil."""
+    numbers: dict[str, Any] = asdict(groups) | asdict(result)
+    if found is not None:
+        numbers |= {f"{name}_thickness": getattr(found, f"{name}_thickness") for name in _FILMS}
+    return numbers
+
+
+def surface(file: str | Path, *, whole: bool = False, **keys: Any) -> dict[str, Any]:
+    """Read and process a surface file without solving a contact, as ``ehlectric surface`` does.
+
+    Parameters
+    ----------
+    file : str or Path
+        File of a profile or of a map of heights.
+    whole : bool, optional
+        Whether a map is described as a whole, instead of one line of it.
+    **keys
+        Keys of a table ``[[roughness]]``, such as ``form="line"``, ``cutoff_long="80 um"`` or
+        ``rescale_rq=50e-9`` [m].
+
+    Returns
+    -------
+    dict
+        Format and sampling of the file, and ``steps``, statistics of the surface after each step, in SI
+        units; ``summits``, density [1/m^2], radius [m] and height deviation [m] of the summits.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a key is unknown or wrong.
+
+    Examples
+    --------
+    >>> import ehlectric
+    >>> found = surface(ehlectric.example("surfaces/dektak-1.csv"), form="line")
+    >>> [step["step"] for step in found["steps"]], round(found["steps"][-1]["rq"] * 1e9)
+    (['as read', 'form: line'], 94)
+    """
+    from ehlectric.cases.roughness_inputs import Roughness
+    from ehlectric.surfaces.rough_surfaces import measured, whole_map
+    from ehlectric.surfaces.surface_warnings import summit_statistics
+
+    roughness = Roughness.from_dict({"surface": 1, "file": str(file), **keys})
+    rough = whole_map(roughness) if whole else measured(roughness)
+    return rough.describe() | {"summits": summit_statistics(rough.steps[-1][1])}
+
+
+def oils() -> list[dict[str, Any]]:
+    """List the oils of the library, as ``ehlectric oils`` does.
+
+    Returns
+    -------
+    list of dict
+        For each oil ``name``, a value of ``lubricant.base``, its ``title``, its ``temperature_range`` [K],
+        and its properties, each None or a mapping of ``value``, ``unit`` and the ``kind`` of its source.
+
+    See Also
+    --------
+    ehlectric.oil : one oil at a temperature, with its laws over pressure.
+
+    Examples
+    --------
+    >>> [one["name"] for one in oils()][:3]
+    ['e-axle-fluid', 'fva-3', 'iso-vg-32']
+    """
+    from ehlectric.cases.library.library_oils import library_oils
+    from ehlectric.tables.oil_tables import listed_oil
+
+    return [listed_oil(one) for one in library_oils()]
+
+
+def bearings() -> list[dict[str, Any]]:
+    """List the bearings of the library, as ``ehlectric bearings`` does.
+
+    Returns
+    -------
+    list of dict
+        For each bearing ``name``, a value of ``bearing.base``, its ``kind``, number and dimensions of its
+        ``elements`` [m], its ``contact_angle`` [rad], and its printed ``dynamic_rating`` and
+        ``static_rating`` [N], None without a printed rating.
+
+    Notes
+    -----
+    ``bearing.base`` also accepts designations of the usual series, whose elements are estimated.
+
+    Examples
+    --------
+    >>> next(one for one in bearings() if one["name"] == "6208")["static_rating"]
+    17900.0
+    """
+    from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
+    from ehlectric.tables.oil_tables import described
+
+    return [described(one) for one in bearing_catalogue()]
