@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -106,8 +107,11 @@ def _unknown(parts: Parts) -> str:
 
 def _angles(parts: Parts) -> str:
     """Designations of angular-contact bearings with the number of a text without a known contact angle."""
-    names = (name for stem in parts.stems for name in known_bearings() if name.startswith(f"{stem}-"))
-    return " or ".join(f"'{name.upper().replace('-', ' ')}'" for name in names)
+    found = (one for stem in parts.stems for name, one in series().items() if name.startswith(f"{stem}-"))
+    return " or ".join(
+        f"'{one.name.upper().replace('-', ' ')}' ({math.degrees(one.contact_angle or 0.0):.0f} deg)"
+        for one in found
+    )
 
 
 def _alike(text: str) -> list[str]:

@@ -176,6 +176,7 @@ def read_designation(text: str, names: Collection[str]) -> Designation | None:
     name, rest = found[0]
     for word, prefix in parts.prefixes:
         _check_prefix(text, word, prefix, name)
+    _check_angle_letters(text, name, parts.rest)
     suffixes = tuple(_checked_suffixes(text, rest, name))
     _check_reinforced(text, suffixes, name)
     classes = [one.clearance for one in suffixes if one.clearance]
@@ -192,27 +193,36 @@ def _named(stem: str, rest: Sequence[str], names: Collection[str]) -> tuple[str,
         return stem, tuple(rest)
     if not rest:
         return None
-    letter = next((one for one in _ANGLES if rest[0].startswith(one)), None)
+    letter, more = _angle(rest)
     name = f"{stem}-{_ANGLES[letter]}" if letter else ""
-    if letter is None or name not in names:
-        whole = f"{stem}-{rest[0].lower()}"
-        return (whole, tuple(rest[1:])) if whole in names else None
+    if name in names:
+        return name, ((more,) if more else ()) + tuple(rest[1:])
+    whole = f"{stem}-{rest[0].lower()}"
+    return (whole, tuple(rest[1:])) if whole in names else None
+
+
+def _angle(rest: Sequence[str]) -> tuple[str, str]:
+    """Letters of a contact angle at the beginning of the first suffix, and what is behind them in it; empty
+    letters if there are none. C with a class of clearance, as in "7208 C3", is no contact angle.
+    """
+    if re.match(r"C([NM\d]|T$)", rest[0]) or (rest[0] == "C" and rest[1:2] and rest[1].isdigit()):
+        return "", rest[0]
+    letter = next((one for one in _ANGLES if rest[0].startswith(one)), "")
+    more = rest[0][len(letter) :]
+    if letter == "AC" and more[:1].isdigit():
+        return "A", f"C{more}"
     # CD and ACD are SKF's super-precision designs with the usual balls; CDB, CDF and CDT are sets with C.
-    more = (
-        re.sub(r"^D(?![BFT])", "", rest[0][len(letter) :])
-        if letter in ("C", "AC")
-        else rest[0][len(letter) :]
-    )
-    return name, ((more,) if more else ()) + tuple(rest[1:])
+    return letter, re.sub(r"^D(?![BFT])", "", more) if letter in ("C", "AC") else more
 
 
 def _with_two_seals(parts: Parts, names: Collection[str]) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Reading of a number whose last digit belongs to the suffix, as in 62082RS."""
+    if not parts.rest or not _TWO_SEALS.match(parts.rest[0]):
+        return
+    seals = f"2{parts.rest[0]}"
     for stem in parts.stems:
-        if stem.endswith("2") and parts.rest and _TWO_SEALS.match(parts.rest[0]):
-            attached = parts.head.upper().find("2" + parts.rest[0]) > 0
-            if attached and stem[:-1] in names:
-                yield stem[:-1], ("2" + parts.rest[0], *parts.rest[1:])
+        if stem.endswith("2") and seals in parts.head and stem[:-1] in names:
+            yield stem[:-1], (seals, *parts.rest[1:])
 
 
 def _check_prefix(text: str, word: str, prefix: Prefix, name: str) -> None:
@@ -226,6 +236,19 @@ def refused(text: object, part: str, meaning: str, instead: str) -> InputError:
     also = f", {instead}" if instead.startswith("or ") else f", and {instead}"
     takes = f"the designation without {part!r}, which means {meaning}{also}"
     return InputError("base", got=shown(text), takes=takes)
+
+
+def _check_angle_letters(text: str, name: str, rest: Sequence[str]) -> None:
+    """Refuse letters with a contact angle that are not known: CA and AD mean other angles than C and A."""
+    kind, of_series = kind_and_series(name)
+    if kind != "angular-contact ball" or not rest:
+        return
+    more = _angle(rest)[1]
+    known, unknown = parted(more) if more else ((), "")
+    if unknown or any(one.group == "design" and not one.harmless(kind, of_series) for one in known):
+        angles = "A (30 deg), A5 or AC (25 deg), B or BE (40 deg), C or CD (15 deg)"
+        takes = f"letters of a contact angle that are known, {angles}: {shown(rest[0])} may mean other balls"
+        raise InputError("base", got=shown(text), takes=f"{takes} or another angle")
 
 
 def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suffix]:
