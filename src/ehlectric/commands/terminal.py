@@ -33,8 +33,8 @@ WRONG_INPUT = 2
 NOT_CONVERGED = 3
 UNDRAWN = 4
 
-# Width of lists of names [characters].
-_WIDTH = 90
+# Width of lists of names, and least width of tables: a narrower terminal breaks their lines [characters].
+_WIDTH, _NARROWEST = 90, 20
 
 
 def say(line: str, *, err: bool = False) -> None:
@@ -183,10 +183,15 @@ def print_rows(rows: Iterable[Row], title: str = "") -> None:
 def print_table(table: Table | Text) -> None:
     """Print a table or a text on stdout; without colours where stdout is not a terminal."""
     from rich.console import Console
+    from rich.table import Table
+
+    from ehlectric.tables.narrow_tables import fitted
 
     console = Console(highlight=False)
+    if console.width < _NARROWEST:
+        console = Console(highlight=False, width=_NARROWEST)
     with console.capture() as captured:
-        console.print(table)
+        console.print(fitted(table, console.width) if isinstance(table, Table) else table)
     typer.echo(captured.get(), nl=False)
 
 

@@ -31,7 +31,7 @@ def table_of(rows: Iterable[Row], title: str = "") -> Table:
         title=Text(printable(title)) if title else None, show_header=False, title_justify="left", box=None
     )
     table.add_column(no_wrap=True)
-    table.add_column()
+    table.add_column(overflow="fold")
     indent = ""
     for row in rows:
         if row.heading:
