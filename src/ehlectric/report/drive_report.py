@@ -203,16 +203,40 @@ def _further(result: DriveResult, known: set[str]) -> str:
 
 def _changes(result: DriveResult) -> Iterator[tuple[str, Named, str, str]]:
     """Rows of the changes of all remedies: title, input, and its value in the drive and with the remedy."""
-    before = flattened(result.case.to_dict())
     for title, changes, found in result.remedies:
-        after = flattened(found.case.to_dict())
-        for key in flattened(dict(changes)):
-            first, *_ = of_both_ends(key)
-            was, now = (
-                input_text(one, first, tables[first]) if first in tables else "not given"
-                for one, tables in ((result.case, before), (found.case, after))
-            )
-            yield printable(title), named(key), was, now
+        for row in changed_inputs(result.case, found.case, changes):
+            yield printable(title), *row
+
+
+def changed_inputs(
+    before: DriveCase, after: DriveCase, changes: Mapping[str, Any]
+) -> Iterator[tuple[Named, str, str]]:
+    """Rows of the changes of a remedy: input, and its values before and after the change."""
+    was, now = flattened(before.to_dict()), flattened(after.to_dict())
+    for changed in flattened(dict(changes)):
+        for key in _leaves(changed, was, now):
+            yield named(key), _value_at(before, key, was), _value_at(after, key, now)
+
+
+def _leaves(changed: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """Keys of the values of a changed key: a table with a base of the library has the name of the base."""
+    first, *_ = of_both_ends(changed)
+    under = [key for key in dict.fromkeys((*was, *now)) if key.startswith(f"{first}.")]
+    if first in was or first in now or not under:
+        return [changed]
+    if f"{first}.base" in now:
+        return [f"{changed}.base"]
+    return [changed + key.removeprefix(first) for key in under if was.get(key) != now.get(key)]
+
+
+def _value_at(case: DriveCase, key: str, tables: Mapping[str, Any]) -> str:
+    """Value of an input; the values of both ends if the input of both bearings has two."""
+    texts = {
+        one: input_text(case, one, tables[one]) if one in tables else "not given" for one in of_both_ends(key)
+    }
+    if len(set(texts.values())) == 1:
+        return next(iter(texts.values()))
+    return "; ".join(f"{text}, {NAMES_OF_ENDS[end_and_key(one)[0]]}" for one, text in texts.items())
 
 
 _WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
