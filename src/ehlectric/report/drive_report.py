@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, groupby
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -322,19 +322,14 @@ def drive_part(result: DriveResult) -> Part:
 
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Numbers of both bearings, remedies, and the three values that decide most."""
-    places = NAMES_OF_ENDS.items()
-    numbers = (
-        numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, summary, place) for end, place in places
-    )
-    yield Numbers(tuple(chain.from_iterable(numbers)))
+    numbers = [
+        numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, summary, place)
+        for end, place in NAMES_OF_ENDS.items()
+    ]
+    # A row for each bearing.
+    yield Numbers(tuple(chain.from_iterable(numbers)), columns=max(map(len, numbers)))
     if result.remedies:
-        heads, *cells = remedy_rates(summary)
-        yield Table(f"Remedies: {RATES}", heads, tuple(cells), tuple(range(1, len(heads))))
-        told = "; ".join(
-            f"{title}: " + ", ".join(f"{name.text} =\xa0{value}" for _, name, _, value in changed)
-            for title, changed in groupby(_changes(result), key=lambda row: row[0])
-        )
-        yield Text(f"{told}.", "small")
+        yield _remedy_table(result, summary)
     case = result.case
     found: dict[str, tuple[str, str, str]] = {}
     for key, value, _, why in _deciding(case, summary):
@@ -346,6 +341,22 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
         (named(key).text, value, usual_range(case, key), why)
         for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
     )
+
+
+def _remedy_table(result: DriveResult, summary: Summary) -> Table:
+    """Remedies with what they change, and the discharges in a second of the drive and of each of them."""
+    heads, *cells = remedy_rates(summary)
+    changes = ["none"] + [
+        "; ".join(
+            f"{name.text} =\xa0{value}" for name, _, value in changed_inputs(result.case, found.case, changed)
+        )
+        for _, changed, found in result.remedies
+    ]
+    rows = tuple((title, change, *rates) for (title, *rates), change in zip(cells, changes, strict=True))
+    heads = ("remedy", "change", *heads[1:])
+    numeric = (0.11, 0.15, 0.11, 0.15)[: len(heads) - 2]
+    shares = (0.22, 0.78 - sum(numeric), *numeric)
+    return Table(f"Remedies: {RATES}", heads, rows, tuple(range(2, len(heads))), shares=shares)
 
 
 def _kind(case: DriveCase) -> str:

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +41,9 @@ _MOST, _CHANGES, _ASSUMPTIONS = 6, 4, 3
 # Least ratio of a margin to that of the bearing for which a change is worth a row.
 _WORTH = 1.05
 
+# Width of a figure that is as wide as the page [inches], and ratio of its height to that on the screen.
+_WIDE, _LOW = 6.85, 0.75
+
 # Warnings that say what the verdict says, and not how likely it is.
 _IN_VERDICT = ("breakdown-expected",)
 
@@ -67,7 +69,11 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
     yield from numbers
     drawn = pictures_of(result, converged=is_solved(result), names=part.figures)
     # The first figure that has something to show.
-    yield from islice((block for block in drawn if isinstance(block, Picture)), 1)
+    picture = next((block for block in drawn if isinstance(block, Picture)), None)
+    if picture is not None:
+        if any(isinstance(block, Numbers) and block.columns > 1 for block in numbers):
+            picture.figure.set_size_inches(_WIDE, _LOW * picture.figure.get_figheight())
+        yield picture
     yield from tables
     told = dict.fromkeys(
         CODES[one.code].meaning

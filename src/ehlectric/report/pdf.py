@@ -74,6 +74,12 @@ _ROOM = 130.0
 # Height of a figure beside the numbers of the first page [pt]: with its caption it is as high as they are.
 _BESIDE = 235.0
 
+# Sizes of the first page, of which the largest is taken at which its contents fit.
+_SCALES = (1.0, 0.98, 0.95, 0.92, 0.9, 0.85, 0.8, 0.75, 0.7)
+
+# Height above that of all pages [pt].
+_ANY = 1e5
+
 # Share of the height of a page above which a figure has a page of its own.
 _TALL = 0.6
 
@@ -103,8 +109,8 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
             yield Preformatted(text, style("code"), maxLineLength=_LINE_LENGTH, newLineChars="")
         case Text(text=text, tone=tone):
             yield Paragraph(escape(text), style("body" if tone == "plain" else tone))
-        case Numbers(numbers=numbers):
-            yield _numbers(numbers, width)
+        case Numbers(numbers=numbers, columns=columns):
+            yield _numbers(numbers, width, columns)
             yield Spacer(1.0, 6.0)
         case Table():
             yield _table(block, width)
@@ -129,7 +135,7 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
 _LAMPS = {"green": "\u25cf", "yellow": "\u25c6", "red": "\u25a0", "grey": "\u25cb"}
 
 
-def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int = 3) -> Flowable:
+def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int) -> Flowable:
     """Large numbers, so many ``beside`` each other, with their labels above and their notes below."""
     cells = [
         [Paragraph(escape(label), style("label", 7.5)), Paragraph(escape(value), style("value"))]
@@ -165,10 +171,10 @@ def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
     return LongTable(rows, colWidths=[width], hAlign="LEFT", style=look)
 
 
-def _picture(picture: Picture, width: float, room: float) -> Flowable:
-    """Figure of at most a width and a height [pt] with its caption, on one page."""
+def _picture(picture: Picture, width: float, room: float, *, most: float = 1.0) -> Flowable:
+    """Figure of at most a width and a height [pt] with its caption, on one page, enlarged ``most`` times."""
     wide, high = (72.0 * float(inches) for inches in picture.figure.get_size_inches())
-    scale = min(1.0, width / wide, room / high)
+    scale = min(most, width / wide, room / high)
     image = Image(BytesIO(image_of(picture, "png")), scale * wide, scale * high, hAlign="LEFT")
     caption = Paragraph(f"<b>{escape(picture.title)}.</b> {escape(picture.caption)}", style("body", 8.0))
     return KeepTogether([image, caption, Spacer(1.0, 8.0)])
@@ -215,6 +221,7 @@ def _table(table: Table, width: float) -> Flowable:
         ("LINEBELOW", (0, 1), (-1, 1), 0.9, SOFT),
         ("LINEBELOW", (0, 2), (-1, -1), 0.4, LINE),
         ("LEFTPADDING", (0, 0), (-1, -1), _PAD),
+        ("LEFTPADDING", (0, 0), (0, -1), 0.0),  # flush with the texts of the page
         ("RIGHTPADDING", (0, 0), (-1, -1), _PAD),
         ("TOPPADDING", (0, 0), (-1, -1), 1.5),
         ("BOTTOMPADDING", (0, 0), (-1, -1), 2.0),
@@ -318,22 +325,52 @@ def _top(report: Report) -> list[Flowable]:
 
 
 def first_page(report: Report) -> Flowable:
-    """First page of a report, with the figure beside the numbers; texts that are too long for the page make
-    all of it smaller.
-    """
-    parts, blocks = _top(report), list(report.sections[0].blocks)
+    """First page of a report: all of it is smaller if its texts are too long for the page."""
+    canvas = Canvas(BytesIO())
+    for scale in _SCALES:
+        parts = KeepInFrame(_WIDTH / scale, _ANY, list(_first_parts(report, _WIDTH / scale)))
+        _, high = parts.wrapOn(canvas, _WIDTH / scale, _ANY)
+        if scale * high <= _HEIGHT:
+            break
+    return _Scaled(parts, min(scale, _HEIGHT / high))
+
+
+class _Scaled(Flowable):  # type: ignore[misc]
+    """Contents of a page, with all of their lengths multiplied by ``scale``."""
+
+    def __init__(self, parts: KeepInFrame, scale: float) -> None:
+        super().__init__()
+        self.parts, self.scale = parts, scale
+
+    def wrap(self, _width: float, _height: float) -> tuple[float, float]:
+        """Take the whole page."""
+        return _WIDTH, _HEIGHT
+
+    def draw(self) -> None:
+        """Draw the contents from the top of the page."""
+        _, high = self.parts.wrapOn(self.canv, _WIDTH / self.scale, _ANY)
+        self.canv.scale(self.scale, self.scale)
+        self.parts.drawOn(self.canv, 0.0, _HEIGHT / self.scale - high)
+
+
+def _first_parts(report: Report, width: float) -> Iterator[Flowable]:
+    """Flowables of the first page in a width [pt]."""
+    yield from _top(report)
+    blocks = list(report.sections[0].blocks)
     while blocks:
         match blocks:
-            case [Numbers() as numbers, Picture() as picture, *blocks]:
-                parts += [_beside(numbers, picture), Spacer(1.0, 4.0)]
+            case [Numbers(columns=1) as numbers, Picture() as picture, *blocks]:
+                yield _beside(numbers, picture, width)
+                yield Spacer(1.0, 4.0)
+            case [Picture() as picture, *blocks]:
+                yield from _loose([_picture(picture, width, _HEIGHT, most=2.0)])
             case [block, *blocks]:
-                parts += _loose(parts_of(block, _WIDTH, _HEIGHT))
-    return KeepInFrame(_WIDTH, _HEIGHT, parts, mode="shrink", name="first page")
+                yield from _loose(parts_of(block, width, _HEIGHT))
 
 
-def _beside(numbers: Numbers, picture: Picture) -> Flowable:
+def _beside(numbers: Numbers, picture: Picture, width: float) -> Flowable:
     """Numbers below each other, and a figure beside them."""
-    left, right = (share * _WIDTH for share in (0.36, 0.64))
+    left, right = (share * width for share in (0.36, 0.64))
     shown = list(_loose([_picture(picture, right - 6.0, _BESIDE)]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
     look += [("RIGHTPADDING", (0, 0), (-1, -1), 0.0)]

@@ -102,9 +102,11 @@ class Warnings:
 
 @dataclass(frozen=True)
 class Numbers:
-    """Numbers that stand large beside each other: label, value with its unit, and a note of each."""
+    """Numbers in large letters: label, value with its unit, and a note of each."""
 
     numbers: tuple[tuple[str, str, str], ...]
+    # Number of columns. A figure that follows stands beside a single column, and below several of them.
+    columns: int = 1
 
 
 Block: TypeAlias = Text | Table | Picture | Warnings | Light | Numbers
