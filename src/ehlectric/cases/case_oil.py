@@ -39,7 +39,7 @@ from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
 from ehlectric.lubricant.law import Law, is_many, over_points, required, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
-from ehlectric.lubricant.over_temperature import Walther, density, interpolated
+from ehlectric.lubricant.over_temperature import density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
 
 # Difference of temperatures over which the slope of the viscosity is taken [K].
@@ -224,7 +224,7 @@ def viscosity_over_temperature(oil: Properties) -> Callable[[Numbers], Numbers] 
         return lambda at: as_float(function(at, **_given(oil, law)))
     sheet = oil.temperature
     if sheet is not None:
-        walther = Walther.of(sheet.at_40(), sheet.at_100())
+        walther = sheet.walther()
         return lambda at: walther.viscosity(at) * density(sheet.density_15, sheet.expansion, at)
     return None
 

@@ -39,7 +39,7 @@ from ehlectric.lubricant.electrical_laws import (
 )
 from ehlectric.lubricant.heat_laws import HEAT_CAPACITY_LAWS, THERMAL_CONDUCTIVITY_LAWS
 from ehlectric.lubricant.law import Law, Parameter, is_many, same
-from ehlectric.lubricant.over_temperature import ATMOSPHERIC_LAWS, Walther, density
+from ehlectric.lubricant.over_temperature import ATMOSPHERIC_LAWS, COLD, HOT, Walther, density
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands_exponent
 
 # Keys that choose a law by name, each with the table of its laws, in the order of the case file.
@@ -150,7 +150,14 @@ class ConductivityTable(Table, book="lubricant.conductivity_table"):
 
 
 # Keys that give the viscosity.
-SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
+SHEET_VISCOSITY = (
+    *("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_1", "dynamic_viscosity_1", "temperature_1"),
+    *("kinematic_viscosity_100", "viscosity_index"),
+    *("kinematic_viscosity_2", "dynamic_viscosity_2", "temperature_2"),
+)
+
+# Smallest difference of the two temperatures of a data sheet [K]. A line through nearer points is uncertain.
+_LEAST_APART = 5.0
 
 # A root is found for each oil, and a case asks for it many times.
 _at_100 = lru_cache(maxsize=64)(viscosity_at_100)
@@ -177,8 +184,14 @@ class OilTemperature(Table, book="lubricant.temperature"):
 
     kinematic_viscosity_40: float | None = None
     iso_vg: Annotated[int, Grade()] | None = None
+    kinematic_viscosity_1: float | None = None
+    dynamic_viscosity_1: float | None = None
+    temperature_1: float | None = None
     kinematic_viscosity_100: float | None = None
     viscosity_index: float | None = None
+    kinematic_viscosity_2: float | None = None
+    dynamic_viscosity_2: float | None = None
+    temperature_2: float | None = None
     density_15: float
     # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
     expansion: float = 6.5e-4
@@ -188,36 +201,91 @@ class OilTemperature(Table, book="lubricant.temperature"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         hint = "; an index of 95 to 100 is usual for mineral oils"
-        for first, second, more in (
-            ("kinematic_viscosity_40", "iso_vg", ""),
-            ("kinematic_viscosity_100", "viscosity_index", hint),
+        for number, (first, second, more) in enumerate(
+            (("kinematic_viscosity_40", "iso_vg", ""), ("kinematic_viscosity_100", "viscosity_index", hint)),
+            1,
         ):
-            self.check_one_of((first, second), "one of the two")
-            self.check_one_of((first, second), f"either {first} or {second}{more}", needed=True)
-        self.at_100()
+            own = [f"{name}_{number}" for name in ("kinematic_viscosity", "dynamic_viscosity")]
+            keys = (first, second, *own)
+            self.check_one_of(keys, "one of them")
+            takes = f"either {first} or {second}{more}; or {own[0]} or {own[1]} with temperature_{number}"
+            self.check_one_of(keys, takes, needed=True)
+            self._check_temperature(number, own, takes)
+        if self.viscosity_index is not None and self._given("kinematic_viscosity_40", "iso_vg") is None:
+            got = "it with a viscosity at another temperature than 40 °C"
+            takes = "kinematic_viscosity_100, or a viscosity with temperature_2: the index needs 40 °C"
+            raise InputError("viscosity_index", got=got, takes=takes)
+        self.walther()
         return self
 
-    def at_40(self) -> Numbers:
-        """Kinematic viscosity at 40 degC [m^2/s]: the given one, or the middle of the ISO viscosity grade."""
-        if self.kinematic_viscosity_40 is not None:
-            return self.kinematic_viscosity_40
-        assert self.iso_vg is not None
-        return grade_middle(self.iso_vg)
+    def _given(self, *keys: str) -> Numbers | None:
+        """Value of the first of some keys that the table gives; None if it gives none of them."""
+        values: Iterator[Numbers] = (value for key in keys if (value := getattr(self, key)) is not None)
+        return next(values, None)
 
-    def at_100(self) -> Numbers:
-        """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index. Raises
-        InputError if an oil with this index is too thin for ASTM D2270; of many oils, those have NaN.
+    def _check_temperature(self, number: int, own: Sequence[str], takes: str) -> None:
+        """Check that a viscosity has a temperature, which differs from the temperature of the other one."""
+        key = f"temperature_{number}"
+        at, viscous = self._given(key), self._given(*own)
+        if viscous is not None and at is None:
+            raise InputError.missing(key, "the temperature of this viscosity")
+        if viscous is None and at is not None:
+            raise InputError(key, got="it without a viscosity", takes=takes)
+        usual, elsewhere = (HOT, self.temperature_2) if number == 1 else (COLD, self.temperature_1)
+        other = usual if elsewhere is None else elsewhere
+        if at is not None and abs(at - other) < _LEAST_APART:
+            takes = f"one that differs by {_LEAST_APART:g} K or more from the other one, {other:g} K"
+            raise InputError(key, got=f"{at:g} K", takes=takes)
+
+    def walther(self) -> Walther:
+        """Kinematic viscosity over temperature, through the two given points. Raises InputError if the oil is
+        too thin for ASTM D341 or, with an index, for ASTM D2270; of many oils, those have NaN.
         """
+        of = ("kinematic_viscosity_2", "dynamic_viscosity_2", "kinematic_viscosity_100", "viscosity_index")
+        key = next(key for key in of if getattr(self, key) is not None)
+        return Walther.through(self._first(), self._second(), f"temperature.{key}")
+
+    def _first(self) -> tuple[Numbers, Numbers]:
+        """Temperature [K] and kinematic viscosity [m^2/s] of the first point."""
+        if self.temperature_1 is not None:
+            return self.temperature_1, self._kinematic("1", self.temperature_1)
+        given = self.kinematic_viscosity_40
+        assert given is not None or self.iso_vg is not None
+        return COLD, grade_middle(int(self.iso_vg or 0)) if given is None else given
+
+    def _second(self) -> tuple[Numbers, Numbers]:
+        """Temperature [K] and kinematic viscosity [m^2/s] of the second point."""
+        if self.temperature_2 is not None:
+            return self.temperature_2, self._kinematic("2", self.temperature_2)
         if self.kinematic_viscosity_100 is not None:
-            return self.kinematic_viscosity_100
+            return HOT, self.kinematic_viscosity_100
         assert self.viscosity_index is not None
         try:
-            return _of_index(self.at_40(), self.viscosity_index)
+            return HOT, _of_index(self._first()[1], self.viscosity_index)
         except ValueError as error:
             got = f"{self.viscosity_index:g} ({error})"
-            raise InputError(
-                "viscosity_index", got=got, takes="kinematic_viscosity_100 in its place"
-            ) from None
+            raise InputError("viscosity_index", got=got, takes="kinematic_viscosity_100 instead") from None
+
+    def _kinematic(self, number: str, temperature: Numbers) -> Numbers:
+        """Kinematic viscosity [m^2/s] of a point; a dynamic one is divided by the density there."""
+        kinematic: Numbers | None = getattr(self, f"kinematic_viscosity_{number}")
+        if kinematic is not None:
+            return kinematic
+        dynamic: Numbers = getattr(self, f"dynamic_viscosity_{number}")
+        return dynamic / density(self.density_15, self.expansion, temperature)
+
+    def at_40(self) -> Numbers:
+        """Kinematic viscosity at 40 degC [m^2/s]: the given one, the middle of the ISO viscosity grade, or
+        the value between or beyond the given points.
+        """
+        return self._first()[1] if self.temperature_1 is None else self.walther().viscosity(COLD)
+
+    def at_100(self) -> Numbers:
+        """Kinematic viscosity at 100 degC [m^2/s]: the given one, the value of the viscosity index, or the
+        value between or beyond the given points. Raises InputError if an oil with this index is too thin for
+        ASTM D2270; of many oils, those have NaN.
+        """
+        return self._second()[1] if self.temperature_2 is None else self.walther().viscosity(HOT)
 
 
 ALPHA, EXPONENT = "pressure_viscosity_coefficient", "roelands_z"
@@ -242,7 +310,7 @@ def estimated_alpha(oil: Properties, temperature: Numbers | None) -> Estimate | 
     sheet = oil.temperature
     if sheet is None or sheet.base_oil is None or temperature is None or ALPHA not in of_base_oil(oil):
         return None
-    walther = Walther.of(sheet.at_40(), sheet.at_100())
+    walther = sheet.walther()
     return alpha_estimate(
         sheet.base_oil,
         walther.viscosity(temperature),

@@ -149,7 +149,8 @@ def viscosity_keys(table: Properties, pressure: float) -> Iterator[str]:
     elif table.atmospheric_law is not None:
         yield from of_law(table, "atmospheric_law")
     elif table.temperature is not None:
-        yield from _of_sheet(table, (*SHEET_VISCOSITY, *_SHEET_DENSITY))
+        # The thermal expansion does not count: 15 % of it change the density by 1 % over 100 K.
+        yield from _of_sheet(table, (*SHEET_VISCOSITY, "density_15"))
     else:
         yield "viscosity"
     if pressure > 0.0 and not own:
@@ -176,7 +177,11 @@ def density_keys(table: Properties, pressure: float) -> Iterator[str]:
 
 
 def kinematic_keys(table: Properties, pressure: float) -> Iterator[str]:
-    """Keys of the kinematic viscosity."""
+    """Keys of the kinematic viscosity. Kinematic viscosities of a data sheet do not depend on the density."""
+    sheet = table.temperature
+    if sheet is not None and sheet.dynamic_viscosity_1 is None and sheet.dynamic_viscosity_2 is None:
+        yield from _of_sheet(table, SHEET_VISCOSITY)
+        return
     yield from dict.fromkeys([*viscosity_keys(table, pressure), *density_keys(table, pressure)])
 
 

@@ -280,3 +280,25 @@ def test_a_thermal_conductivity_of_the_base_keeps_its_source():
     lines = {line.of.name: line for line in oil_report(oil | {"roelands_z": 0.6}).lines}
     assert lines["thermal_conductivity"].values == (0.154,)
     assert "Larsson" in lines["thermal_conductivity"].sources[0].citation
+
+
+TWO = {"kinematic_viscosity_40": 46e-6, "kinematic_viscosity_100": 6.8e-6, "density_15": 870.0}
+DYNAMIC = {
+    "dynamic_viscosity_1": 0.04,
+    "temperature_1": 313.15,
+    "kinematic_viscosity_100": 6.8e-6,
+    "density_15": 870.0,
+}
+
+
+@each("sheet", [TWO, DYNAMIC, TWO | {"expansion": 7e-4}])
+def test_two_given_viscosities_rest_on_no_assumption(sheet):
+    """Only the density rests on the expansion of a default, and the rise with pressure on the named base."""
+    lines = {
+        (one.of.name, one.pressure): one.kind
+        for one in oil_report({"base": "paper", "temperature": sheet}, [353.15], [1e9]).lines
+    }
+    assert lines["viscosity", 0.0] == "given"
+    assert lines["kinematic_viscosity", 0.0] == ("assumed" if sheet is DYNAMIC else "given")
+    assert lines["density", 0.0] == ("given" if "expansion" in sheet else "assumed")
+    assert lines["viscosity", 1e9] == "assumed"
