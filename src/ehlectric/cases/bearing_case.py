@@ -42,7 +42,7 @@ from ehlectric.cases.table import (
     table_of,
     with_name_keys,
 )
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
@@ -564,7 +564,8 @@ def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
 def _with_named_class(changes: dict[str, Any]) -> dict[str, Any]:
     """Changes with the class of clearance of a new designation, unless they contain a clearance."""
     keys = [f"bearing.{key}" for key in ("radial_clearance", "clearance_class", "fits.unmounted_clearance")]
-    named = class_of(changes.get("bearing.base"))
+    with within("bearing"):
+        named = class_of(changes.get("bearing.base"))
     if named is None or any(changes.get(key) is not None for key in keys):
         return changes
     return changes | {"bearing.clearance_class": named}

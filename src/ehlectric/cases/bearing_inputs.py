@@ -190,7 +190,9 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     named, given = found.clearance_class, table.get("clearance_class")
     kind = kind_and_series(found.name)[0]
     if named is not None and "radial_clearance" not in KINDS_OF_BEARINGS[kind].keys:
-        takes = f"the designation without {named!r}: a {kind} bearing has no class of radial clearance"
+        takes = (
+            f"the designation without {named!r}: bearings of kind {kind} have no class of radial clearance"
+        )
         raise InputError("base", got=shown(base), takes=takes)
     if named is not None and given in CLASSES and given != named:
         takes = f"{named!r}, as in base, or base without its class"

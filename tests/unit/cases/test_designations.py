@@ -209,6 +209,14 @@ def test_classes_before_mounting_follow_the_designation():
         assert (case.bearing.clearance_class, case.bearing.fits.unmounted_clearance) == (None, 20e-6)
 
 
+@each("base", ["6316/C3VL0241", "22210 E", "7208 B/C3", "6208 XYZ"])
+def test_another_designation_that_is_refused_names_the_key(base):
+    case = BearingCase.of(base="6208", lubricant=OIL, **REST)
+    with pytest.raises(InputError) as caught:
+        case.replace({"bearing.base": base})
+    assert caught.value.key == "bearing.base"
+
+
 def test_another_designation_brings_its_class():
     """Its own class replaces every clearance; without a class, only an implied one is replaced."""
     given = BearingCase.of(base="6208", radial_clearance="10 um", lubricant=OIL, **REST)
