@@ -68,6 +68,22 @@ def test_a_designation_brings_its_class_as_in_a_file(base, clearance_class):
     assert case(file).bearing == case(found).bearing
 
 
+@each("base", ["625 ZZ", "6244"])
+def test_a_bore_without_classes_gets_a_clearance_to_be_set(base):
+    found = changed(EXAMPLE, {"bearing.base": base})
+    assert (found.value(CLASS), found.value(CLEARANCE)) == (None, "10 um")
+    assert case(found).bearing.radial_clearance == pytest.approx(10e-6)
+
+
+@each(
+    ("base", "words"),
+    [("6208 E", "reinforced set"), ("22210 E", "spherical roller"), ("7208", "contact angle")],
+)
+def test_a_designation_that_is_refused_says_why(base, words):
+    with pytest.raises(InputError, match=words):
+        case(changed(EXAMPLE, {"bearing.base": base}))
+
+
 def test_the_class_of_a_designation_goes_with_it():
     """Unless the user has set the class, the next designation without a suffix stands for the normal one."""
     found = changed(EXAMPLE, {"bearing.base": "6208-C3"})

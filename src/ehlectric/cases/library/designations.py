@@ -92,7 +92,7 @@ def _prefixes() -> tuple[Prefix, ...]:
     found = []
     for row in library.rows("designation_prefixes.csv"):
         pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?<=[A-Z])(?=\d)|$)"
-        if row["group"] == "maker":
+        if row["group"] != "prefix":
             pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?=\d|NU|NJ|QJ|HK|NK|NA|RNA|AXK)|$)"
         kinds = tuple(kind for kind in row["kinds"].split("|") if kind)
         found.append(Prefix(re.compile(pattern), row["group"], kinds, row["meaning"], row["instead"]))
