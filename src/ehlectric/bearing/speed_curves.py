@@ -117,7 +117,7 @@ def _with_ratio(case: BearingCase, own_ratio: float) -> BearingCase:
 
 def _points(case: BearingCase, several: Several) -> list[Speed]:
     """Speeds [rad/s] with the numbers, texts and inputs of a bearing, as in its summary."""
-    inputs, points = plain(case.to_dict()), []
+    inputs, points = plain(case.all_inputs()), []
     for part in several.parts:
         speeds = np.asarray(part.solution.case.bearing.inner_speed).tolist()
         for speed, tables in zip(speeds, single_tables(part), strict=True):

@@ -68,7 +68,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
             "title": case.title,
             "converged": solution.converged,
             **texts_and_codes(bearing_warnings(solution)),
-            "inputs": case.to_dict(),
+            "inputs": case.all_inputs(),
             **tables_of(solution, duty),
             "contacts": contact_rows(solution, duty),
             "seconds": solution.seconds,

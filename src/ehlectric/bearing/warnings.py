@@ -47,7 +47,7 @@ from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.oil_inputs import OilTemperature
-from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, unusual
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual
 from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
@@ -189,6 +189,7 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         viscosity > _MOST_VISCOUS, "viscosity-high", viscosity=viscosity, celsius=celsius, limit=_MOST_VISCOUS
     )
     yield from unusual("roughness", bearing.composite_rq)
+    yield from rq_flag("bearing.composite_ra", bearing.composite_ra, bearing.rq_over_ra)
     around = np.pi * bearing.pitch_diameter
     yield from unusual("filling", bearing.elements * bearing.element_diameter / around)
     yield from unusual("strength", case.discharge.dielectric_strength)

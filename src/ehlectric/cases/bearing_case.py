@@ -285,6 +285,11 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Inputs that are written with their uncertainty have their middle, and ``ranges`` has their ends."""
         return with_stated_ranges(tables, partial(_quantity, cls)) if isinstance(tables, Mapping) else tables
 
+    def all_inputs(self) -> dict[str, Any]:
+        """Tables in SI units, also with the Rq that follows from an Ra."""
+        tables = self.to_dict()
+        return {**tables, "bearing": {**tables["bearing"], "composite_rq": self.bearing.composite_rq}}
+
     @classmethod
     def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
         """Return the dotted keys that the bearing does not have."""

@@ -10,7 +10,7 @@ from contextlib import suppress
 from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import BeforeValidator, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from ehlectric.arrays import Numbers
 from ehlectric.cases import library
@@ -33,6 +33,7 @@ from ehlectric.cases.library.bearing_catalogue import (
 from ehlectric.cases.library.designation_types import no_such_bearing
 from ehlectric.cases.library.designations import kind_and_series, known_bearings, read_designation
 from ehlectric.cases.library.estimated_bearings import estimated_bearing, series
+from ehlectric.cases.mean_heights import FACTOR, rq_of, with_rq, without_rq
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown, within
@@ -322,6 +323,8 @@ class Bearing(Table, book="bearing", named_by="base"):
     inner_ring_temperature: float | None = None
     outer_ring_temperature: float | None = None
     composite_rq: float
+    composite_ra: float | None = None
+    rq_over_ra: float | None = None
     summit_height: float = DEFAULT_SUMMITS
     summits: Summits | None = None
     contact_resistance: float | None = None
@@ -337,7 +340,7 @@ class Bearing(Table, book="bearing", named_by="base"):
     @classmethod
     def _from_base(cls, table: Any) -> Any:
         """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
-        table = cls.of_name(table)
+        table = with_rq(cls.of_name(table), "bearing", "composite_rq", "composite_ra")
         if not isinstance(table, Mapping):
             return table
         table = with_class(table)
@@ -347,6 +350,18 @@ class Bearing(Table, book="bearing", named_by="base"):
         if table.get("clearance_class") is not None or table.get("fits") is not None:
             base.pop("radial_clearance", None)
         return with_clearance(_with_normal_class({**base, **table}))
+
+    @model_serializer(mode="wrap")
+    def _of_ra(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return without_rq(handler(self), "composite_rq", "composite_ra")
+
+    def with_values(self, values: Mapping[str, Any]) -> Self:
+        """Copy with values that are not checked; a changed Ra or factor changes the Rq."""
+        changed = super().with_values(values)
+        if changed.composite_ra is None or not values.keys() & {"composite_ra", FACTOR}:
+            return changed
+        rq = rq_of(changed.composite_ra, changed.rq_over_ra)
+        return changed.model_copy(update={"composite_rq": rq})
 
     @classmethod
     def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
@@ -584,6 +599,8 @@ class BearingKeys(TypedDict, total=False):
     inner_ring_temperature: Value
     outer_ring_temperature: Value
     composite_rq: Value
+    composite_ra: Value
+    rq_over_ra: Value
     summit_height: Value
     summits: Keys
     contact_resistance: Value

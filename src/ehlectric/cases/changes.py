@@ -148,4 +148,7 @@ def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geo
     of_geometry = CONTACT_ALTERNATIVES.get(str(geometry), ())
     alternatives["contact"] = (*of_geometry, *ALTERNATIVES["contact"])
     displace(table, changes, alternatives)
+    for number, surface in enumerate(table.get("roughness", ()), 1):
+        names = _names_in(f"roughness.{number}", changes)
+        _displace_in(surface, names, ALTERNATIVES["roughness"])
     displace_oil(table.get("lubricant", {}), nested(changes, "lubricant"))

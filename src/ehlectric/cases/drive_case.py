@@ -107,6 +107,10 @@ class DriveCase(CaseFile, book="drive_file"):
         first, second = (_in_drive(one, changes) for one in (self.drive_end, self.non_drive_end))
         return first, second
 
+    def all_inputs(self) -> dict[str, Any]:
+        """Tables in SI units, also with the Rq of both bearings that follows from an Ra."""
+        return self.to_dict() | {end: getattr(self, end).all_inputs() for end in ENDS}
+
     @property
     def running_speed(self) -> float:
         """Speed of the rotor [rad/s]: that of the drive, else that of the bearing at the drive end."""

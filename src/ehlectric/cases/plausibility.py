@@ -12,6 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ehlectric.arrays import Numbers
+from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
 from ehlectric.errors import Flag
 from ehlectric.lubricant.oil import Oil
 from ehlectric.readable import readable
@@ -88,6 +89,20 @@ PLAUSIBLE: Mapping[str, Plausible] = MappingProxyType(
 # Reduced modulus of steel on steel, 2/E' = 2 (1 - 0.3^2)/E with E from 190 to 215 GPa, without the factor 2
 # and with it twice [Pa].
 _STEEL = (208e9, 237e9)
+
+
+def rq_flag(key: str, ra: Numbers | None, factor: Numbers | None) -> Iterator[Flag]:
+    """Note that an Rq follows from an Ra [m] of a key, with a given factor or, for None, an assumed one."""
+    if ra is not None:
+        yield Flag.of(
+            np.greater(ra, 0.0),
+            "rq-of-ra",
+            "assumed" if factor is None else "given",
+            key=key,
+            rq=1e6 * rq_of(ra, factor),
+            ra=1e6 * ra,
+            factor=GAUSSIAN if factor is None else factor,
+        )
 
 
 def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, SerializerFunctionWrapHandler, model_serializer, model_validator
 
+from ehlectric.cases.mean_heights import FACTOR, with_rq, without_rq
 from ehlectric.cases.table import Table, as_mapping
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
@@ -44,6 +45,8 @@ class Roughness(Table, book="roughness"):
     wavelength: float | None = None
     phase: float | None = None
     rq: float | None = None
+    ra: float | None = None
+    rq_over_ra: float | None = None
     correlation_length: float | None = None
     correlation_length_y: float | None = None
     orientation: float | None = None
@@ -66,6 +69,16 @@ class Roughness(Table, book="roughness"):
     shift: float = 0.0
     shift_y: float = 0.0
     extend: Literal["mirror", "repeat", "flat"] = "mirror"
+
+    @model_serializer(mode="wrap")
+    def _of_ra(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return without_rq(handler(self), "rq", "ra")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_rq(cls, table: Any) -> Any:
+        """Rq that follows from a given Ra."""
+        return with_rq(table, "roughness", "rq", "ra")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -140,7 +153,8 @@ def used_by(generator: str | None) -> set[str]:
     if generator is None:
         return used | {"file", *_FILE_KEYS, *_STEPS}
     needed, optional = GENERATORS[generator]
-    return used | {"generator", *needed, *optional, *(() if generator in SHAPES else _STEPS)}
+    of_mean = ("ra", FACTOR) if "rq" in needed else ()
+    return used | {"generator", *needed, *optional, *of_mean, *(() if generator in SHAPES else _STEPS)}
 
 
 def unused_of_surfaces(tables: Any, geometry: Any) -> set[str]:

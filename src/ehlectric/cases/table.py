@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "BOOK",
+    "all_inputs",
     "NAMED_BY",
     "arrays",
     "check_one_of",

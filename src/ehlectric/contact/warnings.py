@@ -15,7 +15,7 @@ from ehlectric.cases.case_oil import CELSIUS, viscosity_over_temperature
 from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
-from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, unusual
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
@@ -71,6 +71,9 @@ def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> It
     yield from () if setup.discharge is None else unusual("strength", setup.discharge.dielectric_strength)
     for surface in setup.roughness:
         yield from unusual("roughness", surface.rq if surface.rescale_rq is None else surface.rescale_rq)
+        yield from rq_flag("roughness.ra", surface.ra, surface.rq_over_ra)
+    if isinstance(setup, Case) and setup.meter is not None:
+        yield from rq_flag("meter.ra", setup.meter.ra, setup.meter.rq_over_ra)
 
 
 def own_law_warnings(

@@ -161,7 +161,7 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
         for end, one, ratio, result in zip(ENDS, ready.elements, ready.divider, ready.bearings, strict=True)
     }
     drive = {"duration": ready.duration, "remedies": len(case.remedies)}
-    return {**_tables(case, highest, drive, ends), "inputs": case.to_dict()}
+    return {**_tables(case, highest, drive, ends), "inputs": case.all_inputs()}
 
 
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
@@ -244,7 +244,7 @@ def whole_summary(
         **texts_and_codes(warnings),
         "verdict": verdict.text,
         "level": verdict.level,
-        "inputs": solution.case.to_dict(),
+        "inputs": solution.case.all_inputs(),
         **tables,
         "remedies": [
             {"title": title, "changes": changes, **_remedy_tables(found)}

@@ -12,6 +12,7 @@ from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
+from ehlectric.cases.mean_heights import GAUSSIAN
 from ehlectric.discharge.breakdown_rule import ONE_NUMBER, at_an_end, chance_text, ratio_text
 from ehlectric.quantities.formats import UNITS, amount, rpm_text, scale_for, scale_of
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
@@ -176,6 +177,14 @@ def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Call
 
 def _how(summary: Summary) -> str:
     return HOW[summary["bearing"]["contacts"]]
+
+
+def _ra_note(summary: Summary) -> str:
+    """Note of a roughness Ra: the Rq that follows, and whether its factor is assumed."""
+    given, factor = _bearing(summary), _bearing(summary).get("rq_over_ra")
+    rq = readable(1e6 * given["composite_rq"], 4)
+    how = "assumed for Gaussian heights" if factor is None else "given"
+    return f", Rq = {rq} µm with the factor {readable(factor or GAUSSIAN, 4)}, {how}"
 
 
 def _minimum_film(summary: Summary) -> float:
@@ -483,6 +492,7 @@ _WORDS = Words(
         "bearing.outer_contact_power_loss": _rolling_coefficient("outer"),
         "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
         "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
+        "inputs.bearing.composite_ra": _ra_note,
         "bearing.regime": _regime_note,
         "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
         "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
