@@ -40,6 +40,7 @@ from ehlectric.arrays import Array
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.data import is_wide
+from ehlectric.figures.fallback_fonts import give_fonts
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
 from ehlectric.figures.tones import Outline, exchange_colours
 from ehlectric.quantities.palette import BLACK, DARK, GREY, RED, WHITE, legible
@@ -126,7 +127,7 @@ def style(name: str | None = None) -> Iterator[None]:
         raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
     with _turn.taken(), mpl.rc_context(), own_filters():
         _set_all(_LOOKS[name].settings)
-        # The title of a case may contain characters that the font lacks.
+        # A note names characters that no font has, see fallback_fonts.py.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         token = _style.set(name)
         try:
@@ -188,6 +189,7 @@ class _StyledFigure(Figure):
     def draw(self, renderer: Any) -> None:
         """Draw the figure, in the colours of its page."""
         with style(self._look):
+            give_fonts(self)
             if tones := _LOOKS[self._look].tones:
                 exchange_colours(self, tones)
             super().draw(renderer)

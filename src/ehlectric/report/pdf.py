@@ -8,11 +8,9 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from io import BytesIO
-from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
+from xml.sax.saxutils import quoteattr
 
-import matplotlib as mpl
 from reportlab.lib.colors import HexColor
 from reportlab.lib.pagesizes import A4
 from reportlab.lib.styles import ParagraphStyle
@@ -34,12 +32,14 @@ from reportlab.platypus import (
     Paragraph,
     Preformatted,
     Spacer,
+    XPreformatted,
 )
 
 from ehlectric.errors import SEVERITY_WORDS, short
 from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.quantities.quantity import data_file
 from ehlectric.report.light import Light
+from ehlectric.report.pdf_letters import FOLDER, marked, runs_of
 from ehlectric.report.report_content import (
     Cell,
     Link,
@@ -87,9 +87,8 @@ _TALL = 0.6
 @cache
 def fonts() -> str:
     """Name of the family of fonts, which is registered at the first call."""
-    folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
     for name, file in _FONTS.items():
-        registerFont(TTFont(name, folder / file))
+        registerFont(TTFont(name, FOLDER / file))
     registerFontFamily("Sans", normal="Sans", bold="Sans-Bold", italic="Sans-Oblique", boldItalic="Sans-Bold")
     return "Sans"
 
@@ -106,9 +105,9 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
     """Flowables of a block in a frame of a width and a height [pt]."""
     match block:
         case Text(text=text, tone="code"):
-            yield Preformatted(text, style("code"), maxLineLength=_LINE_LENGTH, newLineChars="")
+            yield _code(text)
         case Text(text=text, tone=tone):
-            yield Paragraph(escape(text), style("body" if tone == "plain" else tone))
+            yield Paragraph(marked(text), style("body" if tone == "plain" else tone))
         case Numbers(numbers=numbers, columns=columns):
             yield _numbers(numbers, width, columns)
             yield Spacer(1.0, 6.0)
@@ -120,15 +119,27 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
             yield Spacer(1.0, 6.0)
         case Warnings(lines=lines):
             for line in lines:
-                first = f"<b>{SEVERITY_WORDS[line.severity]}.</b> {escape(line.meaning)}"
-                *others, last = map(escape, line.texts)
-                last = f'{last} <font color="{GREY}">{escape(line.code)}</font>'
+                first = f"<b>{SEVERITY_WORDS[line.severity]}.</b> {marked(line.meaning)}"
+                *others, last = map(marked, line.texts)
+                last = f'{last} <font color="{GREY}">{marked(line.code)}</font>'
                 yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
                 yield Spacer(1.0, 4.0)
         case Picture():
             # Two figures of usual height share a page; only tall ones take it alone.
             tall = 72.0 * float(block.figure.get_size_inches()[1]) > _TALL * height
             yield _picture(block, width, height - 60.0 if tall else 0.5 * height - 55.0)
+
+
+def _code(text: str) -> Flowable:
+    """Lines of a file, broken where they are too long; in markup only if letters need other fonts."""
+    if text.isascii():
+        return Preformatted(text, style("code"), maxLineLength=_LINE_LENGTH, newLineChars="")
+    lines = (
+        line[k : k + _LINE_LENGTH]
+        for line in text.split("\n")
+        for k in range(0, len(line) or 1, _LINE_LENGTH)
+    )
+    return XPreformatted(marked("\n".join(lines)), style("code"))
 
 
 # Shape of a lamp by its level, so that the colour is not the only sign.
@@ -138,8 +149,8 @@ _LAMPS = {"green": "\u25cf", "yellow": "\u25c6", "red": "\u25a0", "grey": "\u25c
 def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int) -> Flowable:
     """Large numbers, so many ``beside`` each other, with their labels above and their notes below."""
     cells = [
-        [Paragraph(escape(label), style("label", 7.5)), Paragraph(escape(value), style("value"))]
-        + ([Paragraph(escape(note), style("label", 7.0))] if note else [])
+        [Paragraph(marked(label), style("label", 7.5)), Paragraph(marked(value), style("value"))]
+        + ([Paragraph(marked(note), style("label", 7.0))] if note else [])
         for label, value, note in numbers
     ]
     rows = [cells[k : k + beside] for k in range(0, len(cells), beside)]
@@ -152,10 +163,10 @@ def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int)
 def _light(light: Light, width: float) -> Flowable:
     """Panel of a verdict, with its lamp beside what it means."""
     colour = LIGHTS[light.level]
-    heading, bound = escape(light.words), f" ({escape(light.bound)})" if light.bound else ""
+    heading, bound = marked(light.words), f" ({marked(light.bound)})" if light.bound else ""
     lamp = f'<font size="13" color="{colour}">{_LAMPS[light.level]}</font>'
     words = f'{lamp} <font size="12"><b>{heading}</b></font>{bound}'
-    return _panel([words, escape(light.text)], colour, width)
+    return _panel([words, marked(light.text)], colour, width)
 
 
 def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
@@ -176,7 +187,7 @@ def _picture(picture: Picture, width: float, room: float, *, most: float = 1.0) 
     wide, high = (72.0 * float(inches) for inches in picture.figure.get_size_inches())
     scale = min(most, width / wide, room / high)
     image = Image(BytesIO(image_of(picture, "png")), scale * wide, scale * high, hAlign="LEFT")
-    caption = Paragraph(f"<b>{escape(picture.title)}.</b> {escape(picture.caption)}", style("body", 8.0))
+    caption = Paragraph(f"<b>{marked(picture.title)}.</b> {marked(picture.caption)}", style("body", 8.0))
     return KeepTogether([image, caption, Spacer(1.0, 8.0)])
 
 
@@ -185,7 +196,7 @@ def headed(title: str, parts: Sequence[Flowable]) -> Iterator[Flowable]:
 
     Tables begin below their title as long as some of their rows fit: no page ends early because of them.
     """
-    heading = Paragraph(escape(title), style("section"))
+    heading = Paragraph(marked(title), style("section"))
     if parts and isinstance(parts[0], KeepTogether):
         # Two groups that are kept together would be parted between each other.
         yield KeepTogether([heading, *parts[0]._content])
@@ -201,11 +212,11 @@ def _table(table: Table, width: float) -> Flowable:
     widths = [width * share for share in table.shares] or _widths([list(table.heads), *cells], width, size)
     names = ["number" if n in table.numeric else "cell" for n in range(len(table.heads))]
     heads = [
-        Paragraph(escape(head), style("headnumber" if name == "number" else "head", size))
+        Paragraph(marked(head), style("headnumber" if name == "number" else "head", size))
         for head, name in zip(table.heads, names, strict=True)
     ]
     blank = [""] * (len(heads) - 1)
-    rows: list[list[Any]] = [[Paragraph(escape(table.caption), style("caption", 8.5)), *blank], heads]
+    rows: list[list[Any]] = [[Paragraph(marked(table.caption), style("caption", 8.5)), *blank], heads]
     for number, row in enumerate(table.rows):
         colour = _ALARM if number in table.alarms else ""
         rows.append(
@@ -242,8 +253,8 @@ def _address(link: Link) -> str:
 def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
     """Cell in the markup of reportlab, with its own characters escaped, for a column of a width [pt]."""
     if isinstance(cell, Link):
-        shown = escape(_address(cell))
-        return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
+        shown = marked(_address(cell))
+        return f'{marked(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
     text = " ".join(_parted(word, room, size) for word in _plain(cell).split(" "))
     return f'<font color="{colour}">{text}</font>' if colour else text
 
@@ -255,7 +266,7 @@ def _parted(word: str, room: float, size: float) -> str:
         if lines[-1] and stringWidth(lines[-1] + part, fonts(), size) > room:
             lines.append("")
         lines[-1] += part
-    return "<br/>".join(map(escape, lines))
+    return "<br/>".join(map(marked, lines))
 
 
 def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[float]:
@@ -321,7 +332,7 @@ def _story(report: Report) -> Iterator[Flowable]:
 def _top(report: Report) -> list[Flowable]:
     """Title of a report, with what it is and its date."""
     kind = f"{report.kind[0].upper()}{report.kind[1:]}. Report made on {_shown(report.date)}"
-    return [Paragraph(escape(report.title), style("title")), Paragraph(escape(kind), style("soft"))]
+    return [Paragraph(marked(report.title), style("title")), Paragraph(marked(kind), style("soft"))]
 
 
 def first_page(report: Report) -> Flowable:
@@ -429,7 +440,12 @@ class _Document(BaseDocTemplate):  # type: ignore[misc]
         canvas.setStrokeColor(LINE)
         title, top = _fitted(self._report.title, font), A4[1] - 14.0 * mm
         if canvas.getPageNumber() > 1:
-            canvas.drawString(_MARGIN, top, title)
+            place = _MARGIN
+            for other, run in runs_of(title):
+                canvas.setFont(other or font, _SMALL)
+                canvas.drawString(place, top, run)
+                place += stringWidth(run, other or font, _SMALL)
+            canvas.setFont(font, _SMALL)
         canvas.drawRightString(A4[0] - _MARGIN, top, "ehlectric")
         canvas.line(_MARGIN, top - 3.0 * mm, A4[0] - _MARGIN, top - 3.0 * mm)
         canvas.drawString(_MARGIN, 12.0 * mm, f"Report made on {_shown(self._report.date)}")

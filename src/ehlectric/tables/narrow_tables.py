@@ -75,7 +75,7 @@ def _listed(table: Table) -> Iterator[_Row]:
     columns = [[*map(_plain, column.cells)] for column in table.columns]
     for number, row in enumerate(table.rows):
         first, *others = (cells[number] for cells in columns)
-        # A number alone would not say of what it is.
+        # A number needs its head.
         named = first if any(map(str.isalpha, first)) else " ".join(filter(None, (heads[0], first)))
         yield " ".join(named.split()), "", "bold"
         for head, value in zip(heads[1:], others, strict=True):
