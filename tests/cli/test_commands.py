@@ -121,8 +121,8 @@ def test_films_thinner_than_the_boundary_film_are_contact(ehlectric, case_file, 
 
 @pytest.mark.slow
 def test_surfaces_that_touch_are_said(ehlectric, case_file, tmp_path):
-    rough = '[[roughness]]\nsurface = 2\ngenerator = "gaussian"\nrq = "200 nm"\nseed = 1\n'
-    case_file.write_text(CASE.replace("2 m/s", "1 mm/s") + rough + 'correlation_length = "5 um"\n')
+    rough = '[[roughness]]\nsurface = 2\ngenerator = "gaussian"\nrq = "150 nm"\nseed = 1\n'
+    case_file.write_text(CASE.replace("2 m/s", "1 mm/s") + rough + 'correlation_length = "10 um"\n')
     done = ehlectric("run", case_file, "-o", "out")
     assert done.returncode == 0, done.stderr
     assert "asperities depends on the grid" in done.stderr

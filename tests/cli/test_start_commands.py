@@ -18,7 +18,13 @@ from tests.cli.conftest import CASE
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES, ROOT
 
-KINDS = {"moving": "motion", "bearing": "bearing", "drive": "drive", "sweep": "sweep", "uncertainty": "sweep"}
+KINDS = {
+    "moving": "motion",
+    **dict.fromkeys(("bearing", "tapered-pair", "needle", "thrust", "four-point"), "bearing"),
+    "drive": "drive",
+    "sweep": "sweep",
+    "uncertainty": "sweep",
+}
 COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
 
 
