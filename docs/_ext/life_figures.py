@@ -17,7 +17,7 @@ from ehlectric.sweep.evaluation import evaluate
 
 LIVES = {
     "basic_life": ("basic rating life $L_{10}$", MIDDLE_GREY),
-    "reference_modified_life": ("modified reference rating life $L_{10mr}$", BLUE),
+    "reference_modified_life": ("modified reference rating life $L_{nmr}$", BLUE),
     "film_reference_modified_life": ("modified reference life with the film", GREEN),
     "roughened_life": ("with the film and a roughness of 0.3 µm", ORANGE),
 }

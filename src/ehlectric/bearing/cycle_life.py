@@ -38,6 +38,8 @@ class CycleLife:
     reference_modified_life: float | None = field(default=None, metadata=number())
     film_reference_modified_life: float | None = field(default=None, metadata=number())
     roughened_life: float | None = field(default=None, metadata=number())
+    reliable_life: float | None = field(default=None, metadata=number())
+    reliable_reference_life: float | None = field(default=None, metadata=number())
     # Shares of the revolutions with a viscosity ratio below 0.1, the lowest ratio of ISO 281, of the oil and
     # of the film. They count with a ratio of 0.1, so that the modified lives are upper bounds.
     low_viscosity_share: float | None = field(default=None, metadata=number())
@@ -60,6 +62,10 @@ class CycleLife:
 LIVES = tuple(each.name for each in fields(CycleLife) if each.name.endswith("_life"))
 
 
+# Names of the lives that need no solution of a row.
+_OF_LOADS = ("basic_life", "reliable_life")
+
+
 def cycle_life(
     case: BearingCase, given: Mapping[str, Array], values: Mapping[str, Array], total: float
 ) -> CycleLife:
@@ -77,11 +83,9 @@ def cycle_life(
     bearing = case.with_values({"bearing.inner_speed": speed, **loads}).bearing
     fatigue = Fatigue(**{each.name: values[each.name] for each in fields(Fatigue)})
     lives = lives_of(bearing, life, fatigue, least_ratio=LOWEST_RATIO)
-    # The basic life needs no solution of a row.
     computed, turns = np.isfinite(fatigue.reference_turns), speed * duration / _TURN
     found: dict[str, Any] = {
-        name: _miner(total, duration, getattr(lives, name), computed | (name == "basic_life"))
-        for name in LIVES
+        name: _miner(total, duration, getattr(lives, name), computed | (name in _OF_LOADS)) for name in LIVES
     }
     power = life_exponent(bearing)
     mean = np.average(lives.equivalent_load**power, weights=turns) ** (1.0 / power)

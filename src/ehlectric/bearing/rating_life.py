@@ -1,7 +1,8 @@
 """Rating lives of a bearing by fatigue, beside its discharges: basic, reference and modified, SI units.
 
-The lives are those of ISO 281 and ISO/TS 16281 that 90 of 100 bearings reach. They know of oil, dirt and
-load, and of discharges only through a rougher surface; there is no law of erosion.
+The lives are those of ISO 281 and ISO/TS 16281 that 90 of 100 bearings reach, or a larger share with the
+factor a_1. They depend on oil, dirt and load, and on discharges only through a rougher surface; there is no
+law of erosion.
 """
 
 from __future__ import annotations
@@ -27,7 +28,10 @@ from ehlectric.bearing.loads.life import (
     load_of_life,
     rated_viscosity,
     reference_life,
+    reliability_factor,
     roller_ratings,
+    static_load,
+    static_load_of_rollers,
     thrust_ratings,
     viscosity_ratio_of_film,
 )
@@ -74,6 +78,7 @@ def _at_points(law: Callable[..., float]) -> Callable[..., Numbers]:
 
 _basic_life, _load_of_life = _at_points(basic_life), _at_points(load_of_life)
 _life_factor, _film_ratio = _at_points(life_factor), _at_points(viscosity_ratio_of_film)
+_reliability_factor = _at_points(reliability_factor)
 
 
 # Bearing whose sizes give a rating by ISO 281 and ISO 76: of a file, or with printed ratings.
@@ -89,6 +94,7 @@ class _Rules:
     static: Callable[[Sized], Numbers]  # basic static rating [N]
     # Equivalent load [N], from the static rating [N] and the number of tracks.
     equivalent: Callable[[Bearing, Numbers, int], Numbers]
+    standing: Callable[[Bearing, int], Numbers]  # equivalent static load [N], from the number of tracks
     ratings: Callable[[Bearing, Numbers], ElementRatings]  # of an element, from the dynamic rating [N]
     grooves: tuple[float, ...] = ()  # widest grooves over the ball diameter that have the ratings
     tracks: int = 1  # contacts of an element with one ring
@@ -145,8 +151,16 @@ def _equivalent_of_rollers(bearing: Bearing, _static: Numbers, tracks: int) -> N
     return _at_points(equivalent_load_of_rollers)(*_loads(bearing), _angle(bearing), tracks)
 
 
-def _axial(bearing: Bearing, _static: Numbers, _tracks: int) -> Numbers:
+def _axial(bearing: Bearing, *_: Any) -> Numbers:
     return bearing.axial_load
+
+
+def _static_of_balls(bearing: Bearing, tracks: int) -> Numbers:
+    return _at_points(static_load)(*_loads(bearing), _angle(bearing), tracks)
+
+
+def _static_of_rollers(bearing: Bearing, tracks: int) -> Numbers:
+    return _at_points(static_load_of_rollers)(*_loads(bearing), _angle(bearing), tracks)
 
 
 def _ratings_of_balls(bearing: Bearing, dynamic: Numbers) -> ElementRatings:
@@ -164,6 +178,7 @@ _OF_BALLS = _Rules(
     dynamic=_inclined(ball_dynamic_rating),
     static=_inclined(ball_static_rating),
     equivalent=_equivalent_of_balls,
+    standing=_static_of_balls,
     ratings=_ratings_of_balls,
     grooves=RATED_GROOVES,
 )
@@ -172,6 +187,7 @@ _OF_ROLLERS = _Rules(
     dynamic=_inclined(roller_dynamic_rating),
     static=_inclined(roller_static_rating),
     equivalent=_equivalent_of_rollers,
+    standing=_static_of_rollers,
     ratings=_ratings_of_rollers,
 )
 _RULES: dict[str, _Rules] = {
@@ -183,6 +199,7 @@ _RULES: dict[str, _Rules] = {
         dynamic=lambda bearing: _at_points(thrust_ball_dynamic_rating)(*_sizes(bearing)),
         static=lambda bearing: _at_points(thrust_ball_static_rating)(*_sizes(bearing)[:2]),
         equivalent=_axial,
+        standing=_axial,
         ratings=lambda bearing, dynamic: thrust_ratings(dynamic, bearing.elements, rollers=False),
         grooves=(THRUST_GROOVE, THRUST_GROOVE),
     ),
@@ -196,6 +213,7 @@ _RULES: dict[str, _Rules] = {
             bearing.elements, bearing.element_diameter, bearing.roller_length
         ),
         equivalent=_axial,
+        standing=_axial,
         ratings=lambda bearing, dynamic: thrust_ratings(dynamic, bearing.elements, rollers=True),
     ),
 }
@@ -212,6 +230,8 @@ class RatedLoads:
     static_rating_source: Any
     fatigue_load_limit: Numbers
     equivalent_load: Numbers  # NaN for a contact angle that the tables do not have
+    static_equivalent_load: Numbers  # P_0, NaN for a contact angle that the table does not have
+    static_safety: Numbers  # s_0, static rating divided by P_0
 
 
 @dataclass(frozen=True)
@@ -221,14 +241,18 @@ class RatingLife(RatedLoads):
     rated_viscosity: Numbers  # kinematic viscosity that ISO 281 requires, nu_1 [m^2/s]
     viscosity_ratio: Numbers  # viscosity of the oil at the temperature of the bearing, divided by nu_1
     film_viscosity_ratio: Numbers  # viscosity ratio that corresponds to the lambda ratio
+    reliability_factor: Numbers  # a_1 of the reliability of the file
     # Factors and lives [s]. Names with "film" use the viscosity ratio of the film, which is no standard's.
+    # All lives except the basic ones, of 90 % reliability, are those of the reliability of the file.
     life_factor: Numbers
     film_life_factor: Numbers
     basic_life: Numbers
+    reliable_life: Numbers
     modified_life: Numbers
     film_modified_life: Numbers
     # Lives from the loads of the elements [s].
     reference_life: Numbers
+    reliable_reference_life: Numbers
     reference_modified_life: Numbers
     film_reference_modified_life: Numbers
     roughened_life: Numbers | None  # None if no roughness after discharges is given
@@ -285,6 +309,7 @@ def lives_of(bearing: Bearing, life: Life, fatigue: Fatigue, *, least_ratio: flo
     required = _required_viscosity(bearing)
     by_oil, by_film = fatigue.viscosity / required, _film_ratio(fatigue.lambda_ratio)
     factors = [factor(ratio, rated.equivalent_load) for ratio in (by_oil, by_film)]
+    reliable = _reliability_factor(life.reliability)
     basic = _basic_life(rated.dynamic_rating, rated.equivalent_load, rules.exponent) / turns
     reference = fatigue.reference_turns / turns
     # The load whose basic life equals the reference life.
@@ -293,20 +318,23 @@ def lives_of(bearing: Bearing, life: Life, fatigue: Fatigue, *, least_ratio: flo
     if life.roughened_rq is not None:
         # Points of a sweep may have a rougher surface than that.
         smoother = bearing.composite_rq / np.maximum(life.roughened_rq, bearing.composite_rq)
-        rougher = factor(_film_ratio(smoother * fatigue.lambda_ratio), same) * reference
+        rougher = reliable * factor(_film_ratio(smoother * fatigue.lambda_ratio), same) * reference
     return RatingLife(
         **vars(rated),
         rated_viscosity=required,
         viscosity_ratio=by_oil,
         film_viscosity_ratio=by_film,
+        reliability_factor=reliable,
         life_factor=factors[0],
         film_life_factor=factors[1],
         basic_life=basic,
-        modified_life=factors[0] * basic,
-        film_modified_life=factors[1] * basic,
+        reliable_life=reliable * basic,
+        modified_life=reliable * factors[0] * basic,
+        film_modified_life=reliable * factors[1] * basic,
         reference_life=reference,
-        reference_modified_life=factor(by_oil, same) * reference,
-        film_reference_modified_life=factor(by_film, same) * reference,
+        reliable_reference_life=reliable * reference,
+        reference_modified_life=reliable * factor(by_oil, same) * reference,
+        film_reference_modified_life=reliable * factor(by_film, same) * reference,
         roughened_life=rougher,
     )
 
@@ -329,8 +357,20 @@ def rated_loads(bearing: Bearing, life: Life) -> RatedLoads:
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
-    load = rules.equivalent(bearing, static, rules.tracks * bearing.rows)
-    return RatedLoads(dynamic, static, dynamic_source, static_source, limit, load)
+    tracks = rules.tracks * bearing.rows
+    load, standing = rules.equivalent(bearing, static, tracks), rules.standing(bearing, tracks)
+    return RatedLoads(
+        *(dynamic, static, dynamic_source, static_source, limit, load),
+        static_equivalent_load=standing,
+        static_safety=static / standing,
+    )
+
+
+def dynamic_rating(bearing: Bearing) -> Numbers:
+    """Basic dynamic rating of a bearing, or of both bearings of a pair [N], also without ``life``."""
+    rules, life = _RULES[bearing.kind], bearing.life or Life(contamination_factor=1.0)
+    found: Numbers = bearing.rows**rules.slope * _rating(bearing, life, "dynamic")[0]
+    return found
 
 
 def _rating(bearing: Bearing, life: Life, name: str) -> tuple[Numbers, Any]:

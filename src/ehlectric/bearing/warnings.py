@@ -24,7 +24,7 @@ from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.input_changes import estimated_keys
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
-from ehlectric.bearing.rating_life import life_flags
+from ehlectric.bearing.rating_life import dynamic_rating, life_flags
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     CONDUCTING,
@@ -57,9 +57,13 @@ from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 
-# Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design
-# [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.
-_MOST_SPEED = 1e6
+# Largest speed factor n d_m [mm/min] of bearings with a contact angle of 40 degrees, of the source of
+# ``KINDS_OF_BEARINGS``, whose values are those at 15 degrees and below.
+_STEEP, _SPEED_STEEP, _FLAT = math.radians(40.0), 6.5e5, math.radians(15.0)
+
+# Minimum load of balls and of rollers divided by the dynamic load rating. SKF, Rolling bearings, "requisite
+# minimum load": a general rule of thumb.
+_MINIMUM_LOAD = {"ball": 0.01, "roller": 0.02}
 
 # Load, as a part of the static load rating, below which a unit is probably wrong: makers state minimum loads
 # of about a hundredth of the rating.
@@ -177,12 +181,20 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         bearing.oil_temperature - 273.15,
         1e3 * bearing.pitch_diameter,
     )
-    factor = turns * pitch
+    factor, most = turns * pitch, _most_speed(bearing)
     yield Flag.of(
-        factor > _MOST_SPEED, "speed-high", speed=turns, pitch=pitch, factor=factor, limit=_MOST_SPEED
+        factor > most,
+        "speed-high",
+        speed=turns,
+        pitch=pitch,
+        factor=factor,
+        limit=most,
+        kind=bearing.kind,
     )
     load, rating = np.hypot(bearing.radial_load, bearing.axial_load), _static_rating(bearing)
-    yield Flag.of(load < _LEAST_LOAD * rating, "load-low", load=load, rating=rating)
+    tiny = load < _LEAST_LOAD * rating
+    yield Flag.of(tiny, "load-low", load=load, rating=rating)
+    yield _minimum_load_flag(bearing, load, tiny)
     for key, temperature in bearing.temperatures().items():
         yield extreme(f"bearing.{key}", temperature)
     yield Flag.of(
@@ -201,6 +213,25 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         index = partial(_index_of, oil)
         graded = oil.iso_vg > 0
         yield Flag.of(graded, "viscosity-grade", grade=oil.iso_vg, low=low, high=high, index=index)
+
+
+def _most_speed(bearing: Bearing) -> Numbers:
+    """Largest speed factor n d_m of ordinary bearings of a kind and contact angle [mm/min], shape (...)."""
+    most = KINDS_OF_BEARINGS[bearing.kind].most_speed
+    if has_rollers(bearing.kind) or bearing.contact_angle is None:
+        return most
+    return np.interp(bearing.contact_angle, (_FLAT, _STEEP), (most, _SPEED_STEEP))
+
+
+def _minimum_load_flag(bearing: Bearing, load: Numbers, tiny: Mask) -> Flag:
+    """Note of a load [N] below the minimum load of catalogues; a preload is a sufficient load."""
+    kind, rating = KINDS_OF_BEARINGS[bearing.kind], dynamic_rating(bearing)
+    least = _MINIMUM_LOAD[kind.elements] * rating
+    free = bearing.pair is None or not bearing.pair.preload
+    below = np.logical_and(load < least, np.logical_not(tiny))
+    return Flag.of(
+        below & free, "load-below-minimum", load=load, least=least, rating=rating, elements=kind.elements
+    )
 
 
 def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:

@@ -112,6 +112,7 @@ class Life(Table, book="bearing.life"):
     """Contamination, ratings and fatigue load limit of a bearing, for its rating life."""
 
     contamination_factor: float
+    reliability: float = 0.9
     fatigue_load_limit: float | None = None
     dynamic_rating: float | None = None
     static_rating: float | None = None

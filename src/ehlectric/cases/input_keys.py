@@ -16,6 +16,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import (
     Table,
+    advice_for,
     annotation_of,
     any_of,
     meant,
@@ -161,6 +162,8 @@ def input_field(key: str) -> FieldInfo:
     for name in names:
         field = None if inner is None else inner.known_keys().get(name)
         if field is None:
+            if advice := advice_for(own, model):
+                raise InputError.worded(key, f"unknown key; {advice}")
             found = [before + _with_number(one, within) for one in meant(".".join(names), model)]
             raise InputError.unknown(key, any_of(found))
         inner = table_of(field.annotation)

@@ -497,7 +497,7 @@ def _takes(key: str, field: FieldInfo | None, model: type[Table]) -> str:
 
 def _unknown(key: str, model: type[Table], given: Mapping[str, Any]) -> InputError:
     """Error of an unknown key: advice for a key that users look for, else the nearest known key."""
-    advice = _advice(key, model)
+    advice = advice_for(key, model)
     return (
         InputError.worded(key, f"unknown key; {advice}")
         if advice
@@ -505,7 +505,7 @@ def _unknown(key: str, model: type[Table], given: Mapping[str, Any]) -> InputErr
     )
 
 
-def _advice(key: str, model: type[Table]) -> str | None:
+def advice_for(key: str, model: type[Table]) -> str | None:
     """Advice for an unknown key, of the table or of one within it, such as a bearing in a drive."""
     first, _, rest = key.partition(".")
     field = model.known_keys().get(first)

@@ -166,7 +166,8 @@ def cycle_life_bounds(duty: Mapping[str, Any], prefix: str) -> dict[str, bool]:
         for share, keys in _OF_CYCLE.items()
         for key in keys
     }
-    return {f"{prefix}reference_life": missing, **found}
+    of_loads = {f"{prefix}{key}": missing for key in ("reference_life", "reliable_reference_life")}
+    return {**of_loads, **found}
 
 
 def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:

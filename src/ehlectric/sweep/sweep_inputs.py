@@ -28,7 +28,16 @@ from ehlectric.cases.drive_case import (
     with_found_files,
 )
 from ehlectric.cases.input_keys import input_field, is_of_drive, key_of_names, kind_of
-from ehlectric.cases.table import Table, Title, nearest, nearest_key, number_of, parser_of, read_toml
+from ehlectric.cases.table import (
+    Table,
+    Title,
+    advice_for,
+    nearest,
+    nearest_key,
+    number_of,
+    parser_of,
+    read_toml,
+)
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
 from ehlectric.quantities.sheets import BREAKDOWNS
@@ -54,7 +63,8 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
         input_field(key)
     except InputError as error:
         # The error of a rough surface has its number.
-        if "unknown key" in error.text and not key.startswith("roughness."):
+        advised = advice_for(key, model) is not None
+        if "unknown key" in error.text and not key.startswith("roughness.") and not advised:
             raise InputError.unknown(key, nearest_key(key, model, case.__dict__)) from None
         raise
 

@@ -301,6 +301,30 @@ def _fatigue_limit_note(summary: Summary) -> str:
     return ", given" if given else ", computed from C0 by ISO 281"
 
 
+def of_reliability(prefix: str, lives: str) -> dict[str, Callable[[Summary], Any]]:
+    """Numbers of the reliability by dotted key, which are shown only if it is not 90 %.
+
+    ``prefix`` of the factor and the lives in the table, and ``lives``, prefix of lives of a duty cycle.
+    """
+    pairs = {"reliable_life": "basic_life", "reliable_reference_life": "reference_life"}
+
+    def other(key: str, basic: str) -> Callable[[Summary], Any]:
+        return lambda s: None if value_at(s, key) == value_at(s, basic) else value_at(s, key)
+
+    return {
+        f"{prefix}reliability_factor": lambda s: (
+            None
+            if value_at(s, f"{prefix}reliability_factor") == 1.0
+            else value_at(s, f"{prefix}reliability_factor")
+        ),
+        **{
+            f"{place}{key}": other(f"{place}{key}", f"{place}{basic}")
+            for place in (prefix, lives)
+            for key, basic in pairs.items()
+        },
+    }
+
+
 def _viscosity_ratio(summary: Summary) -> Noted:
     """Viscosity ratio with the viscosity of the oil, or the reason why it is unknown."""
     life = summary["life"]
@@ -527,6 +551,7 @@ _WORDS = Words(
         "bearing.meter_capacitance": _meter,
         "bearing.first_break": _first_break,
         "life.viscosity_ratio": _viscosity_ratio,
+        **of_reliability("life.", "duty."),
         "margin.range": _range,
         "uncertainty.margin_range": _margin_range,
         **{

@@ -28,6 +28,7 @@ from ehlectric.quantities.rows import (
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
+from ehlectric.tables.bearing_tables import of_reliability
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -277,6 +278,7 @@ _WORDS = Words(
             f"end.duty_{name}_share": _unless_zero(f"duty_{name}_share")
             for name in ("low_viscosity", "low_film", "unsolved")
         },
+        **of_reliability("end.life.", "end.duty_"),
         "duty.left_out_share": lambda s: (s.get("duty") or {}).get("left_out_share") or None,
         "end.contact_current": _contact_current,
         **{f"end.time_above.{name}": _time_above(name, before) for before, name in pairwise(_LIMITS)},

@@ -1,10 +1,17 @@
 """Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
 
+import math
+from types import SimpleNamespace
+
+import pytest
+
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.bearing.warnings import input_flags, library_viscosity
+from ehlectric.bearing.warnings import _most_speed, input_flags, library_viscosity
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import raised
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 
 GRADE = {
     "lubricant__temperature__kinematic_viscosity_40": None,
@@ -29,7 +36,7 @@ def test_an_ordinary_bearing_has_none():
             "speed-high",
             {"bearing__inner_speed": "16660 rpm"},
             {"bearing__inner_speed": "16680 rpm"},
-            ["1.668e+04 rpm", "60 mm", "1e+06 mm/min"],
+            ["16\xa0680 rpm", "60 mm", "1\xa0million mm/min", "deep-groove"],
         ),
         (
             "temperature-extreme",
@@ -74,7 +81,7 @@ def test_a_load_in_kilonewtons_without_its_unit_is_doubted():
     assert "load-low" not in told(bearing__radial_load="17 N", **alone)
     text = told(bearing__radial_load=1.8, **alone)["load-low"]
     assert "1.8 N" in text
-    assert "1.7e+04 N" in text
+    assert "17\xa0000 N" in text
 
 
 def test_a_grade_beside_the_viscosity_of_another_oil_says_the_index():
@@ -98,3 +105,48 @@ def test_a_coating_of_assumed_values_says_so():
         texts = [one.text for one in told if one.code == "coating-assumed"]
         assert len(texts) == bool(expected)
         assert all(number in text for text in texts for number in expected)
+
+
+@each(
+    "kind, angle, limit",
+    [
+        ("deep-groove ball", None, 1e6),
+        ("angular-contact ball", 15.0, 1e6),
+        ("angular-contact ball", 40.0, 6.5e5),
+        ("cylindrical roller", None, 8e5),
+        ("tapered roller", 14.0, 4e5),
+        ("thrust ball", None, 3e5),
+    ],
+)
+def test_speeds_above_the_range_of_catalogues(kind, angle, limit):
+    """Maximum speed factors n d_m of the Tribology Handbook (Neale), tables 20.2 and 20.3, in mm/min."""
+    angle = None if angle is None else math.radians(angle)
+    assert _most_speed(SimpleNamespace(kind=kind, contact_angle=angle)) == pytest.approx(limit, rel=1e-12)
+
+
+def test_loads_below_the_minimum_load():
+    """SKF: 0.01 C of ball bearings. NSK prints 29.1 kN for the 6208: 291 N."""
+    alone = {"bearing__base": "6208", "bearing__axial_load": None}
+    for load, told_of in ((292.0, False), (290.0, True), (60.0, True), (5.0, False)):
+        found = told(bearing__radial_load=load, **alone)
+        assert ("load-below-minimum" in found) == told_of, load
+    text = told(bearing__radial_load=290.0, **alone)["load-below-minimum"]
+    assert "290 N" in text
+    assert "291 N" in text
+
+
+def test_the_minimum_load_of_rollers_is_larger_and_a_preload_is_a_load():
+    """SKF: 0.02 C of roller bearings; the rating of the file is C."""
+    tables = {"contamination_factor": 0.5, "dynamic_rating": "50 kN"}
+    rollers = BearingCase.from_toml(EXAMPLES / "bearing_tapered_pair.toml").replace({"bearing.life": tables})
+    # Both bearings of a pair together have 2^(7/9) C.
+    least = 0.02 * 50e3 * 2.0 ** (7.0 / 9.0)
+    free = {"bearing.pair.axial_clearance": 0.0, "bearing.axial_load": 0.0}
+    for changes, part, told_of in (
+        (free, 0.99, True),
+        (free, 1.01, False),
+        ({"bearing.axial_load": 0.0}, 0.5, False),
+    ):
+        case = rollers.replace(changes | {"bearing.radial_load": part * least})
+        codes = [warning.code for warning in raised(input_flags(case, 0.01))]
+        assert ("load-below-minimum" in codes) == told_of, (changes, part)

@@ -194,7 +194,7 @@ def test_rating_lives_stand_next_to_their_inputs(pages):
     assert found["P"].startswith("1800 N")
     assert found["ν1"].startswith(f"{4500.0 / (6000.0 * 60.0) ** 0.5:.3g} mm²/s")
     assert found["κ"].startswith(f"{life['viscosity_ratio']:.3g}")
-    for symbol, key in (("L10", "basic_life"), ("L10mr", "reference_modified_life")):
+    for symbol, key in (("L10", "basic_life"), ("Lnmr", "reference_modified_life")):
         hours = life[key] / 3600.0
         if hours > 1e6:
             assert found[symbol] == "above 1 000 000 h"
@@ -207,7 +207,7 @@ def test_the_page_of_a_bearing_with_a_margin_has_room_for_its_lives(tmp_path):
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
     save(solve(case.replace({"contacts": "atlas", "bearing.life": {"contamination_factor": 0.5}})), tmp_path)
     report = report_of(tmp_path, summary=True)
-    assert {"C", "ν1", "κ", "L10mr"} <= set(life_of(report))
+    assert {"C", "ν1", "κ", "Lnmr"} <= set(life_of(report))
     assert first_page(report).scale == 1.0
 
 
