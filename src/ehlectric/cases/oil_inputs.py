@@ -243,7 +243,7 @@ class OilTemperature(Table, book="lubricant.temperature"):
         """
         of = ("kinematic_viscosity_2", "dynamic_viscosity_2", "kinematic_viscosity_100", "viscosity_index")
         key = next(key for key in of if getattr(self, key) is not None)
-        return Walther.through(self._first(), self._second(), f"temperature.{key}")
+        return Walther.through(self._first(), self._second(), key)
 
     def _first(self) -> tuple[Numbers, Numbers]:
         """Temperature [K] and kinematic viscosity [m^2/s] of the first point."""

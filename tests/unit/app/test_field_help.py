@@ -138,6 +138,24 @@ CARREAU = {
 }
 
 # Inputs in which a number matters, by its key or the beginning of it; the longest that fits holds.
+SHEET = "lubricant.temperature"
+KINEMATIC_1 = changed(
+    BEARING,
+    {
+        f"{SHEET}.kinematic_viscosity_40": None,
+        f"{SHEET}.kinematic_viscosity_1": "46 mm^2/s",
+        f"{SHEET}.temperature_1": "40 degC",
+    },
+)
+KINEMATIC_2 = changed(
+    BEARING,
+    {
+        f"{SHEET}.kinematic_viscosity_100": None,
+        f"{SHEET}.kinematic_viscosity_2": "11.5 mm^2/s",
+        f"{SHEET}.temperature_2": "80 degC",
+    },
+)
+MEAN_HEIGHT = changed(BEARING, {"bearing.composite_rq": None, "bearing.composite_ra": "0.024 um"})
 INPUTS = {
     "bearing": BEARING,
     **{f"bearing.{name}": OWN for name in ("elements", "element_diameter", "pitch_diameter")},
@@ -167,6 +185,16 @@ INPUTS = {
     "lubricant.temperature.viscosity_index": changed(
         BEARING, {"lubricant.temperature.kinematic_viscosity_100": None}
     ),
+    **{f"lubricant.temperature.{name}_1": KINEMATIC_1 for name in ("kinematic_viscosity", "temperature")},
+    "lubricant.temperature.dynamic_viscosity_1": changed(
+        KINEMATIC_1, {f"{SHEET}.kinematic_viscosity_1": None}
+    ),
+    **{f"lubricant.temperature.{name}_2": KINEMATIC_2 for name in ("kinematic_viscosity", "temperature")},
+    "lubricant.temperature.dynamic_viscosity_2": changed(
+        KINEMATIC_2, {f"{SHEET}.kinematic_viscosity_2": None}
+    ),
+    "bearing.composite_ra": MEAN_HEIGHT,
+    "bearing.rq_over_ra": MEAN_HEIGHT,
     "lubricant.roelands_z": BEARING,
     **{f"lubricant.{name}": HOT for name in ("eyring_stress", "thermal_conductivity", "heat_capacity")},
     "lubricant.carreau": changed(HOT, CARREAU),
@@ -221,6 +249,14 @@ VALUES = {
     "bearing.element_diameter": (10, 11.9),
     "bearing.pitch_diameter": (60, 66),
     "bearing.composite_rq": (0.03, 0.06),
+    "bearing.composite_ra": (0.024, 0.048),
+    "bearing.rq_over_ra": (1.1, 1.4),
+    f"{SHEET}.kinematic_viscosity_1": (40, 50),
+    f"{SHEET}.dynamic_viscosity_1": (35, 45),
+    f"{SHEET}.temperature_1": (40, 50),
+    f"{SHEET}.kinematic_viscosity_2": (10, 13),
+    f"{SHEET}.dynamic_viscosity_2": (8, 11),
+    f"{SHEET}.temperature_2": (80, 90),
     "bearing.summit_height": (1, 2),
     "bearing.radial_load": (1500, 2500),
     "bearing.axial_load": (300, 600),
