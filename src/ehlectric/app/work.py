@@ -28,6 +28,7 @@ from ehlectric.errors import LostError
 from ehlectric.readable import readable
 from ehlectric.runtime.locks import RENAMES_OPEN, take
 from ehlectric.runtime.memory import available_memory
+from ehlectric.runtime.progress import Remaining
 from ehlectric.runtime.worker_processes import cores
 
 T = TypeVar("T")
@@ -42,9 +43,6 @@ _PREFIX, _LOCK = "ehlectric-app-", "lock"
 
 # Beginning of the name of the folder that multiprocessing makes for its sockets.
 _MULTIPROCESSING = "pymp-"
-
-# Time after which the rate of a job is known well enough to be shown [s].
-_SOON = 3.0
 
 # Longest path of a folder whose sockets have names that systems allow, of about 100 characters, below the
 # folder that multiprocessing makes.
@@ -124,12 +122,12 @@ def _left_behind(folder: Path) -> bool:
 
 
 @dataclass
-class Remaining:
-    """Estimate for the part of a job that is under way.
+class TimeLeft:
+    """Words about the time that is left of the part of a job that is under way.
 
     Examples
     --------
-    >>> left = Remaining()
+    >>> left = TimeLeft()
     >>> left.text_of("time steps", 0, 200, now=0.0), left.text_of("time steps", 50, 200, now=60.0)
     ('', 'about 3 min left')
     >>> left.text_of("drawing", 1, 2, now=61.0)
@@ -137,19 +135,16 @@ class Remaining:
     """
 
     text: str = ""
-    # Steps of the part, and those done when it was first seen, as of a job that is resumed.
-    of: int = 0
-    done: int = 0
-    since: float = 0.0  # time at which it was first seen [s]
+    remaining: Remaining = field(default_factory=Remaining)
 
     def text_of(self, text: str, done: int, of: int, *, now: float) -> str:
-        """Words about the time that is left; empty where it is not known yet."""
-        if (text, of) != (self.text, self.of) or done < self.done:
-            self.text, self.of, self.done, self.since = text, of, done, now
-        gone = now - self.since
-        if not of or done <= self.done or gone < _SOON:
+        """Words about the time that is left; empty where it is not known."""
+        if text != self.text:
+            self.text, self.remaining = text, Remaining()
+        self.remaining.step(done, of, now=now)
+        left = self.remaining.seconds(now=now)
+        if left is None:
             return ""
-        left = gone * (of - done) / (done - self.done)
         if left < 60.0:
             return f"about {max(1.0, left):.0f} s left"
         return f"about {left / 60.0:.0f} min left"

@@ -20,7 +20,9 @@ from ehlectric.commands.options import (
 )
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
+    duration,
     echo_files,
+    parted,
     print_rows,
     print_table,
     print_verdict,
@@ -195,7 +197,7 @@ def _lines() -> Iterator[Progress]:
             return
         last = now
         rate = (done - first) / max(now - started, 1e-9)
-        left = f", {readable(rate)} a second, {_duration((of - done) / rate)} left" if rate else ""
+        left = f", {readable(rate)} a second, {duration((of - done) / rate)} left" if rate else ""
         say(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
 
     yield show
@@ -211,27 +213,11 @@ def _bar() -> Iterator[Progress]:
         progress.BarColumn(),
         progress.MofNCompleteColumn(),
         progress.TextColumn("{task.fields[rate]}"),
-        progress.TimeRemainingColumn(),
+        progress.TextColumn("{task.fields[left]}"),
         progress.TextColumn("{task.description}"),
     )
     with progress.Progress(*columns, console=Console(stderr=True)) as bar:
-        tasks: list[progress.TaskID] = []
-
-        def show(done: int, of: int, text: str) -> None:
-            if not tasks:
-                tasks.append(bar.add_task(text, total=of, completed=done, rate=""))
-            speed = bar.tasks[0].speed
-            rate = "" if speed is None else f"{readable(speed)}/s"
-            bar.update(tasks[0], completed=done, description=text, rate=rate)
-
-        yield show
-
-
-def _duration(seconds: float) -> str:
-    """Time as hours, minutes and seconds."""
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02}:{rest:02}"
+        yield parted(bar)
 
 
 def _in_short(results: SweepResults) -> Iterator[str]:

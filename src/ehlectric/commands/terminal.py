@@ -6,6 +6,7 @@ import json
 import re
 import sys
 import textwrap
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,11 +15,13 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning, printable
+from ehlectric.readable import readable
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
-from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.progress import Progress, Remaining, silent
 from ehlectric.runtime.undrawn import lines_of
 
 if TYPE_CHECKING:
+    from rich.progress import Progress as RichProgress
     from rich.table import Table
     from rich.text import Text
 
@@ -109,9 +112,55 @@ def progress_bar(*, shown: bool) -> Iterator[Progress]:
     from rich import progress
     from rich.console import Console
 
-    with solving(), progress.Progress(console=Console(stderr=True)) as bar:
-        task = bar.add_task("starting", total=None)
-        yield lambda done, of, text: bar.update(task, completed=done, total=of or None, description=text)
+    columns = (
+        progress.TextColumn("{task.description}"),
+        progress.BarColumn(),
+        progress.TaskProgressColumn(),
+        progress.TimeElapsedColumn(),
+        progress.TextColumn("{task.fields[left]}"),
+    )
+    with solving(), progress.Progress(*columns, console=Console(stderr=True)) as bar:
+        yield parted(bar)
+
+
+class Left:
+    """Time that is left of a part of a job, as a text that is made anew whenever it is shown."""
+
+    def __init__(self) -> None:
+        self.remaining = Remaining()
+
+    def __str__(self) -> str:
+        seconds = self.remaining.seconds(now=time.monotonic())
+        return "" if seconds is None else f"{duration(seconds)} left"
+
+    def __format__(self, _: str) -> str:
+        return str(self)
+
+
+def duration(seconds: float) -> str:
+    """Time as hours, minutes and seconds."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}"
+
+
+def parted(bar: RichProgress) -> Progress:
+    """Progress that shows each part of a job as a new task of a bar, with its own rate and time."""
+    left = Left()
+    task = bar.add_task("starting", total=None, left=left, rate="")
+
+    def show(done: int, of: int, text: str) -> None:
+        nonlocal task
+        if left.remaining.is_other(done, of):
+            # A task of rich keeps its number of steps and its rate.
+            bar.remove_task(task)
+            task = bar.add_task(text, total=of or None, completed=done, left=left, rate="")
+        left.remaining.step(done, of, now=time.monotonic())
+        speed = bar.tasks[0].speed
+        rate = "" if speed is None else f"{readable(speed)}/s"
+        bar.update(task, completed=done, description=text, rate=rate)
+
+    return show
 
 
 @contextmanager

@@ -48,6 +48,54 @@ def told_to(given: Progress | None) -> Progress:
     return given
 
 
+# Time after which the rate of a part is known well enough to be shown [s].
+_SOON = 3.0
+
+
+@dataclass
+class Remaining:
+    """Estimate of the time that is left of a part of a job, from the steps of the part that are done.
+
+    A part is told from another one by the number of its steps. The time counts down between two steps. It is
+    not known where the present step takes longer than all steps that are left were to take: the last contact
+    of a bearing may take longer than all others.
+
+    Examples
+    --------
+    >>> left = Remaining()
+    >>> left.step(0, 12, now=0.0)
+    >>> left.step(11, 12, now=22.0)
+    >>> left.seconds(now=22.0), left.seconds(now=23.0), left.seconds(now=90.0)
+    (2.0, 1.0, None)
+    """
+
+    of: int = 0  # steps of the part; 0 where their number is not known
+    done: int = 0  # steps that are done
+    _first: int = 0  # steps that were done when the part was first seen, as of a job that is resumed
+    _since: float = 0.0  # time at which the part was first seen [s]
+    _at: float = 0.0  # time of the last step [s]
+
+    def step(self, done: int, of: int, *, now: float) -> None:
+        """Take the number of steps that are done at a time [s]."""
+        if self.is_other(done, of):
+            self.of, self.done, self._first = of, done, done
+            self._since = self._at = now
+        elif done > self.done:
+            self.done, self._at = done, now
+
+    def is_other(self, done: int, of: int) -> bool:
+        """Whether these steps belong to another part."""
+        return of != self.of or done < self.done
+
+    def seconds(self, *, now: float) -> float | None:
+        """Time that is left [s]; None where it is not known."""
+        steps, gone = self.done - self._first, self._at - self._since
+        if not self.of or not steps or now - self._since < _SOON:
+            return None
+        left = gone / steps * (self.of - self.done) - (now - self._at)
+        return left if left > 0.0 else None
+
+
 R = TypeVar("R", covariant=True)
 
 

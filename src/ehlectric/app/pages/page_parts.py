@@ -18,7 +18,7 @@ from nicegui.element import Element
 from ehlectric.app.answers import Line
 from ehlectric.app.calls import Call
 from ehlectric.app.session import Session
-from ehlectric.app.work import Job, Remaining
+from ehlectric.app.work import Job, TimeLeft
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.quantity import data_file
 
@@ -333,7 +333,7 @@ class JobBox:
     ) -> None:
         self._session, self._done, self._refused = session, done, refused
         self._job: Job | None = None
-        self._remaining = Remaining()
+        self._left = TimeLeft()
         with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
             self._bar = ui.element("progress").props('max=1 aria-label="Progress" data-testid="progress"')
             self._text = ui.label().classes("job-text")
@@ -348,7 +348,7 @@ class JobBox:
         except LostError as error:
             self._refused(error)
             return None
-        self._remaining = Remaining()
+        self._left = TimeLeft()
         self._box.set_visibility(True)
         self._timer.activate()
         return self._job
@@ -363,7 +363,7 @@ class JobBox:
         if job is None:
             return
         self._bar.props(f"value={job.done / job.of:.4f}" if job.of else "", remove="" if job.of else "value")
-        left = self._remaining.text_of(job.text, job.done, job.of, now=monotonic())
+        left = self._left.text_of(job.text, job.done, job.of, now=monotonic())
         count = f"{job.text}: {job.done} of {job.of}" if job.of else job.text
         self._text.text = ", ".join(filter(None, [count, left]))
         if job.over:
