@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +17,22 @@ import ehlectric
 from ehlectric import solve
 from ehlectric.paper.paper_contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
+from ehlectric.runtime.worker_processes import cores
 
 
 def _paper(app: Sphinx) -> None:
     """The paper's study, where the code is newer than what was made of it."""
     folder = Path(app.srcdir) / "_generated"
-    page = folder / "extra" / "reproduced" / "report.html"
+    page, times = folder / "extra" / "reproduced" / "report.html", folder / "paper_time.md"
     made_of = [Path(__file__), *Path(ehlectric.__file__).parent.rglob("*.*")]
     newest = max(path.stat().st_mtime for path in made_of)
-    if page.exists() and page.stat().st_mtime > newest:
+    if page.exists() and page.stat().st_mtime > newest and times.exists():
         return
+    begun, before = time.perf_counter(), _processor_time()
     made = reproduce(page.parent)
+    seconds, worked = time.perf_counter() - begun, _processor_time() - before
+    took = f"{seconds:.0f} s on {cores()} cores, with {worked:.0f} s of processor time"
+    times.write_text(f"The run for this page took {took}.\n", encoding="utf-8")
     if not made.converged:
         raise ExtensionError("a film of the paper's study did not converge")
     tables = {
@@ -34,6 +41,12 @@ def _paper(app: Sphinx) -> None:
     for name, text in (tables | {"capacitances": _capacitances()}).items():
         page = folder / f"{name}.md"
         page.write_text("```{rst-class} paper\n```\n\n" + text, encoding="utf-8")
+
+
+def _processor_time() -> float:
+    """Time that this process and its processes have computed [s]."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
 
 
 def _capacitances() -> str:
