@@ -30,6 +30,7 @@ from ehlectric.figures.style import (
     axes_or_new,
     beside_point,
     figure_of,
+    fitted_label,
     label_position,
     legend_above,
     length_axis,
@@ -149,8 +150,12 @@ def map_panels(
         high = number * ((wide - 0.7) * shape + 0.3)
         panels = new_panels(number, 1, (wide, high + more + _BAR), exact=True)
     else:
-        wide = page_width(_WIDTH + _FURTHER * (number - 1))
-        panels = new_panels(1, number, (wide, (wide - _BESIDE) / number * shape + more), exact=True)
+        wide, beside = page_width(_WIDTH + _FURTHER * (number - 1)), number
+        if page_width(_WIDTH) < _WIDTH:
+            # In a column of a journal the maps stand below each other.
+            wide, beside = page_width(_WIDTH), 1
+        high = number // beside * (wide - _BESIDE) / beside * shape + more
+        panels = new_panels(number // beside, beside, (wide, high), exact=True)
     # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels
@@ -251,13 +256,15 @@ def colour_bar(
 ) -> Colorbar:
     """Add one colour bar for the maps on ``axes``: beside them, or below them if they are low."""
     place: dict[str, Any] = {"pad": 0.02}
-    if on_low_page(result, len(axes), window):
+    below = on_low_page(result, len(axes), window)
+    if below:
         place = {"location": "bottom", "aspect": 60, "pad": 0.03, "shrink": 0.8}
     # Ticks are set here: those that matplotlib chooses change with the height of the bar, after the layout
     # has made room for their labels.
     first, last = mappable.get_clim()
     inside = ticks[(ticks >= first) & (ticks <= last)]
     figure = figure_of(axes[0])
+    label = fitted_label(axes[0], label, along=below)
     return figure.colorbar(mappable, ax=list(axes), label=label, ticks=inside, extend=extend, **place)
 
 

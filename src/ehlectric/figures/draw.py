@@ -70,7 +70,7 @@ def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
 def _shade(area: Area, ax: Axes) -> None:
     look: dict[str, Any] = {"facecolor": (area.colour, area.opacity), "lw": 0.0, "label": area.name or "_"}
     if area.hatched:
-        look |= {"edgecolor": (area.colour, 0.5), "hatch": "xxx"}
+        look |= {"edgecolor": (area.colour, 0.3), "hatch": "//"}  # a curve over it stays visible
     if area.ends is None:
         look |= {"transform": ax.get_xaxis_transform(), "zorder": 0.0}
     low, high = (0.0, 1.0) if area.ends is None else area.ends

@@ -507,7 +507,7 @@ def figure(result: DriveResult, name: str) -> Figure:
     if drawing.finding is discharges:
         lines.append(arc_line(result))
     with style():
-        axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size)
+        axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size, beside=True)
         for draw, ax in zip(drawing.panels, axes, strict=True):
             draw(result, ax)
         if drawing.legend is not None:

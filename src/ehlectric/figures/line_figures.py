@@ -30,6 +30,7 @@ from ehlectric.figures.style import (
     LENGTH_AXIS,
     axes_or_new,
     figure_of,
+    fitted_label,
     in_half_widths,
     label_position,
     legend_above,
@@ -152,7 +153,7 @@ def _map(
     label_position(result, ax)
     # Beside the axes themselves, a wide legend above them does not push the bar away.
     place: dict[str, Any] = {"cax": ax.inset_axes(BAR)} if under else {"ax": ax, "pad": 0.02}
-    bar = figure_of(ax).colorbar(filled, label=label, **place)
+    bar = figure_of(ax).colorbar(filled, label=fitted_label(ax, label, along=False), **place)
     bar.set_ticks(list(ticks))
     return ax
 

@@ -31,7 +31,15 @@ from ehlectric.figures.motion_panels import (
     name_run,
     time_unit,
 )
-from ehlectric.figures.style import axes_or_new, drawing_of, figure_of, legend_above, new_panels, share_below
+from ehlectric.figures.style import (
+    axes_or_new,
+    drawing_of,
+    figure_of,
+    fitted_label,
+    legend_above,
+    new_panels,
+    share_below,
+)
 from ehlectric.figures.style import style as figure_style
 from ehlectric.figures.tones import Outline
 from ehlectric.motion.motion_touching import TouchHistory
@@ -364,7 +372,15 @@ def _map(
     along_label(run, ax)
     ticks = round_levels(*limits, 5)
     ticks = ticks[(ticks >= limits[0]) & (ticks <= limits[1])]
-    figure_of(ax).colorbar(mesh, ax=ax, location="bottom", label=label, ticks=ticks, extend=extend, pad=0.02)
+    figure_of(ax).colorbar(
+        mesh,
+        ax=ax,
+        location="bottom",
+        label=fitted_label(ax, label, along=True),
+        ticks=ticks,
+        extend=extend,
+        pad=0.02,
+    )
     for speed, look in _speeds(run):
         for part in _CROSSINGS:
             at = part * factor * run.frame_time[-1]

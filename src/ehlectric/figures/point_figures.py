@@ -40,7 +40,15 @@ from ehlectric.figures.contact_maps import (
 )
 from ehlectric.figures.contact_profiles import Cut
 from ehlectric.figures.film_section import draw_section
-from ehlectric.figures.style import axes_or_new, figure_of, label_position, legend_above, new_panels
+from ehlectric.figures.style import (
+    axes_or_new,
+    figure_of,
+    fitted_label,
+    label_position,
+    legend_above,
+    new_panels,
+    side_by_side,
+)
 from ehlectric.quantities.palette import BLUE, CAVITATED, GREY, MAP_EDGE, ON_MAP, ORANGE, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -62,7 +70,7 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
         _semi_axis(result, along) * across, hertz, color=GREY, ls=":", lw=0.9, label="Hertz pressure, centre"
     )
     lines += _film_lines(result, ax, along, factor * film.pressure)
-    ax.set_ylabel(f"pressure $p$ [{unit}]")
+    ax.set_ylabel(fitted_label(ax, f"pressure $p$ [{unit}]", along=False))
     ax.set_ylim(0.0, 1.05 * factor * max(film.max_pressure, conditions.max_pressure))
     legend_above(ax, lines, 1)
     return ax
@@ -83,7 +91,7 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
         line.set_label("smooth surfaces")
         legend_above(ax, [line])
     _film_lines(result, ax, along, factor * film.thickness)
-    ax.set_ylabel(f"film thickness $h$ [{unit}]")
+    ax.set_ylabel(fitted_label(ax, f"film thickness $h$ [{unit}]", along=False))
     ax.set_ylim(0.0, 2.0 * factor * max(film.central_thickness, film.mean_thickness))
     return ax
 
@@ -118,7 +126,7 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
         labels=[*entries.values(), "thin-gap estimates $V_{12}/h$"],
         handler_map={tuple: HandlerTuple(ndivide=None)},
     )
-    ax.set_ylabel(f"mid-film field $|E|$ [{unit}]")
+    ax.set_ylabel(fitted_label(ax, f"mid-film field $|E|$ [{unit}]", along=False))
     ax.set_ylim(0.0, 1.08 * top)
     return ax
 
@@ -153,19 +161,25 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
 
 
 def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw pressure, film and field on cuts along entrainment (left) and across it (right).
+    """Draw pressure, film and field on cuts along entrainment (left) and across it (right), which a journal
+    has below each other.
 
     The cuts run through the centre and through the minimum film, or for the field through its maximum.
 
     Returns the first axes, with the pressure along entrainment.
     """
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
-    for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
-        for along, ax, window in zip("xy", axes[2 * number :], film_window(result), strict=False):
+    beside = side_by_side(axes[0]) > 1
+    for side, (along, window) in enumerate(zip("xy", film_window(result), strict=True)):
+        for row, draw in enumerate((pressure_cut, film_cut, field_cut)):
+            ax = axes[2 * row + side if beside else 3 * side + row]
             draw(result, ax, along=along)
             ax.set_xlim(*window)
-            label_position(result, ax, along)
-            ax.label_outer()
+            if row == 2:
+                label_position(result, ax, along)
+            ax.tick_params(labelbottom=row == 2)
+            if beside:
+                ax.label_outer()
     return axes[0]
 
 

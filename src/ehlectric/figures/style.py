@@ -72,6 +72,7 @@ class _Look:
     # Widths of a figure in one column and across two columns of a page [inches]; as drawn if None.
     columns: tuple[float, float] | None = None
     height: float = 1.0  # ratio of the height of a figure in one column to its height on the screen
+    stacked: float = 1.0  # the same ratio of the panels of a figure that stand below each other in one column
     tones: Mapping[str, str] = field(default_factory=dict)  # colours by those of paper, which are the others
 
 
@@ -81,13 +82,15 @@ def _settings(name: str) -> dict[str, Any]:
     return dict(mpl.rc_params_from_file(sheet, use_default_template=False).items())
 
 
-# Widths of one column and of two columns of a journal [inches].
-_COLUMNS = 84.0 / 25.4, 174.0 / 25.4
+# Widths of one column and of two columns of a journal, and largest height of a figure [inches].
+_COLUMNS, _PAGE = (84.0 / 25.4, 174.0 / 25.4), 234.0 / 25.4
 
 _SCREEN = _settings("screen")
 _LOOKS: Mapping[str, _Look] = {
     "screen": _Look(_SCREEN),
-    "journal": _Look(_SCREEN | _settings("journal"), titled=False, columns=_COLUMNS, height=0.75),
+    "journal": _Look(
+        _SCREEN | _settings("journal"), titled=False, columns=_COLUMNS, height=0.75, stacked=0.65
+    ),
     "dark": _Look(_SCREEN | _settings("dark"), tones=DARK),
 }
 assert tuple(_LOOKS) == STYLES
@@ -160,10 +163,18 @@ def page_size(size: tuple[float, float], panels: int = 1) -> tuple[float, float]
     return width, size[1] * (_LOOKS[_style.get()].height if width < 0.75 * size[0] else 1.0)
 
 
-def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: bool = False) -> list[Axes]:
-    """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches]; in
-    the style "journal" it is as wide as one column, or as two where panels are beside each other.
+def new_panels(
+    rows: int, columns: int, size: tuple[float, float], *, exact: bool = False, beside: bool = False
+) -> list[Axes]:
+    """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches].
+
+    In the style "journal", panels beside each other stand below each other in one column, if the page has
+    room; but not with ``beside``, as of panels that share the labels of their rows.
     """
+    look = _LOOKS[_style.get()]
+    stacked = (size[0] / columns, size[1] * columns * look.stacked)
+    if look.columns and columns > 1 and not (exact or beside) and stacked[1] <= _PAGE:
+        rows, columns, size, exact = rows * columns, 1, (page_width(stacked[0]), stacked[1]), True
     figure = new_figure(size if exact else page_size(size, columns))
     return list(figure.subplots(rows, columns, squeeze=False).ravel())
 
@@ -424,7 +435,7 @@ def legend_above(
     named = [entry[-1] if type(entry) is tuple else entry for entry in entries]
     labels = options.pop("labels", None) or [str(entry.get_label()) for entry in named]
     figure, size = figure_of(ax), _size_of("legend.fontsize")
-    fitting = _fitting(labels, columns, 72.0 * figure.get_figwidth() / _side_by_side(ax) - _LEFT)
+    fitting = _fitting(labels, columns, 72.0 * figure.get_figwidth() / side_by_side(ax) - _LEFT)
     more = math.ceil(len(labels) / fitting) - math.ceil(len(labels) / columns)
     if _LOOKS[_style.get()].columns is not None:
         figure.set_figheight(figure.get_figheight() + more * _ROW * size / 72.0)
@@ -470,7 +481,7 @@ def _fitting(labels: Sequence[str], columns: int, room: float) -> int:
     return 1
 
 
-def _side_by_side(ax: Axes) -> int:
+def side_by_side(ax: Axes) -> int:
     """Number of axes side by side in the figure of some axes."""
     spec = ax.get_subplotspec()
     return 1 if spec is None else int(spec.get_gridspec().ncols)

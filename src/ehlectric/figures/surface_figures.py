@@ -8,7 +8,14 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from ehlectric.figures.style import axes_or_new, figure_of, fitted_label, new_panels, save_figure, style
+from ehlectric.figures.style import (
+    axes_or_new,
+    figure_of,
+    fitted_label,
+    new_panels,
+    save_figure,
+    style,
+)
 from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -61,7 +68,8 @@ def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
         interpolation="antialiased",
     )
     bar = figure_of(ax).colorbar(image, ax=ax, extend="both", pad=0.03)
-    bar.set_label(f"height [{height_unit}], Sq = {readable(factor * rms(heights))} {height_unit}")
+    label = f"height [{height_unit}], Sq = {readable(factor * rms(heights))} {height_unit}"
+    bar.set_label(fitted_label(ax, label, along=False))
     ax.set_xlabel(f"$x$ [{unit}]")
     ax.set_ylabel(f"$y$ [{unit}]")
     return ax

@@ -245,7 +245,7 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
     """Figure of the distribution of a value beside the sensitivity indices of the inputs."""
     with style():
         high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
-        left, right = new_panels(1, 2, (8.4, high))
+        left, right = new_panels(1, 2, (8.4, high), beside=True)
         distribution(results, analysis, left)
         parts(results, analysis, right)
         more = []

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact.result import Result
 from ehlectric.figures import line_figures as plot
-from ehlectric.figures.style import figure_of, new_panels, outlined
+from ehlectric.figures.style import figure_of, new_panels, outlined, page_width
 from ehlectric.paper.paper_contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
 from ehlectric.quantities.palette import AMBER, BLUE, BODY, GREEN, OCHRE, OIL, PURPLE
@@ -23,10 +23,13 @@ from ehlectric.quantities.units import unit_for
 
 _INK = "black"
 
+# Largest width of a sketch in one column of a journal [inches], and size of its texts there [pt].
+_SKETCH, _SMALL = 6.4, 6.0
+
 
 def _canvas(size: tuple[float, float]) -> Axes:
-    """Axes without frame of a new figure of size (width, height) [inches]."""
-    (ax,) = new_panels(1, 1, size)
+    """Axes without frame of a new figure of size (width, height) [inches]; in a journal of one column."""
+    (ax,) = new_panels(1, 1, size if page_width(_SKETCH) == _SKETCH else (_SKETCH, size[1]))
     ax.set_axis_off()
     return ax
 
@@ -43,7 +46,13 @@ def _arrow(ax: Axes, start: tuple[float, float], stop: tuple[float, float]) -> N
 
 def _text(ax: Axes, x: float, y: float, text: str, **options: object) -> None:
     """Write a text centred at a point."""
-    ax.text(x, y, text, ha="center", va="center", **options)  # type: ignore[arg-type]
+    look = {"fontsize": _SMALL} | options if _in_column(ax) else options
+    ax.text(x, y, text, ha="center", va="center", **look)  # type: ignore[arg-type]
+
+
+def _in_column(ax: Axes) -> bool:
+    """Whether a sketch is as narrow as a column of a journal."""
+    return figure_of(ax).get_figwidth() < _SKETCH
 
 
 def _gap(x: Array) -> Array:
@@ -63,7 +72,7 @@ def film_model() -> Figure:
         ax.plot(x, sign * half, color=_INK, lw=1.2)
     pressure = 0.16 + 1.3 * np.sqrt(np.maximum(0.0, 1.0 - x**2))
     ax.plot(x[np.abs(x) <= 1.0], pressure[np.abs(x) <= 1.0], color=_INK, lw=1.0, ls="--")
-    _text(ax, 0.0, 1.12, "pressure $p(x)$")
+    _text(ax, 0.0, 0.9 if _in_column(ax) else 1.12, "pressure $p(x)$")
     for sign, k, where in ((1.0, 2, 2.0), (-1.0, 1, -2.0)):
         _text(ax, 0.0, where, f"body {k}: $E_{k}$, $\\nu_{k}$, $R_{k}$")
         _arrow(ax, (-2.3, sign * 1.35), (-1.5, sign * 1.35))
@@ -74,12 +83,12 @@ def film_model() -> Figure:
     _text(ax, 0.25, -3.05, "$w$")
     _arrow(ax, (0.35, -0.75), (0.35, -0.16))
     _arrow(ax, (0.35, 0.75), (0.35, 0.16))
-    _text(ax, 0.35, 0.0, "$h(x)$", fontsize=8.0)
+    _text(ax, 0.35, 0.0, "$h(x)$")
     for end, side in ((-4.0, "inlet"), (2.0, "outlet")):
         ax.plot([end, end], [-_gap(np.array([end]))[0], _gap(np.array([end]))[0]], color=_INK, lw=1.0, ls=":")
         _text(ax, end, -3.05, f"{side}, $x/b = {end:g}$\n$p = p_\\mathrm{{atm}}$")
     _text(ax, -2.6, 0.0, "lubricant: $\\eta(p)$, $\\rho(p)$")
-    _text(ax, 1.62, 0.0, "cavitated", fontsize=8.0)
+    _text(ax, 1.55, 0.0, "cavitated")
     _arrow(ax, (-4.75, -0.4), (-4.25, -0.4))
     _arrow(ax, (-4.75, -0.4), (-4.75, 0.4))
     _text(ax, -4.15, -0.4, "$x$")
@@ -91,6 +100,7 @@ def film_model() -> Figure:
 def field_model() -> Figure:
     """Draw Figure 3: the film as a dielectric between two conductors, and the boundary conditions."""
     ax = _canvas((8.0, 3.6))
+    apart = "\n" if _in_column(ax) else " "
     x = np.linspace(-1.25, 1.25, 501)
     half = _gap(x)
     ax.fill_between(x, -half, half, color=OIL, lw=0.0)
@@ -104,21 +114,22 @@ def field_model() -> Figure:
         ax.plot(x, sign * half, color=_INK, lw=1.2)
         _text(
             ax,
-            -0.45,
+            0.0 if _in_column(ax) else -0.45,
             sign * 0.42,
-            f"surface {k}, conductor: $V = V_{k}$ = {volts} V on $y = {'+-'[k == 1]}h/2$",
+            f"surface {k}, conductor:{apart}$V = V_{k}$ = {volts} V on $y = {'+-'[k == 1]}h/2$",
         )
     for column in (-0.75, 0.05, 0.95):
         reach = float(_gap(np.array([column]))[0])
         _arrow(ax, (column, reach), (column, -reach))
-    _text(ax, 0.13, 0.0, "$E$", backgroundcolor=OIL)
+    _text(ax, 0.2 if _in_column(ax) else 0.13, 0.0, "$E$", backgroundcolor=OIL)
     for end, side in ((-1.25, "right"), (1.25, "left")):
-        ax.text(end * 1.04, 0.0, "$\\partial V/\\partial n = 0$", ha=side, va="center")
+        size = _SMALL if _in_column(ax) else None
+        ax.text(end * 1.04, 0.0, "$\\partial V/\\partial n = 0$", ha=side, va="center", fontsize=size)
     _text(
         ax,
         0.0,
         -0.75,
-        "film: $\\nabla\\cdot(\\varepsilon\\nabla V) = 0$, permittivity $\\varepsilon(\\rho(p(x)))$; "
+        f"film: $\\nabla\\cdot(\\varepsilon\\nabla V) = 0$, permittivity $\\varepsilon(\\rho(p(x)))$;{apart}"
         "constriction at the exit, right",
     )
     ax.set(xlim=(-1.75, 1.75), ylim=(-0.85, 0.68))

@@ -14,11 +14,50 @@ def extents(figure, artists):
     return [artist.get_window_extent(figure.canvas.get_renderer()) for artist in artists]
 
 
+def widths(panels):
+    figure = figure_of(panels[0])
+    return tuple(25.4 * figure.get_size_inches())
+
+
+def test_panels_beside_each_other_stand_below_each_other_in_one_column():
+    with style("journal"):
+        for rows, columns, size in ((1, 2, (10.0, 3.6)), (2, 2, (10.0, 6.8)), (3, 2, (7.0, 6.6))):
+            panels = new_panels(rows, columns, size)
+            assert len(panels) == rows * columns
+            wide, high = widths(panels)
+            assert wide == pytest.approx(84.0)
+            assert high <= 234.0
+            boxes = extents(figure_of(panels[0]), panels)
+            assert all(above.y0 > below.y1 for above, below in pairwise(boxes))
+        assert widths(new_panels(4, 3, (10.0, 11.7)))[0] == pytest.approx(174.0), "too high for a page"
+    with style("screen"):
+        assert widths(new_panels(1, 2, (10.0, 3.6)))[0] == pytest.approx(254.0)
+
+
+@pytest.mark.parametrize("number", [2, 3])
+def test_the_models_of_the_paper_fit_in_a_column(number):
+    """No text leaves the page or lies over another one."""
+    with style("journal"):
+        drawn = paper_figures.FIGURES[number].draw(None)
+    assert 25.4 * drawn.get_figwidth() == pytest.approx(84.0)
+    texts = [text for text in drawn.axes[0].texts if text.get_text()]
+    boxes = extents(drawn, texts)
+    assert min(box.x0 for box in boxes) >= 0.0
+    assert max(box.x1 for box in boxes) <= drawn.bbox.x1
+    over = [
+        (one.get_text(), other.get_text())
+        for k, (one, box) in enumerate(zip(texts, boxes, strict=True))
+        for other, by in list(zip(texts, boxes, strict=True))[:k]
+        if box.overlaps(by)
+    ]
+    assert not over
+
+
 @pytest.mark.slow
 def test_both_titles_of_a_panel_stand_apart():
-    """Three panels beside each other are as wide as two with a colour bar."""
+    """Four sections below each other are as wide as two with a colour bar."""
     with style("journal"):
-        panels = new_panels(2, 3, (10.0, 6.8))
+        panels = new_panels(2, 2, (10.0, 6.8))
         for ax in panels:
             ax.set_title("$V_{12}/h_\\mathrm{min}$ = 11.8 V/µm", loc="right")
             paper_figures._title(ax, "(a) M12L15, $u_1+u_2$ = 8 m/s")
@@ -39,9 +78,10 @@ def test_legends_of_two_panels_lie_in_their_figure():
             paper_figures._legend_of_readings(ax)
         figure = figure_of(panels[0])
         first, second = extents(figure, [ax.get_legend() for ax in panels])
-    assert first.x1 < second.x0
-    assert min(first.x0, first.y0, second.y0) >= 0.0
-    assert second.x1 <= figure.bbox.x1
+        below = extents(figure, panels[1:])[0]
+    assert first.y0 > below.y1
+    assert min(first.x0, second.x0, second.y0) >= 0.0
+    assert max(first.x1, second.x1) <= figure.bbox.x1
 
 
 def test_labels_of_a_logarithmic_axis_do_not_touch():

@@ -258,8 +258,11 @@ def test_a_journal_figure_is_a_column_wide_without_its_title(line, tmp_path):
     assert title_of(screen)
     assert not title_of(journal)
     assert journal.axes[0].xaxis.label.get_size() == 8.0
-    wide = contact("point")
-    assert figure(wide, "cuts.png", style="journal").get_figwidth() * 25.4 == pytest.approx(174.0)
+    point = contact("point")
+    for name in ("cuts.png", "field_deviation.png", "field_map.png"):
+        drawn = figure(point, name, style="journal")
+        assert drawn.get_figwidth() * 25.4 == pytest.approx(84.0), name
+        assert drawn.get_figheight() * 25.4 <= 234.0, name
 
 
 def test_an_unconverged_figure_says_so_in_a_journal_too():
