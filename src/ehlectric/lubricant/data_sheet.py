@@ -6,7 +6,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.optimize import brentq
@@ -155,6 +155,9 @@ def _many_at_100(target: Array, index: Array) -> Array:
 # Kinematic viscosities for which the correlations were compared with measured coefficients [m^2/s].
 LEAST, MOST = 2e-6, 2.5e-3
 
+# Least kinematic viscosity to which the correlations are extrapolated [m^2/s]; So and Klaus's ends there.
+THINNEST = 1e-6
+
 SO_KLAUS = (
     "B. Y. C. So and E. E. Klaus, Viscosity-pressure correlation of liquids, ASLE Trans. 23 (1980) 409-421, "
     "doi:10.1080/05698198008982986"
@@ -173,16 +176,21 @@ class Estimate:
     scatter: float  # relative deviation of measured values from the estimate, which nine of ten do not exceed
     source: str
     base_oil: str
+    extrapolated: Any = False  # whether the oil is thinner than all compared oils, shape (...)
     of: ClassVar[str] = "viscosity"
 
     def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:  # noqa: ARG002
         """Warning that the coefficient is an estimate, for a contact with any Hertz pressure [Pa]."""
         alpha, percent = 1e9 * self.value, 100.0 * self.scatter
         yield ResultWarning.of("estimated-alpha", alpha=alpha, base_oil=self.base_oil, percent=percent)
+        if self.extrapolated:
+            yield ResultWarning.of("alpha-extrapolated", base_oil=self.base_oil, least=1e6 * LEAST)
 
     def codes(self, max_pressure: Array) -> Iterator[tuple[int, str]]:
         """Places of many points with Hertz pressures [Pa], shape (n,), each with the code of the warning."""
         yield from ((place, "estimated-alpha") for place in range(max_pressure.size))
+        thin = np.broadcast_to(self.extrapolated, max_pressure.shape)
+        yield from ((int(place), "alpha-extrapolated") for place in np.flatnonzero(thin))
 
 
 def so_klaus(kinematic_viscosity: Numbers, slope: Numbers, density: Numbers) -> Numbers:
@@ -261,7 +269,8 @@ def alpha_estimate(
     pressure and the temperature of the oil [kg/m^3]. Returns coefficient [1/Pa], with its scatter and its
     source; the arguments are floats, or arrays of shape (...) of many points. Raises InputError if the type
     is not known, or the viscosity is outside the range in which the correlations were compared with
-    measurements; of many points, those outside have NaN.
+    measurements; of many points, those outside have NaN. Below 2 mm^2/s, the correlations are extrapolated
+    down to 1 mm^2/s, and the estimate is marked.
 
     The publications' own scatter could not be read. The scatter given here is that of the coefficients in
     the unit tests of this module: table 10.2 of ESDU 85027 (1985) with 13 mineral oils, castor oil, a
@@ -279,16 +288,17 @@ def alpha_estimate(
         raise InputError(
             "temperature.base_oil", got=shown(base_oil), takes=f"one of {', '.join(map(repr, BASE_OILS))}"
         )
-    outside = ~(np.greater_equal(kinematic_viscosity, LEAST) & np.less_equal(kinematic_viscosity, MOST))
+    outside = ~(np.greater_equal(kinematic_viscosity, THINNEST) & np.less_equal(kinematic_viscosity, MOST))
     if np.ndim(kinematic_viscosity):
         kinematic_viscosity = np.where(outside, np.nan, kinematic_viscosity)
     elif outside:
         raise InputError(
             "temperature.base_oil",
             got=f"an oil with {1e6 * kinematic_viscosity:.3g} mm^2/s at its temperature",
-            takes=f"{1e6 * LEAST:g} to {1e6 * MOST:g} mm^2/s, for which the pressure-viscosity coefficient "
-            "can be estimated; give pressure_viscosity_coefficient",
+            takes=f"{1e6 * THINNEST:g} to {1e6 * MOST:g} mm^2/s, for which the pressure-viscosity "
+            "coefficient can be estimated; give pressure_viscosity_coefficient",
         )
     kind = BASE_OILS[base_oil]
     value = kind.correlation(kinematic_viscosity, slope, density)
-    return Estimate(value, kind.scatter, kind.source, base_oil)
+    thin = np.less(kinematic_viscosity, LEAST)
+    return Estimate(value, kind.scatter, kind.source, base_oil, thin if np.ndim(thin) else bool(thin))

@@ -156,3 +156,18 @@ def test_a_new_way_replaces_the_old_one():
     density = 870.0 * (1.0 - 6.5e-4 * 55.0)
     nu = by_standard((40.0, 1e6 * oil.at_40()), (80.0, 11.5), 70.0)
     assert other.lubricant.at(343.15).viscosity == pytest.approx(1e-6 * nu * density, rel=1e-4)
+
+
+@each("base_oil", ["pao", "mineral-paraffinic"])
+def test_the_estimated_coefficient_of_a_thin_oil_is_extrapolated(base_oil):
+    """1.96 mm^2/s at 120 degC: 7.382 nu^0.1335 of Gold for a PAO; refused below 1 mm^2/s."""
+    table = keys(k40="9.5 mm^2/s", k100="2.6 mm^2/s") | {"density_15": 830.0, "base_oil": base_oil}
+    oil = Lubricant.from_dict({"base": "paper", "temperature": table})
+    codes = [warning.code for check in oil.at(393.15).checks for warning in check(1e9)]
+    assert codes.count("alpha-extrapolated") == codes.count("estimated-alpha") == 1
+    if base_oil == "pao":
+        assert oil.at(393.15).alpha == pytest.approx(7.382e-9 * 1.9618**0.1335, rel=1e-3)
+    warm = [warning.code for check in oil.at(373.15).checks for warning in check(1e9)]
+    assert "alpha-extrapolated" not in warm
+    with pytest.raises(InputError, match="expected 1 to 2500"):
+        oil.at(473.15)
