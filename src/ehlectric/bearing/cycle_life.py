@@ -15,7 +15,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.life import LOWEST_RATIO
-from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of
+from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of, rated_loads
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.files import plain
@@ -40,6 +40,8 @@ class CycleLife:
     roughened_life: float | None = field(default=None, metadata=number())
     reliable_life: float | None = field(default=None, metadata=number())
     reliable_reference_life: float | None = field(default=None, metadata=number())
+    # Minimum of the static safety s_0 over all rows, at rest and in motion.
+    static_safety: float | None = field(default=None, metadata=number())
     # Shares of the revolutions with a viscosity ratio below 0.1, the lowest ratio of ISO 281, of the oil and
     # of the film. They count with a ratio of 0.1, so that the modified lives are upper bounds.
     low_viscosity_share: float | None = field(default=None, metadata=number())
@@ -100,6 +102,21 @@ def cycle_life(
         **found,
         **{name: float(np.sum(turns[within]) / np.sum(turns)) for name, within in rows.items()},
     )
+
+
+def minimum_static_safety(case: BearingCase, radial: Array, axial: Array) -> float | None:
+    """Minimum of the static safety s_0 over the rows of a cycle, also at rest.
+
+    ``radial`` and ``axial``, loads of the rows, shape (n,) [N]. None without ``[bearing.life]``, without a
+    load, and for a contact angle that ISO 76 does not have.
+    """
+    life = case.bearing.life
+    if life is None:
+        return None
+    bearing = case.with_values({"bearing.radial_load": radial, "bearing.axial_load": axial}).bearing
+    with np.errstate(divide="ignore"):
+        minimum = float(np.min(rated_loads(bearing, life).static_safety))
+    return minimum if math.isfinite(minimum) else None
 
 
 def _miner(total: float, duration: Array, life: Any, counted: Mask) -> float | None:

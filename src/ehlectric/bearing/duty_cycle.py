@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing.bearing_discharges import voltage_ratio
-from ehlectric.bearing.cycle_life import CycleLife, cycle_life
+from ehlectric.bearing.cycle_life import CycleLife, cycle_life, minimum_static_safety
 from ehlectric.bearing.cycle_rows import (
     FULL_FILM,
     LEFT_OUT,
@@ -303,11 +303,14 @@ def run_duty(case: BearingCase) -> DutyResult | None:
 
 
 def life_of(case: BearingCase, rows: DutyRows, found: PointValues) -> CycleLife:
-    """Rating lives of a bearing over the rows of its cycle, from the values of the rows that move."""
+    """Rating lives of a bearing over the rows of its cycle, from the values of the rows that move, and its
+    minimum static safety over all rows.
+    """
     moves = rows.state != STANDSTILL
     names = ("speed", "radial_load", "axial_load", "duration")
     given = {name: getattr(rows, name)[moves] for name in names}
-    return cycle_life(case, given, found.values, float(np.sum(rows.duration)))
+    lives = cycle_life(case, given, found.values, float(np.sum(rows.duration)))
+    return replace(lives, static_safety=minimum_static_safety(case, rows.radial_load, rows.axial_load))
 
 
 def check_duty(case: BearingCase) -> None:

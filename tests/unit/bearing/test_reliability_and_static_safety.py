@@ -153,3 +153,15 @@ def test_static_safety_of_kinds_of_bearings(name, load):
     found = solve_bearing(case, workers=1).summary()["life"]
     assert found["static_equivalent_load"] == pytest.approx(load(case.bearing), rel=1e-12)
     assert found["static_safety"] == pytest.approx(found["static_rating"] / load(case.bearing), rel=1e-12)
+
+
+def test_the_minimum_static_safety_of_a_cycle_counts_rows_at_rest(tmp_path):
+    """Heaviest row: 5 kN at a standstill, of C_0 = 17.9 kN."""
+    file = tmp_path / "cycle.csv"
+    file.write_text(
+        "time [s],speed [rpm],radial load [N]\n0,1000,1000\n10,0,5000\n20,2000,2000\n30,2000,2000\n"
+    )
+    result = solve_bearing(bearing(**{"bearing.axial_load": 0.0, "duty.file": str(file)}), workers=1)
+    assert result.duty is not None
+    assert result.summary()["duty"]["static_safety"] == pytest.approx(17.9e3 / 5e3, rel=1e-9)
+    assert result.summary()["life"]["static_safety"] == pytest.approx(17.9e3 / 1800.0, rel=1e-9)
