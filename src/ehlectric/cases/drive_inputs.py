@@ -75,7 +75,7 @@ class Source(Table, book="source"):
 
     @classmethod
     def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
-        """Return the keys of a described source for a measured one, and the other way round."""
+        """Return the keys of a source of the other kind, described or measured."""
         if given.get("file") is not None:
             return set(DESCRIBED)
         carrier = _ONLY_BY_CARRIER if given.get("modulation") == "six-step" else ()

@@ -284,9 +284,7 @@ def absolute(number: float, written: str) -> float:
 
 @cache
 def _scale(written: str) -> tuple[float, float]:
-    """Zero point of a temperature scale, and the size of its degree [K]; scales without an entry are those of
-    pint.
-    """
+    """Zero point of a temperature scale, and the size of its degree [K]; pint knows further scales."""
     name = plain(written)
     if found := _known_scale(name):
         return found
