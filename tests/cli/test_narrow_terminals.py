@@ -93,3 +93,9 @@ def test_columns_become_a_list_where_they_do_not_fit(capsys):
 def test_a_number_in_the_first_column_keeps_its_head(capsys):
     table = columns_table(("line", "a long head", "another long head"), [("1", "2.5", "3.5")])
     assert lines_at(24, table, capsys)[0] == "line 1"
+
+
+def test_a_column_without_a_head_has_the_units_of_its_rows(capsys):
+    table = columns_table(("", "drive end", "other end", ""), [("peak voltage", "3.31", "3.3", "V")])
+    expected = ["peak voltage [V]", "  drive end 3.31", "  other end 3.3"]
+    assert lines_at(20, table, capsys) == expected

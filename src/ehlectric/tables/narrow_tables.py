@@ -77,9 +77,11 @@ def _listed(table: Table) -> Iterator[_Row]:
         first, *others = (cells[number] for cells in columns)
         # A number needs its head.
         named = first if any(map(str.isalpha, first)) else " ".join(filter(None, (heads[0], first)))
-        yield " ".join(named.split()), "", "bold"
+        # A column without a head has the units of its rows.
+        units = [f"[{unit}]" for head, unit in zip(heads[1:], others, strict=True) if unit and not head]
+        yield " ".join([*named.split(), *units]), "", "bold"
         for head, value in zip(heads[1:], others, strict=True):
-            if value.strip():
+            if head and value.strip():
                 yield f"  {head}", value.strip(), row.style
 
 
