@@ -15,9 +15,10 @@ from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import _OF_UNIT
-from ehlectric.quantities import unit_spelling, units
+from ehlectric.quantities import grouped_digits, unit_spelling, units
 from ehlectric.quantities.units import ROTATION, length_unit
 from ehlectric.runs import result_folders
+from ehlectric.runtime import delimited
 from ehlectric.runtime.files import _FORMULA
 from ehlectric.runtime.files import _NUMBER as _NUMBER_OF_CELL
 from ehlectric.surfaces import surface_files
@@ -147,6 +148,9 @@ PATTERNS = {
     "dot": unit_spelling._DOT.findall,
     "words": lambda text: [pattern.findall(text) for pattern, _ in unit_spelling._WORDS],
     "comma": units._COMMA.fullmatch,
+    "infinite": units._INFINITE.fullmatch,
+    "thousands": grouped_digits._THOUSANDS["."].fullmatch,
+    "quoted field": delimited._QUOTED.findall,
     "token": key_names._TOKENS.findall,
     "place": table._PLACE.findall,
     "quoted": table._QUOTED.findall,
