@@ -9,7 +9,7 @@ from typing import Any
 
 # Numbers from which digits are grouped by three, from which numbers are in millions, and from which they have
 # a power of ten.
-_GROUPED, _MILLION, _LARGE = 1e4, 1e6, 1e12
+_GROUPED, _MILLION, _LARGE = 1e4, 1e6, 1e9
 
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 

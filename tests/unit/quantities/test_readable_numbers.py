@@ -29,8 +29,8 @@ EXPONENT = re.compile(r"\de\+\d")
         (-16_000.0, ".3g", "-16 000"),
         (33_333_333.0, ".3g", "33.3 million"),
         (33_333_333.0, ".0f", "33 333 333"),
-        (1.2e9, ".3g", "1200 million"),
-        (1.2e11, ".3g", "120 000 million"),
+        (1.2e9, ".3g", "1.2·10⁹"),
+        (999.7e6, ".3g", "1·10⁹"),
         (4.5e13, ".2g", "4.5·10¹³"),
         (7430.0, ".3g", "7430"),
         (0.0123, ".2g", "0.012"),
@@ -43,7 +43,7 @@ def test_a_number_is_written_as_people_write_it(value, digits, text):
 
 def test_no_magnitude_has_an_exponent_or_loses_a_digit():
     """The text is read back by its own rules: groups, and millions."""
-    for value in np.geomspace(0.01, 9e11, 300):
+    for value in np.geomspace(0.01, 9e8, 300):
         for digits in range(1, 7):
             text = readable(float(value), digits)
             assert "e" not in text

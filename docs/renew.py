@@ -1,0 +1,154 @@
+"""Renew the output blocks and the numbers of pages from the runs of their commands: python -m docs.renew
+
+A page marks what it takes from a run. The line ``<!--RUN-->`` is above a block of the output of a run. In a
+sentence, ``<!--RUN: LABEL-->7430 rpm<!--/-->`` is what the run prints after LABEL, with as many words as
+before.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+import textwrap
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+ROOT = Path(__file__).parents[1]
+TUTORIAL = Path("docs/guide/first_bearing.md")
+PAGES = (Path("README.md"), Path("docs/index.md"), TUTORIAL)
+
+_BLOCK = re.compile(r"(<!--(\w+)-->\n+```text\n)(.*?)(```)", re.DOTALL)
+_NUMBER = re.compile(r"(<!--(\w+): ([^>]+)-->)(.*?)(<!--/-->)")
+_ROW = re.compile(r"(\s*)(\S.*?\S)(\s{2,})\S.*")
+
+# Runs a command, given by its words without "ehlectric", in a folder, and returns its output.
+Run = Callable[[list[str], Path], str]
+
+
+def by_command(words: list[str], folder: Path) -> str:
+    """Output of the command in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, "-m", "ehlectric", *words], cwd=folder, capture_output=True, check=True
+    )
+    return done.stdout.decode("utf-8")
+
+
+def _tutorial(command: str, run: Run, folder: Path, *, grade: int = 46) -> str:
+    """Output of a command for the file of the tutorial, with an ISO viscosity grade."""
+    blocks = re.findall(
+        r"^```toml\n(.*?)^```", (ROOT / TUTORIAL).read_text("utf-8"), re.DOTALL | re.MULTILINE
+    )
+    (file,) = (block for block in blocks if "[bearing]" in block)
+    (folder / "bearing.toml").write_text(file.replace("iso_vg = 46", f"iso_vg = {grade}"), "utf-8")
+    return run(shlex.split(command), folder)
+
+
+def _example(command: str, run: Run, folder: Path) -> str:
+    """Output of a command whose file is an example."""
+    words = [str(ROOT / word) if word.startswith("examples/") else word for word in shlex.split(command)]
+    return run(words, folder)
+
+
+_SOLVED = "--no-plots -o out"
+RUNS: Mapping[str, Callable[[Run, Path], str]] = {
+    "check": partial(_tutorial, "check bearing.toml"),
+    "solved": partial(_tutorial, f"bearing bearing.toml {_SOLVED}"),
+    "thicker": partial(_tutorial, "check bearing.toml", grade=68),
+    "readme": partial(_example, f"bearing examples/bearing_6208.toml --contacts atlas {_SOLVED}"),
+    "index": partial(_example, f"bearing examples/bearing_6208.toml {_SOLVED}"),
+}
+
+
+def outputs(names: set[str], run: Run = by_command) -> dict[str, str]:
+    """Outputs of runs by their names."""
+    found = {}
+    for name in sorted(names):
+        with TemporaryDirectory() as folder:
+            found[name] = RUNS[name](run, Path(folder)).replace("\xa0", " ")
+    return found
+
+
+def runs_of(page: str) -> set[str]:
+    """Names of the runs that a page names."""
+    return {found[2] for pattern in (_BLOCK, _NUMBER) for found in pattern.finditer(page)}
+
+
+def renewed(page: str, printed: Mapping[str, str]) -> str:
+    """Page with the blocks and the numbers of the outputs that are given, by the names of their runs.
+
+    Raises LookupError if an output lacks a label of the page.
+    """
+
+    def block(found: re.Match[str]) -> str:
+        run = found[2]
+        return found[1] + _block(found[3], printed[run]) + found[4] if run in printed else found[0]
+
+    def number(found: re.Match[str]) -> str:
+        run = found[2]
+        return found[1] + _after(found[3], found[4], printed[run]) + found[5] if run in printed else found[0]
+
+    return _NUMBER.sub(number, _BLOCK.sub(block, page))
+
+
+def _block(block: str, printed: str) -> str:
+    """Block with the rows that it has, and its verdict, as the output has them."""
+    lines, known, at = block.splitlines(), _rows(printed), 0
+    first = next((k for k, line in enumerate(lines) if re.match(r"\w+.*: ", line)), len(lines))
+    made = []
+    for line in lines[:first]:
+        row = _ROW.fullmatch(line)
+        label = row[2] if row else line.strip()
+        # A label that stands in several tables is that of the table whose heading came last.
+        place = next((k for k, (name, _) in enumerate(known[at:], at) if name == label), None)
+        if place is None:
+            raise LookupError(label)
+        if row is None:
+            at = place
+        made.append(line[: row.end(3)] + known[place][1] if row else line)
+    if first < len(lines):
+        verdict, width = printed.strip().splitlines()[-1], max(map(len, lines[first:]))
+        made += [verdict] if first == len(lines) - 1 else textwrap.wrap(verdict, width)
+    return "".join(f"{line}\n" for line in made)
+
+
+def _rows(printed: str) -> list[tuple[str, str]]:
+    """Labels and texts of the rows of an output, with texts that are broken into lines as one; headings
+    without a text.
+    """
+    rows: list[tuple[str, str]] = []
+    column = 0
+    for line in printed.splitlines():
+        found = _ROW.fullmatch(line.rstrip())
+        if found:
+            column = found.end(3)
+            rows.append((found[2], line[column:].rstrip()))
+        elif rows and column and not line[:column].strip() and line.strip():
+            rows[-1] = rows[-1][0], f"{rows[-1][1]} {line.strip()}"
+        elif line.strip():
+            rows.append((line.strip(), ""))
+    return rows
+
+
+def _after(label: str, shown: str, printed: str) -> str:
+    """Words of an output after a label, as many as are shown, without punctuation at their end."""
+    words = " ".join(printed.split())
+    found = re.search(re.escape(label) + " " + " ".join([r"(\S+)"] * len(shown.split())), words)
+    if found is None:
+        raise LookupError(label)
+    return " ".join(found.groups()).rstrip(".,;:)")
+
+
+def main() -> None:
+    """Renew all pages."""
+    pages = {ROOT / page: (ROOT / page).read_text("utf-8") for page in PAGES}
+    printed = outputs(set().union(*map(runs_of, pages.values())))
+    for path, page in pages.items():
+        path.write_text(renewed(page, printed), "utf-8")
+
+
+if __name__ == "__main__":
+    main()
