@@ -161,8 +161,8 @@ def _film_lines(result: PointResult, ax: Axes, along: str, values: Array) -> lis
 
 
 def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
-    """Draw pressure, film and field on cuts along entrainment (left) and across it (right), which a journal
-    has below each other.
+    """Draw pressure, film and field on cuts along entrainment (left) and across it (right); in a journal, the
+    cuts across entrainment stand below the others.
 
     The cuts run through the centre and through the minimum film, or for the field through its maximum.
 

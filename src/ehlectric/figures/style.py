@@ -168,8 +168,8 @@ def new_panels(
 ) -> list[Axes]:
     """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches].
 
-    In the style "journal", panels beside each other stand below each other in one column, if the page has
-    room; but not with ``beside``, as of panels that share the labels of their rows.
+    In the style "journal", panels side by side stand below each other in one column, if they fit on the
+    page. With ``beside`` they stay side by side: panels that share the labels of their rows need it.
     """
     look = _LOOKS[_style.get()]
     stacked = (size[0] / columns, size[1] * columns * look.stacked)
