@@ -62,7 +62,7 @@ _TYPES = {
     "Contacts": f"{{{', '.join(map(repr, get_args(Contacts)))}}}",
 }
 
-# Meanings of keywords that no file has.
+# Meanings of keywords that no file contains.
 _MEANINGS = {"laws": "functions of your own for the oil, instead of laws of the lubricant"}
 
 # Width of a line of ``help``, and length from which a meaning ends at its first colon [characters].
