@@ -219,7 +219,7 @@ def changed_inputs(
 
 
 def _leaves(changed: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
-    """Keys of the values of a changed key: a table with a base of the library has the name of the base."""
+    """Keys of the values of a changed key: the name of the base for a table with a base of the library."""
     first, *_ = of_both_ends(changed)
     under = [key for key in dict.fromkeys((*was, *now)) if key.startswith(f"{first}.")]
     if first in was or first in now or not under:

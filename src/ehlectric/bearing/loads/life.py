@@ -84,7 +84,7 @@ def reliability_factor(reliability: float) -> float:
     """
     failures = [-math.log(1.0 - value) for value in _RELIABILITIES]
     found = np.exp(np.interp(-math.log(1.0 - reliability), failures, np.log(_FACTORS)))
-    # The values of the table have two or three digits.
+    # Two or three digits of each value are printed in the table.
     return float(f"{found:.12g}")
 
 
