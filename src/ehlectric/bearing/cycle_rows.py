@@ -68,19 +68,31 @@ def stretches_of(within: Mask) -> list[tuple[int, int]]:
     return [(int(first), int(after)) for first, after in ends.reshape(-1, 2)]
 
 
-def duty_csv(columns: Mapping[str, Array], about: Mapping[str, Mapping[str, str]]) -> dict[str, Content]:
-    """Content of duty.csv by its name.
+# Column of a table over the rows of a cycle: SI unit, None for texts, and values, shape (n,).
+Written = tuple[str | None, Array]
 
-    ``columns``, values of the rows by name, shape (n,), empty for NaN; ``about``, unit of a column by its
-    name, or by the part of it after a point, none for a text.
+
+def written_columns(
+    columns: Mapping[str, Array], about: Mapping[str, Mapping[str, str]]
+) -> dict[str, Written]:
+    """Columns of a duty cycle with their units, the state of each row as a text.
+
+    ``columns``, values of the rows by name, shape (n,); ``about``, unit of a column by its name, or by the
+    part of it after a point, none for a text.
     """
-    heads, cells = [], []
+    found: dict[str, Written] = {}
     for name, values in columns.items():
         quantity = name.rpartition(".")[2]
-        unit = about[quantity].get("unit", "")
+        unit = about[quantity].get("unit")
         shown = np.array(STATES, dtype=object)[values.astype(int)] if quantity == "state" else values
-        heads.append(column_head(name, unit.removeprefix("-")) if unit else name)
-        cells.append(["" if value != value else value for value in shown.tolist()])
+        found[name] = (None if unit is None else unit.removeprefix("-"), shown)
+    return found
+
+
+def duty_csv(columns: Mapping[str, Written]) -> dict[str, Content]:
+    """Content of duty.csv by its name, from ``written_columns``; NaN is empty."""
+    heads = [name if unit is None else column_head(name, unit) for name, (unit, _) in columns.items()]
+    cells = [["" if value != value else value for value in shown.tolist()] for _, shown in columns.values()]
     return {DUTY: csv_of(heads, zip(*cells, strict=True))}
 
 

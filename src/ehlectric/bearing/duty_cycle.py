@@ -20,9 +20,11 @@ from ehlectric.bearing.cycle_rows import (
     STANDSTILL,
     TOUCHING,
     CycleRows,
+    Written,
     duty_csv,
     edges_of,
     stretches_of,
+    written_columns,
 )
 from ehlectric.bearing.duty_points import NAMES, PointValues, between_places, spread_places, values_at
 from ehlectric.bearing.many_points import solved_parts
@@ -258,13 +260,17 @@ class DutyResult(Values):
         }
 
     def contents(self) -> dict[str, Content]:
-        """Content of duty.csv by its name; a column in which no row has a value is left out."""
+        """Content of duty.csv by its name."""
+        return duty_csv(self.columns())
+
+    def columns(self) -> dict[str, Written]:
+        """Columns of the rows with their units, without columns in which no row has a value."""
         columns = {each.name: getattr(self.rows, each.name) for each in fields(self.rows)}
         # The state of a row ends its line.
         columns["state"] = columns.pop("state")
         given = {name: values for name, values in columns.items() if values is not None}
         known = {name: values for name, values in given.items() if np.any(np.isfinite(values))}
-        return duty_csv(known, COLUMNS)
+        return written_columns(known, COLUMNS)
 
 
 def run_duty(case: BearingCase) -> DutyResult | None:

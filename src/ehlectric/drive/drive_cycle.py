@@ -26,9 +26,11 @@ from ehlectric.bearing.cycle_rows import (
     STANDSTILL,
     TOUCHING,
     CycleRows,
+    Written,
     duty_csv,
     edges_of,
     stretches_of,
+    written_columns,
 )
 from ehlectric.bearing.duty_cycle import DutyRows, check_rows, file_warnings, life_of, rows_of
 from ehlectric.bearing.duty_points import between_places
@@ -184,6 +186,10 @@ class DriveDuty(Values):
 
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name."""
+        return duty_csv(self.columns())
+
+    def columns(self) -> dict[str, Written]:
+        """Columns of the rows with their units; those of each bearing begin with its name."""
         columns: dict[str, Array] = {}
         for each in fields(self.rows):
             values = getattr(self.rows, each.name)
@@ -191,7 +197,7 @@ class DriveDuty(Values):
                 columns[each.name] = values
             else:
                 columns |= {f"{end}.{each.name}": values[:, b] for b, end in enumerate(ENDS)}
-        return duty_csv(columns, COLUMNS)
+        return written_columns(columns, COLUMNS)
 
 
 @dataclass(frozen=True, eq=False)

@@ -150,11 +150,11 @@ def scale_for(largest: float, unit: str) -> Scale:
 
 
 def round_factor(factor: float) -> float:
-    """Round a power of ten to nine digits, which removes the rounding error of a division.
+    """Round a factor to fifteen digits, which removes the rounding error of a division.
 
     Examples
     --------
     >>> round_factor(1 / 1e-6)
     1000000.0
     """
-    return float(f"{factor:.9g}")
+    return float(f"{factor:.15g}")

@@ -24,6 +24,7 @@ class Label:
     symbol: str  # symbol, such as "$w$"; may be empty
     unit: str  # SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known
     bound: Bound = ""  # sign of the bound that an ideal film makes of a result
+    shown: str = ""  # unit in which a value is usually shown; empty if there is none
 
     def scaled(self, values: Array) -> Scale:
         """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored."""
@@ -46,11 +47,13 @@ def label_of(key: str, case: SweptCase) -> Label:
     result, entry = key_of(result_keys(case), key), input_of(own)
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(own) is None)):
-        return Label(result.label or key, result.symbol, result.unit, result.bound if _bounds(case) else "")
+        bound = result.bound if _bounds(case) else ""
+        return Label(result.label or key, result.symbol, result.unit, bound, result.shown)
     end = NAMES_OF_ENDS.get(end_and_key(own)[0], "")
     if entry is None:
         return Label(key, "", "" if own == key else unit_of(own))
-    return Label(f"{entry.label}, {end}" if end else entry.label, entry.symbol, entry.unit)
+    name = f"{entry.label}, {end}" if end else entry.label
+    return Label(name, entry.symbol, entry.unit, shown=entry.shown)
 
 
 def _bounds(case: SweptCase) -> bool:

@@ -1,5 +1,6 @@
 """Results in files of other programs, read back by the libraries of those programs."""
 
+import math
 import subprocess
 
 import numpy as np
@@ -23,7 +24,9 @@ from ehlectric import (
     solve_drive,
     solve_motion,
 )
+from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS
 from ehlectric.runs.exports import cells, matlab_names
+from ehlectric.runs.workbooks import scale_of_key
 from tests.helpers.drives import small_drive
 from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES
@@ -179,24 +182,47 @@ def test_names_of_matlab_are_valid_and_different():
 def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     """Numbers are numbers with their units, and a title that begins like a formula is a text."""
     book = openpyxl.load_workbook(export(bearing, tmp_path / "bearing.xlsx"))
-    assert book.sheetnames == ["summary", "inputs", "table"]
+    assert book.sheetnames == ["summary", "inputs", "table", "over speed"]
     rows = {row[0].value: row for row in book["summary"].iter_rows(min_row=2)}
-    name, value, unit = rows["bearing.capacitance"][1:]
+    name, shown, shown_unit, value, unit = (cell.value for cell in rows["bearing.capacitance"][1:])
     # Workbooks have numbers with 16 digits.
-    assert value.value == pytest.approx(bearing.summary()["bearing"]["capacitance"], rel=1e-15, abs=0.0)
-    assert unit.value == "F"
-    assert "capacitance" in name.value
+    assert value == pytest.approx(bearing.summary()["bearing"]["capacitance"], rel=1e-15, abs=0.0)
+    assert unit == "F"
+    assert (shown, shown_unit) == (pytest.approx(1e12 * value, rel=1e-13), "pF")
+    assert "capacitance" in name
     title = rows["title"][2]
     assert (title.value, title.data_type) == ("=1+1", "s")
     inputs = {row[0].value: row[2:] for row in book["inputs"].iter_rows(min_row=2)}
-    load, unit = inputs["bearing.radial_load"]
+    load, unit, *_ = inputs["bearing.radial_load"]
     assert (load.value, unit.value) == (1800.0, "N")
+    speed, unit, si, _ = (cell.value for cell in inputs["bearing.inner_speed"])
+    assert (speed, unit) == (pytest.approx(30.0 / math.pi * si, rel=1e-13), "rpm")
+    temperature, unit, si, _ = (cell.value for cell in inputs["bearing.temperature"])
+    assert (temperature, unit) == (pytest.approx(si - 273.15, rel=1e-13), "°C")
     frame = bearing.to_dataframe()
     table = list(book["table"].iter_rows(values_only=True))
     assert len(table) == len(frame) + 1
     assert [head.partition(" [")[0] for head in table[0]] == list(map(str, frame.columns))
     column = list(frame.columns).index("load")
-    assert [row[column] for row in table[1:]] == pytest.approx(list(frame["load"]), rel=1e-15)
+    assert [row[column] for row in table[1:]] == pytest.approx(list(frame["load"]), rel=1e-13)
+    column = table[0].index("max_pressure [MPa]")
+    known = [(row[column], value) for row, value in zip(table[1:], frame["max_pressure"], strict=True)]
+    assert all(shown == pytest.approx(1e-6 * value, rel=1e-13) for shown, value in known if value == value)
+    heads, *curve = book["over speed"].iter_rows(values_only=True)
+    own = bearing.summary()["bearing"]["capacitance"]
+    place = min(curve, key=lambda row: abs(row[0] - speed))
+    assert heads[0] == "bearing.inner_speed [rpm]"
+    assert place[0] == pytest.approx(speed, rel=1e-9)
+    assert place[heads.index("bearing.capacitance [pF]")] == pytest.approx(1e12 * own, rel=1e-6)
+
+
+def test_temperatures_of_workbooks_are_in_degrees_unless_they_are_differences():
+    """Each temperature of the books of inputs and results, by what the books say of it."""
+    books = [BEARING_KEYS, DRIVE_KEYS, *CONTACT_KEYS.values(), *MOTION_KEYS.values()]
+    results = {(key, one.shown == "°C") for book in books for key, one in book.items() if one.unit == "K"}
+    assert len(results) > 10
+    for key, absolute in results:
+        assert scale_of_key(key, "K", "", np.array([300.0])).unit == ("°C" if absolute else "K"), key
 
 
 @pytest.mark.slow

@@ -1,0 +1,221 @@
+"""Workbooks of spreadsheets: numbers of a result in the units that engineers use, and in SI units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.speed_curves import curves_of, over_speed
+from ehlectric.contact.problems import Setup
+from ehlectric.drive.result import DriveResult
+from ehlectric.errors import InputError, printable
+from ehlectric.quantities.formats import CELSIUS, UNITS, USUAL, Scale, scale_for, scale_of
+from ehlectric.quantities.units import printed
+from ehlectric.runs.solve import AnyResult
+from ehlectric.runtime.values import is_number
+from ehlectric.sweep.axis_labels import label_of
+from ehlectric.sweep.points import flat
+from ehlectric.sweep.result import SweepResults
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from ehlectric.cases.drive_case import SweptCase
+
+# Rows and columns of a sheet, and characters of a cell, at most.
+_ROWS, _COLUMNS, _TEXT = 1_048_576, 16_384, 32_767
+
+# Widths of the columns of keys, names and values [characters].
+_WIDTHS = (44, 60, 18, 12, 24, 12)
+
+# Unit of stresses in every cell, so that pressures and moduli can be compared.
+_STRESS = "MPa"
+
+# Last part of the keys of absolute temperatures; those of rises and errors end otherwise.
+_ABSOLUTE = re.compile(r"(.+_)?temperature(_[12])?")
+
+
+def workbook(result: AnyResult | SweepResults) -> bytes:
+    """Content of a workbook (.xlsx) with the sheets "summary", "inputs" and "table". A bearing adds the sheet
+    "over speed", and a duty cycle the sheet "duty cycle".
+
+    Each number has the unit that engineers use, such as rpm, °C and MPa; the sheets of keys also contain it
+    in SI units. Raises InputError if the package openpyxl is missing, or the table has more rows or columns
+    than a sheet.
+    """
+    try:
+        import openpyxl
+    except ImportError:
+        takes = "it, installed with: pip install 'ehlectric[excel]'"
+        raise InputError("openpyxl", "is missing, which writes workbooks", takes=takes) from None
+    case = result.case
+    if isinstance(case, Setup):
+        raise InputError("result", "has no case, which the workbook must hold")
+    frame = result.to_dataframe()
+    if len(frame) >= _ROWS or len(frame.columns) > _COLUMNS:
+        raise InputError(
+            "table",
+            got=f"{len(frame)} rows and {len(frame.columns)} columns",
+            takes=f"less than {_ROWS} rows and at most {_COLUMNS} columns; its CSV file has all of it",
+        )
+    book = openpyxl.Workbook(write_only=True)
+    summary = flat(result.summary())
+    inputs = {key: value for key, value in summary.items() if key.startswith("inputs.")}
+    if not inputs:
+        inputs = flat({"inputs": case.plain_tables()})
+    _fill(book, "summary", _keys({key: value for key, value in summary.items() if key not in inputs}, case))
+    _fill(book, "inputs", _keys(inputs, case))
+    _fill(book, "table", _table(frame, case))
+    if isinstance(result, BearingResult):
+        _fill_over_speed(book, result)
+    if isinstance(result, BearingResult | DriveResult) and result.duty is not None:
+        columns = {name: (unit, "", values) for name, (unit, values) in result.duty.columns().items()}
+        _fill(book, "duty cycle", _columns(columns))
+    file = BytesIO()
+    book.save(file)
+    return file.getvalue()
+
+
+def _keys(values: dict[str, Any], case: SweptCase) -> Iterator[Iterable[Any]]:
+    """Rows of keys: dotted key, name, value in its usual unit, and value in its SI unit."""
+    yield "key", "name", "value", "unit", "SI value", "SI unit"
+    for key, value in values.items():
+        label, own = label_of(key, case), key.removeprefix("inputs.")
+        name = "" if label.name in (key, own) else label.name
+        if not is_number(value):
+            yield own, name, value, "", value, ""
+            continue
+        scale = scale_of_key(own, label.unit, label.shown, np.array([value]))
+        yield own, name, _rounded(scale.of(value)), scale.unit, value, _unit(label.unit)
+
+
+def scale_of_key(key: str, unit: str, shown: str, values: Array) -> Scale:
+    """Unit in which values of a dotted key are written.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key.
+    unit, shown : str
+        SI unit of the key, in the notation of pint, and unit in which it is usually shown; empty if unknown.
+    values : ndarray
+        Values [SI unit], which decide the prefix of a unit without a usual one.
+
+    Examples
+    --------
+    >>> speed, modulus = np.array([314.159]), np.array([226e9])
+    >>> scale_of_key("bearing.inner_speed", "rad/s", "rpm", speed).unit
+    'rpm'
+    >>> scale_of_key("contact.reduced_modulus", "Pa", "GPa", modulus).of(226e9)
+    226000.0
+    >>> [scale_of_key(f"film.{key}", "K", "", speed).unit for key in ("temperature", "temperature_rise")]
+    ['°C', 'K']
+    """
+    if unit == "K":
+        return CELSIUS if _ABSOLUTE.fullmatch(key.rpartition(".")[2]) else scale_of("K")
+    named = _STRESS if unit == "Pa" else printed(shown) if shown else USUAL.get(unit, "")
+    if named in UNITS and UNITS[named][0] == unit:
+        return scale_of(named)
+    finite = np.abs(values[np.isfinite(values)])
+    return scale_for(float(np.max(finite, initial=0.0)) or 1.0, unit)
+
+
+def _rounded(value: float) -> float:
+    """Value without the rounding error of its conversion."""
+    return float(f"{value:.14g}")
+
+
+def _unit(unit: str) -> str:
+    """Unit without the notation of programs.
+
+    Examples
+    --------
+    >>> _unit("A/m**2"), _unit("Pa*s")
+    ('A/m^2', 'Pa s')
+    """
+    return unit.replace("**", "^").replace("*", " ")
+
+
+def _table(frame: pd.DataFrame, case: SweptCase) -> Iterator[Iterable[Any]]:
+    """Rows of a table, below heads with units."""
+    units = frame.attrs.get("units", {})
+    columns = {}
+    for name in map(str, frame.columns):
+        values = frame[name].to_numpy()
+        shown = label_of(name, case).shown if name in units else ""
+        columns[name] = (units.get(name), shown, values)
+    return _columns(columns)
+
+
+def _fill_over_speed(book: Any, result: BearingResult) -> None:
+    """Sheet of the curves of a bearing over its speed; none if the curves cannot be computed."""
+    summary, case = result.summary(), result.case
+    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
+    if len(points) < 2:
+        return
+    curves = curves_of(points, (case.bearing.inner_speed, summary))
+    values = {"bearing.inner_speed": curves.speed}
+    values |= {f"bearing.{key}": value for key, value in curves.values.items()}
+    labels = {key: label_of(key, case) for key in values}
+    columns = {key: (labels[key].unit, labels[key].shown, values[key]) for key in values}
+    _fill(book, "over speed", _columns(columns))
+
+
+def _columns(columns: Mapping[str, tuple[str | None, str, Any]]) -> Iterator[Iterable[Any]]:
+    """Rows of columns below heads with units.
+
+    ``columns``, SI unit (None of a column without numbers), usual unit, and values of each column by its key.
+    """
+    heads, written = [], []
+    for key, (unit, shown, values) in columns.items():
+        if unit is None or not np.issubdtype(np.asarray(values).dtype, np.number):
+            heads.append(key)
+            written.append(list(values))
+            continue
+        numbers = np.asarray(values, dtype=float)
+        scale = scale_of_key(key, unit, shown, numbers)
+        heads.append(f"{key} [{scale.unit or '-'}]")
+        whole = np.issubdtype(np.asarray(values).dtype, np.integer) and scale == Scale(1.0, scale.unit)
+        written.append(list(values) if whole else [_rounded(one) for one in scale.of(numbers).tolist()])
+    yield heads
+    yield from zip(*written, strict=True)
+
+
+def _fill(book: Any, title: str, rows: Iterator[Iterable[Any]]) -> None:
+    """Sheet of rows, of which the first one is bold and stays in view."""
+    from openpyxl.styles import Font
+    from openpyxl.utils import get_column_letter
+
+    sheet = book.create_sheet(title)
+    sheet.freeze_panes = "A2"
+    heads = list(next(rows))
+    of_keys = title in ("summary", "inputs")
+    widths = _WIDTHS if of_keys else [max(12, len(str(head)) + 2) for head in heads]
+    for k, width in enumerate(widths, 1):
+        sheet.column_dimensions[get_column_letter(k)].width = width
+    sheet.append([_cell(sheet, head, Font(bold=True)) for head in heads])
+    for row in rows:
+        sheet.append([_cell(sheet, value) for value in row])
+
+
+def _cell(sheet: Any, value: Any, font: Any = None) -> Any:
+    """Cell of a value: a text is never a formula, and what is no number is empty."""
+    from openpyxl.cell import WriteOnlyCell
+
+    if hasattr(value, "item"):
+        value = value.item()
+    if value is None or (isinstance(value, float) and not abs(value) < float("inf")):
+        return None
+    if isinstance(value, bool | int | float) and font is None:
+        return value
+    cell = WriteOnlyCell(sheet, printable(str(value))[:_TEXT])
+    cell.data_type = "s"
+    if font is not None:
+        cell.font = font
+    return cell
