@@ -180,7 +180,7 @@ def test_radii_and_speeds_that_no_machine_has_are_doubted(typed, tmp_path):
         (
             spoiled(BEARING, {"3000 rpm": "3000 rad/s"}),
             "bearing",
-            ["2.865e+04 rpm", "60 mm", "1.72e+06 mm/min"],
+            ["28 650 rpm", "60 mm", "1.72 million mm/min"],
         ),
     ):
         (tmp_path / f"{kind}.toml").write_text(text)

@@ -225,7 +225,7 @@ def test_bearings_of_the_library_are_listed(ehlectric):
     assert "…" not in done.stdout
     (line,) = (line.split() for line in done.stdout.splitlines() if line.startswith("6208 "))
     assert line == ["6208", "40", "80", "18", "9", "x", "11.906", "60", "29.1", "17.9", "published"]
-    assert "as 6314-C3 or NU 210 ECP" in done.stdout
+    assert "as 6314-C3 or SKF NU 210 ECP" in done.stdout
     listed = json.loads(ehlectric("bearings", "--json").stdout)
     (found,) = (bearing for bearing in listed if bearing["name"] == "nu-205")
     assert (found["elements"], found["roller_length"], found["static_rating"]) == (13, 0.008, 27700.0)

@@ -305,7 +305,7 @@ def ratio_text(ratio: Numbers) -> str:
     Examples
     --------
     >>> ratio_text(1.4432), ratio_text(0.9981), ratio_text(0.0123), ratio_text(2345.6)
-    ('1.44', '0.9981', '0.012', '2.3e+03')
+    ('1.44', '0.9981', '0.012', '2300')
     """
     if not 0.1 <= ratio < 100.0:
         return readable(ratio, 2)

@@ -36,7 +36,7 @@ def dotted(table: str, groups: tuple[Rows, ...]) -> tuple[Rows, ...]:
 
     Examples
     --------
-    >>> dotted("meter", ALTERNATIVES["meter"])
-    ((('meter.fill',), ('meter.oil_radius',)),)
+    >>> dotted("meter", ALTERNATIVES["meter"])[0]
+    (('meter.fill',), ('meter.oil_radius',))
     """
     return tuple(tuple(tuple(f"{table}.{key}" for key in row) for row in rows) for rows in groups)

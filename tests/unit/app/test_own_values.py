@@ -119,7 +119,7 @@ def test_an_own_bearing_comes_back_after_one_of_the_library(base):
 def test_a_way_comes_back_with_its_last_values():
     memory = Memory(BEARING_GROUPS)
     field = next(field for field in oil("bearing").fields if field.key.endswith("way_40"))
-    grade, viscosity = 0, 1
+    grade, viscosity = 0, 3
     typed = EXAMPLE.changed({"lubricant.temperature.kinematic_viscosity_40": "52 mm^2/s"})
     memory.note(typed)
     other = changed(typed, memory.way(field, grade, typed))

@@ -28,7 +28,7 @@ def by_key(found):
 
 def bounds(text):
     """Numbers of the bounds in a text, before the reason."""
-    return re.findall(r"(?:above|at least|below|at most) (\S+) (\S+?)(?=,| |$|:)", text)
+    return re.findall(r"(?:above|at least|below|at most) (\S+) (mPa s|\S+?)(?=,| |$|:)", text)
 
 
 @each("field", WITH_UNIT, ids=by_key)

@@ -21,7 +21,7 @@ def test_maps_are_drawn_to_scale():
     (image,) = ax.images
     np.testing.assert_allclose(image.get_array().T * 1e-9, HEIGHTS - HEIGHTS.mean(), atol=1e-20)
     sq = 1e9 * np.std(HEIGHTS)
-    assert image.colorbar.ax.get_ylabel() == f"height [nm], Sq = {sq:.3g} nm"
+    assert " ".join(image.colorbar.ax.get_ylabel().split()) == f"height [nm], Sq = {sq:.3g} nm"
 
 
 @pytest.mark.slow
