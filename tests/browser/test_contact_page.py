@@ -208,7 +208,7 @@ def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_ser
     assert [row[0] for row in rows] == [step["step"] for step in told["steps"]]
     column = next(number for number, head in enumerate(heads) if head.startswith("Rq"))
     for row, step in zip(rows, told["steps"], strict=True):
-        assert float(row[1].replace("\xa0", "").replace(" ", "")) == step["points"]
+        assert float("".join(row[1].split())) == step["points"]
         assert float(row[column]) == pytest.approx(1e9 * step["rq"], rel=2e-3)
         assert float(row[column + 1]) == pytest.approx(1e9 * step["ra"], rel=2e-3)
     heads, *rows_of_summits = statistics(page, "surface-summits")

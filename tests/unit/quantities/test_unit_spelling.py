@@ -127,9 +127,9 @@ def test_factors_without_the_registry_are_those_of_pint(unit):
     """Pint knows a mil as an angle, and by the name thou as a length."""
     registry = pint.UnitRegistry()
     one = registry.Quantity(1.0, registry.parse_units(unit.replace("mil", "thou")))
-    assert factor(
-        unit, f"{one.to_base_units().units:~}".replace("\xa0", "").replace(" ", "")
-    ) == pytest.approx(one.to_base_units().magnitude, rel=1e-12)
+    assert factor(unit, f"{one.to_base_units().units:~}".replace(" ", "")) == pytest.approx(
+        one.to_base_units().magnitude, rel=1e-12
+    )
 
 
 def test_command_python_sweep_and_bearing_read_the_same_value():
