@@ -143,7 +143,7 @@ _OF_SPOTS = {
 def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed(
     open_page, app_server, tmp_path
 ):
-    rough = {"surface": 1, "generator": "gaussian", "rq": "250 nm", "correlation_length": "5 um", "seed": 4}
+    rough = {"surface": 1, "generator": "gaussian", "rq": "250 nm", "correlation_length": "20 um", "seed": 4}
     # Coarse: what the page shows of a film is that of the command on any grid.
     table = example("rough_contact", roughness=[rough], grid__nodes=401)
     table["contact"] |= {"load_per_length": "1.57 MN/m", "entrainment_speed": "0.05 m/s"}

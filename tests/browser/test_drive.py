@@ -206,5 +206,5 @@ def test_remedies_of_a_bearing_follow_its_inputs_on_a_phone(open_page, app_serve
     page.get_by_test_id("helps-effect").get_by_text("No discharge expected").wait_for()
     page.get_by_test_id("group-bearing").locator("select").first.select_option("silicon-nitride")
     page.get_by_test_id("choose-hybrid").wait_for(state="hidden")
-    assert not page.get_by_test_id("helps-effect").is_visible()
+    page.get_by_test_id("helps-effect").wait_for(state="hidden")
     assert page.get_by_test_id("verdict").get_attribute("data-level") == "green"

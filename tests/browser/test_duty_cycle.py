@@ -55,7 +55,7 @@ def test_a_cycle_is_uploaded_and_its_result_follows_the_inputs(page, tmp_path):
     given(page, cycle(tmp_path))
     wait_for_address(page, "duty.file=")
     # Each row stands for the time from halfway to the row before to halfway to the next.
-    wait_for_share(page, "at a standstill", 5.0)
+    wait_for_share(page, "share of the duty cycle at a standstill", 5.0)
     wait_for_share(page, "with touching surfaces", 10.0)
     assert not error.is_visible()
     assert "my <i>cycle.csv: 6 rows over 100 s" in page.get_by_test_id("duty-used").inner_text()
@@ -74,7 +74,7 @@ def test_a_cycle_is_uploaded_and_its_result_follows_the_inputs(page, tmp_path):
     before = share(page, "with a full film")
     type_into(page, "bearing.composite_rq", "0.5 um")
     assert wait_until(lambda: (now := share(page, "with a full film")) is not None and now < before)
-    wait_for_share(page, "at a standstill", 5.0)
+    wait_for_share(page, "share of the duty cycle at a standstill", 5.0)
     page.get_by_test_id("undo").click()
     wait_for_share(page, "with a full film", before)
     page.get_by_test_id("duty-remove").click()
@@ -102,7 +102,7 @@ def test_the_example_is_one_click_and_stays_on_its_page(open_page, app_server):
     opened(page)
     page.get_by_test_id("duty-example").click()
     # The standstills of the WLTC at the motor of the example.
-    wait_for_share(page, "at a standstill", 13.0)
+    wait_for_share(page, "share of the duty cycle at a standstill", 13.0)
     page.get_by_test_id("to-duty").click()
     assert wait_until(
         lambda: page.get_by_test_id("duty").evaluate("one => Math.abs(one.getBoundingClientRect().top) < 400")

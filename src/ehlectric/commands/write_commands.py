@@ -24,8 +24,9 @@ from ehlectric.runtime.undrawn import collected, kept_going
 def export(result: Path, output: Path, quiet: bool = False) -> None:
     """Write a result for other programs: MATLAB and Octave, spreadsheets, or ParaView.
 
-    A .mat file has all arrays and the summary, a workbook the summary, the inputs and the table of the
-    result, and a .vtkhdf file the film and the field of a contact. All are in SI units.
+    A .mat file contains all arrays and the summary, and a .vtkhdf file the film and the field of a contact,
+    both in SI units. A workbook contains the summary, the inputs, the table of the result and curves over
+    the speed, in rpm, degC, MPa and other usual units.
 
     Exit status 0: written. 2: the result has no such form, or the file cannot be written.
     """

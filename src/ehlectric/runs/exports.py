@@ -311,7 +311,7 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
         File to write; an existing one is replaced. ``.mat`` for MATLAB and Octave has all arrays and the
         summary, ``.xlsx`` for spreadsheets the summary, the inputs and the table of the result, and
         ``.vtkhdf`` for ParaView the film and the field of a contact, or its film over time. Numbers are in
-        SI units.
+        SI units, and in a workbook also in usual units, such as rpm.
 
     Returns
     -------

@@ -149,7 +149,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
         return _without_films(case, reason)
     # The file of a duty cycle is checked; it is computed by ehlectric bearing.
     result = solve_bearing(judged.model_copy(update={"duty": None}), workers=1)
-    summary = {**result.summary(), "inputs": case.to_dict(), "films": judged.contacts}
+    summary = {**result.summary(), "inputs": case.all_inputs(), "films": judged.contacts}
     heat = (
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
     )
@@ -185,7 +185,7 @@ def _check_drive(case: DriveCase) -> Meaning:
         row = Row("films and voltages", note=f"{key}: needs solved contacts; ehlectric drive solves them")
         return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
     ready = prepare(quick, workers=1)
-    summary = {**checked_summary(ready), "inputs": case.to_dict()}
+    summary = {**checked_summary(ready), "inputs": case.all_inputs()}
     told = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
 
@@ -198,7 +198,7 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
 
     conditions = resolve_bearing(case)
     summary = {
-        "inputs": case.to_dict(),
+        "inputs": case.all_inputs(),
         "lubricant": {
             "temperature": case.bearing.oil_temperature,
             "viscosity": conditions.oil.viscosity,

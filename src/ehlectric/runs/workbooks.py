@@ -34,8 +34,8 @@ _ROWS, _COLUMNS, _TEXT = 1_048_576, 16_384, 32_767
 # Widths of the columns of keys, names and values [characters].
 _WIDTHS = (44, 60, 18, 12, 24, 12)
 
-# Unit of stresses in every cell, so that pressures and moduli can be compared.
-_STRESS = "MPa"
+# Units of all stresses and of all viscosities, so that cells can be compared.
+_ONE_UNIT = {"Pa": "MPa", "Pa*s": "mPa s"}
 
 # Last part of the keys of absolute temperatures; those of rises and errors end otherwise.
 _ABSOLUTE = re.compile(r"(.+_)?temperature(_[12])?")
@@ -119,7 +119,7 @@ def scale_of_key(key: str, unit: str, shown: str, values: Array) -> Scale:
     """
     if unit == "K":
         return CELSIUS if _ABSOLUTE.fullmatch(key.rpartition(".")[2]) else scale_of("K")
-    named = _STRESS if unit == "Pa" else printed(shown) if shown else USUAL.get(unit, "")
+    named = _ONE_UNIT.get(unit) or printed(shown) or USUAL.get(unit, "")
     if named in UNITS and UNITS[named][0] == unit:
         return scale_of(named)
     finite = np.abs(values[np.isfinite(values)])

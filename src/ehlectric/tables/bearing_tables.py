@@ -301,6 +301,11 @@ def _fatigue_limit_note(summary: Summary) -> str:
     return ", given" if given else ", computed from C0 by ISO 281"
 
 
+def _reliability_note(summary: Summary) -> str:
+    share = value_at(summary, "inputs.bearing.life.reliability")
+    return "" if share is None else f", reached by {readable(100.0 * share, 4)} % of bearings"
+
+
 def of_reliability(prefix: str, lives: str) -> dict[str, Callable[[Summary], Any]]:
     """Numbers of the reliability by dotted key, which are shown only if it is not 90 %.
 
@@ -527,6 +532,8 @@ _WORDS = Words(
         "life.dynamic_rating": lambda s: f", {s['life']['dynamic_rating_source']}",
         "life.static_rating": lambda s: f", {s['life']['static_rating_source']}",
         "life.fatigue_load_limit": _fatigue_limit_note,
+        "life.reliable_life": _reliability_note,
+        "life.reliable_reference_life": _reliability_note,
         "uncertainty.breakdown_probability": _probability_note,
         "uncertainty.margin_range": _median_note,
     },

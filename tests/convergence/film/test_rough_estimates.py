@@ -20,7 +20,8 @@ def test_estimates_of_random_rough_contacts_are_seldom_exceeded(wedge):
     """Waves, Gaussian, self-affine and measured profiles, at random loads and speeds."""
     count = share_of(20, 2)
     rows = [row for number in range(count) for row in estimates(drawn_with(wedge, number))]
-    assert len(rows) > 2.5 * count
+    # A contact without a film on the finest grid has no estimate; the others have up to three.
+    assert len(rows) >= 1.2 * count
     names = vars(rows[0])
     column = {name: np.array([getattr(row, name) for row in rows]) for name in names}
     ratio = column["true_film"] / column["film"]

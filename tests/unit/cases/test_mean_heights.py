@@ -7,6 +7,7 @@ import pytest
 
 import ehlectric
 from ehlectric import BearingCase, Case, InputError, evaluate, solve
+from ehlectric.runs.meaning import check
 from ehlectric.sweep.sweep_inputs import Sweep
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, bearing_case
@@ -36,6 +37,12 @@ def test_a_given_factor_and_the_same_bearing_with_its_rq():
     found, wanted = (solve(one).summary()["bearing"] for one in (case, same))
     for key in ("lambda_ratio", "capacitance"):
         assert found[key] == pytest.approx(wanted[key], rel=1e-9)
+
+
+@pytest.mark.slow
+def test_check_shows_the_ra_with_its_rq():
+    rows = {row.key: f"{row.text}{row.note}" for row in check(of_ra()).rows}
+    assert rows["inputs.bearing.composite_ra"].startswith("0.024 µm, Rq = 0.03008 µm with the factor 1.253")
 
 
 def test_files_state_the_ra(tmp_path):
