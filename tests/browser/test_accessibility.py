@@ -213,6 +213,7 @@ def test_nothing_jumps_when_numbers_arrive(open_page, app_server, path, slider, 
     # The focus scrolls the page to the slider.
     page.evaluate("() => new Promise(done => setTimeout(done, 200))")
     page.evaluate("() => window.shifts.splice(0)")
+    before = page.get_by_test_id("answer").inner_text()
     page.keyboard.press("ArrowRight")
-    page.locator("[data-testid=answer][aria-busy=true]").wait_for()
+    assert wait_until(lambda: page.get_by_test_id("answer").inner_text() != before)
     settled()
