@@ -347,8 +347,8 @@ class BearingCase(CaseFile, book="bearing_file"):
             if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
                 raise InputError(
                     key,
-                    got=f"{readable(one.low, 6)} to {readable(one.high, 6)}",
-                    takes=f"a range that contains the value of the file, {readable(value, 6)} (in SI units)",
+                    got=f"{one.low:.6g} to {one.high:.6g}",
+                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
                 )
 
     def _check_connected(self) -> None:
