@@ -341,9 +341,14 @@ def _viscosity_ratio(summary: Summary) -> Noted:
     return Noted(life["viscosity_ratio"], f", ν/ν1 with ν = {readable(viscosity)} mm²/s")
 
 
+_OTHER_BEARING = "inputs.motor.second_bearing_capacitance"
+
+
 def _shaft_note(summary: Summary) -> str:
     leaks = "shaft-leaks" in summary["warning_codes"]
-    return f", by the capacitive divider{'; upper bound: the oil discharges it' if leaks else ''}"
+    equal = value_at(summary, "inputs.motor") and value_at(summary, _OTHER_BEARING) is None
+    other = " with an equal second bearing" if equal else ""
+    return f", by the capacitive divider{other}{'; upper bound: the oil discharges it' if leaks else ''}"
 
 
 def _first_break(summary: Summary) -> Noted:

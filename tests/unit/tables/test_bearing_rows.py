@@ -116,3 +116,10 @@ def test_angles_have_no_negative_zero():
         row["contact_angle"] = -1e-5
     (angles,) = (column for column in loads_table(summary).columns if "angle" in str(column.header))
     assert set(map(str, angles.cells)) == {"0.0"}
+
+
+@pytest.mark.slow
+def test_a_second_bearing_that_is_taken_as_equal_is_named(steel):
+    assert "equal second bearing" in rows(steel)["bearing.shaft_voltage"].note
+    given = summary_of(motor__second_bearing_capacitance="200 pF")
+    assert "second bearing" not in rows(given)["bearing.shaft_voltage"].note
