@@ -140,15 +140,28 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
         "shaft_through_breakdown": np.min([shaft_through_breakdown(one, path) for one in circuits], axis=0),
     }
     return Breakdown(
-        first_break_at=labels((known, _weakest(circuits, np.argmin(first, axis=0))), ""),
+        first_break_at=labels((known, _weakest(circuits, _first_of_least(first, axis=0))), ""),
         **{name: where(known, values) for name, values in voltages.items()},
     )
+
+
+# Relative difference of voltages that are equal but for rounding, such as of elements that share the load
+# evenly. Without it the processor would choose the element that is named.
+_EQUAL = 1e-6
+
+
+def _first_of_least(values: Array, axis: int) -> IntArray:
+    """Place of the first value along an axis that is the least one but for rounding."""
+    least = np.min(values, axis=axis, keepdims=True)
+    first: IntArray = np.argmax(values <= least * (1.0 + _EQUAL), axis=axis)
+    return first
 
 
 def _weakest(circuits: Sequence[Circuit], at: IntArray) -> Any:
     """Name of the contact that breaks down first at the position ``at`` of each point, shape (...)."""
     points = tuple(np.indices(at.shape))
-    element = np.argmin(np.array([one.first_breaks for one in circuits])[at, *points], axis=-1)
+    breaks = np.array([one.first_breaks for one in circuits])[at, *points]
+    element = _first_of_least(breaks, axis=-1)
     inner = np.array([one.inner_first for one in circuits])[at, *points, element]
     names = [
         [f"{ring} contact of element {k}" for ring in ("outer", "inner")]

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from ehlectric.bearing.bearing_discharges import bearing_voltage_ratio
+from ehlectric.bearing.bearing_discharges import _first_of_least, bearing_voltage_ratio
 from ehlectric.bearing.conditions import Solid
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.result import BearingResult, solve_bearing
@@ -481,3 +481,10 @@ def test_margin_is_first_breakdown_over_shaft_voltage():
     without = {key: table for key, table in case.to_dict().items() if key != "motor"}
     assert with_one.margin == pytest.approx(first / with_one.shaft_voltage, rel=1e-12)
     assert solve_bearing(BearingCase.from_dict(without), workers=1).margin is None
+
+
+def test_rounding_does_not_choose_the_element_that_breaks_down_first():
+    """Voltages that differ by rounding are equal: the first one counts, and a lower one counts always."""
+    equal = np.array([[2.0 + 4e-16, 2.0, 3.0], [2.0, 2.0 - 1e-3, 1.5]])
+    assert _first_of_least(equal, axis=-1).tolist() == [0, 2]
+    assert _first_of_least(equal.T, axis=0).tolist() == [0, 2]
