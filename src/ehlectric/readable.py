@@ -69,7 +69,7 @@ class _Readable(Formatter):
 
 
 def filled_in(template: str, values: Mapping[str, Any]) -> str:
-    r"""Template with values in place of their names; numbers in the format "g" are readable.
+    r"""Template whose names are replaced by values; numbers in the format "g" are readable.
 
     Examples
     --------

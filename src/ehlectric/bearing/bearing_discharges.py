@@ -145,13 +145,13 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     )
 
 
-# Relative difference of voltages that are equal but for rounding, such as of elements that share the load
+# Relative difference of voltages that are equal within rounding, such as of elements that share the load
 # evenly. Without it the processor would choose the element that is named.
 _EQUAL = 1e-6
 
 
 def _first_of_least(values: Array, axis: int) -> IntArray:
-    """Place of the first value along an axis that is the least one but for rounding."""
+    """Place of the first value along an axis that is the least one within rounding."""
     least = np.min(values, axis=axis, keepdims=True)
     first: IntArray = np.argmax(values <= least * (1.0 + _EQUAL), axis=axis)
     return first

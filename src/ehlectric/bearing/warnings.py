@@ -58,7 +58,7 @@ from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 
 # Largest speed factor n d_m [mm/min] of bearings with a contact angle of 40 degrees, of the source of
-# ``KINDS_OF_BEARINGS``, whose values are those at 15 degrees and below.
+# ``KINDS_OF_BEARINGS``, whose values hold at 15 degrees and below.
 _STEEP, _SPEED_STEEP, _FLAT = math.radians(40.0), 6.5e5, math.radians(15.0)
 
 # Minimum load of balls and of rollers divided by the dynamic load rating. SKF, Rolling bearings, "requisite

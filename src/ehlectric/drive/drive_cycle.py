@@ -189,7 +189,7 @@ class DriveDuty(Values):
         return duty_csv(self.columns())
 
     def columns(self) -> dict[str, Written]:
-        """Columns of the rows with their units; those of each bearing begin with its name."""
+        """Columns of the rows with their units; a column of one bearing begins with its name."""
         columns: dict[str, Array] = {}
         for each in fields(self.rows):
             values = getattr(self.rows, each.name)

@@ -37,7 +37,7 @@ _WIDTHS = (44, 60, 18, 12, 24, 12)
 # Units of all stresses and of all viscosities, so that cells can be compared.
 _ONE_UNIT = {"Pa": "MPa", "Pa*s": "mPa s"}
 
-# Last part of the keys of absolute temperatures; those of rises and errors end otherwise.
+# Last part of the keys of absolute temperatures; keys of rises and errors end otherwise.
 _ABSOLUTE = re.compile(r"(.+_)?temperature(_[12])?")
 
 

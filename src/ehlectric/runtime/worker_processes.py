@@ -169,7 +169,7 @@ def _of_pool(pool: ProcessPoolExecutor, number: int) -> Iterator[Crew]:
             if not first or isinstance(error, BrokenExecutor):
                 raise
             LOGGER.info(_HERE, error)
-        # Limits of a service or a shell, such as that of ``ulimit -u``, allow no process.
+        # Limits of a service or a shell, such as ``ulimit -u``, allow no process.
         _terminate(pool)
         pool.shutdown(wait=False, cancel_futures=True)  # a thread that did not start cannot be waited for
         here = this_process()

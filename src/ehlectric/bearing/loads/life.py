@@ -214,9 +214,10 @@ def equivalent_load_of_rollers(
     return 0.67 * (radial + cotangent * axial) if beyond else radial + 0.45 * cotangent * axial
 
 
-# Factors X_0 and Y_0 of the equivalent static load of ISO 76, as makers' catalogues print them (JTEKT, Koyo
-# bearing catalogue, static equivalent load; SKF, rolling bearings): of deep-groove bearings, and of a row of
-# angular-contact balls over the contact angle [degrees].
+# Factors X_0 and Y_0 of the equivalent static load of ISO 76: of deep-groove bearings, and of a row of
+# angular-contact balls over the contact angle [degrees]. The JTEKT (Koyo) bearing catalogue prints the same
+# values for deep-groove bearings and for 15, 30 and 40 degrees. Unverified source: Y_0 at 20, 25, 35 and 45
+# degrees, and the rule of 0.22 cot(a) for rollers.
 _STATIC_DEEP = 0.6, 0.5
 _STATIC_ANGLES = (15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0)
 _STATIC_Y = (0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
