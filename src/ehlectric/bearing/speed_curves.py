@@ -230,6 +230,12 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     return Curves(speed, values, factors, critical, touching, height)
 
 
+def scaled_curves(case: BearingCase, summary: Mapping[str, Any]) -> Curves | None:
+    """Curves of a bearing over its speed, scaled to its ``summary``; None if no other speed has a result."""
+    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
+    return curves_of(points, (case.bearing.inner_speed, dict(summary))) if len(points) > 1 else None
+
+
 def listed(points: Speeds, own: float) -> list[Speed]:
     """Points for a table: all of a few, else the points at ``PARTS`` times the own speed [rad/s]."""
     if len(points) < _FEW:

@@ -11,7 +11,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.speed_curves import curves_of, over_speed
+from ehlectric.bearing.speed_curves import scaled_curves
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.contact.problems import Setup
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import InputError, printable
@@ -65,7 +66,8 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
             takes=f"less than {_ROWS} rows and at most {_COLUMNS} columns; its CSV file has all of it",
         )
     book = openpyxl.Workbook(write_only=True)
-    summary = flat(result.summary())
+    tables = result.summary()
+    summary = flat(tables)
     inputs = {key: value for key, value in summary.items() if key.startswith("inputs.")}
     if not inputs:
         inputs = flat({"inputs": case.plain_tables()})
@@ -73,7 +75,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
     _fill(book, "inputs", _keys(inputs, case))
     _fill(book, "table", _table(frame, case))
     if isinstance(result, BearingResult):
-        _fill_over_speed(book, result)
+        _fill_over_speed(book, result.case, tables)
     if isinstance(result, BearingResult | DriveResult) and result.duty is not None:
         columns = {name: (unit, "", values) for name, (unit, values) in result.duty.columns().items()}
         _fill(book, "duty cycle", _columns(columns))
@@ -153,13 +155,11 @@ def _table(frame: pd.DataFrame, case: SweptCase) -> Iterator[Iterable[Any]]:
     return _columns(columns)
 
 
-def _fill_over_speed(book: Any, result: BearingResult) -> None:
+def _fill_over_speed(book: Any, case: BearingCase, summary: Mapping[str, Any]) -> None:
     """Sheet of the curves of a bearing over its speed; none if the curves cannot be computed."""
-    summary, case = result.summary(), result.case
-    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
-    if len(points) < 2:
+    curves = scaled_curves(case, summary)
+    if curves is None:
         return
-    curves = curves_of(points, (case.bearing.inner_speed, summary))
     values = {"bearing.inner_speed": curves.speed}
     values |= {f"bearing.{key}": value for key, value in curves.values.items()}
     labels = {key: label_of(key, case) for key in values}

@@ -13,7 +13,7 @@ from ehlectric.app.compute import bearing_answers, contact_answers
 from ehlectric.app.compute.answer_parts import card, case_of, page_warnings_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
 from ehlectric.bearing.solution import error_text
-from ehlectric.bearing.speed_curves import curves_of, over_speed
+from ehlectric.bearing.speed_curves import scaled_curves
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
@@ -89,11 +89,9 @@ _OVER_SPEED = ("first_break", "shaft_voltage")
 
 def _over_speed(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[OverSpeed]:
     """First breakdown voltage and shaft voltage over the speed; none where no other speed is solved."""
-    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
-    if len(points) < 2:
+    curves, at = scaled_curves(case, summary), case.bearing.inner_speed
+    if curves is None:
         return
-    at = case.bearing.inner_speed
-    curves = curves_of(points, (at, dict(summary)))
     for key in _OVER_SPEED:
         speed, voltage = curves.between(key)
         yield OverSpeed(
