@@ -6,8 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
+
 from ehlectric.arrays import Numbers
 from ehlectric.cases.amounts import amount_at
+from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, within
 
 # Rq/Ra of heights with a Gaussian distribution, sqrt(pi/2).
@@ -61,3 +64,17 @@ def _parsed(table: Mapping[str, Any], book: str, key: str) -> float | None:
 def without_rq(tables: dict[str, Any], rq: str, ra: str) -> dict[str, Any]:
     """Values of a table for a file, which states the Ra and not the Rq that follows from it."""
     return {key: value for key, value in tables.items() if key != rq or tables.get(ra) is None}
+
+
+class StatedRa(Table):
+    """Table whose ``rq`` may be stated as ``ra``, with or without ``rq_over_ra``."""
+
+    @model_serializer(mode="wrap")
+    def _of_ra(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return without_rq(handler(self), "rq", "ra")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_rq(cls, table: Any) -> Any:
+        """Rq that follows from a given Ra."""
+        return with_rq(table, cls.BOOK, "rq", "ra")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
-from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
+from pydantic import model_validator
 
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.contact_inputs import Contact
-from ehlectric.cases.mean_heights import with_rq, without_rq
+from ehlectric.cases.mean_heights import StatedRa
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -50,7 +50,7 @@ class Coating(Table, book="meter.coating"):
         return self.thickness / self.relative_permittivity
 
 
-class Meter(Table, book="meter"):
+class Meter(StatedRa, book="meter"):
     """Surroundings of the film that a capacitance meter at the two bodies sees too."""
 
     fill: (
@@ -66,16 +66,6 @@ class Meter(Table, book="meter"):
     ra: float | None = None
     rq_over_ra: float | None = None
     coating: Coating | None = None
-
-    @model_serializer(mode="wrap")
-    def _of_ra(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return without_rq(handler(self), "rq", "ra")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_rq(cls, table: Any) -> Any:
-        """Rq that follows from a given Ra."""
-        return with_rq(table, "meter", "rq", "ra")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, SerializerFunctionWrapHandler, model_serializer, model_validator
+from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.mean_heights import FACTOR, with_rq, without_rq
-from ehlectric.cases.table import Table, as_mapping
+from ehlectric.cases.mean_heights import FACTOR, StatedRa
+from ehlectric.cases.table import as_mapping
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
 
@@ -29,7 +29,7 @@ _POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
 _STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
 
 
-class Roughness(Table, book="roughness"):
+class Roughness(StatedRa, book="roughness"):
     """One rough surface, read from a file or generated, and its processing steps."""
 
     surface: Literal[1, 2]
@@ -69,16 +69,6 @@ class Roughness(Table, book="roughness"):
     shift: float = 0.0
     shift_y: float = 0.0
     extend: Literal["mirror", "repeat", "flat"] = "mirror"
-
-    @model_serializer(mode="wrap")
-    def _of_ra(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return without_rq(handler(self), "rq", "ra")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_rq(cls, table: Any) -> Any:
-        """Rq that follows from a given Ra."""
-        return with_rq(table, "roughness", "rq", "ra")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
