@@ -11,32 +11,14 @@ import pytest
 from ehlectric import BearingCase, Case, Sweep, load, run_motion, run_sweep, save, solve, solve_motion
 from tests.helpers.cycles import HEADS, ROWS
 from tests.helpers.drives import small_drive
-from tests.helpers.moving_cases import moving
+from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES
 
-LINE = {
-    "contact": {
-        "reduced_radius": "14.1 mm",
-        "reduced_modulus": "226 GPa",
-        "max_hertz_pressure": "0.5 GPa",
-        "entrainment_speed": "4 m/s",
-    },
-    "lubricant": {"base": "paper"},
-    "grid": {"nodes": 129},
-    "discharge": {"dielectric_strength": "15 V/um"},
-}
-BALL = {
-    "contact": {
-        "geometry": "point",
-        "radius_x": "10 mm",
-        "radius_y": "10 mm",
-        "reduced_modulus": "226 GPa",
-        "load": "20 N",
-        "entrainment_speed": "2 m/s",
-    },
-    "lubricant": {"base": "paper"},
-    "grid": {"nodes": 65},
-}
+LINE, BALL = (
+    {"contact": TABLES[geometry]["contact"], "lubricant": {"base": "paper"}, "grid": {"nodes": nodes}}
+    for geometry, nodes in (("line", 129), ("point", 65))
+)
+LINE |= {"discharge": {"dielectric_strength": "15 V/um"}}
 
 
 def bearing():
