@@ -10,6 +10,7 @@ from typing import Any
 
 from ehlectric.app.answers import Side
 from ehlectric.quantities.palette import AMBER, BLUE
+from ehlectric.readable import readable
 
 # Colours of both cases.
 _FIRST, _SECOND = BLUE, AMBER
@@ -32,7 +33,7 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
             look = {"marker": {"color": colour, "size": 11}, "textposition": "top left", "showlegend": False}
             traces.append({"type": "scatter", **at, **look, "hovertemplate": hover})
     ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1, 2, 5)]
-    log = {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": [f"{tick:g}" for tick in ticks]}
+    log = {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": [readable(t, 6) for t in ticks]}
     layout = {
         "xaxis": {"title": {"text": "speed of the inner ring [rpm]"}, **log},
         "yaxis": {"title": {"text": "voltage [V]"}, **log},
