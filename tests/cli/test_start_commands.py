@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -10,7 +11,7 @@ import pytest
 
 from ehlectric.commands.command_line import app
 from ehlectric.commands.options import files_ending
-from ehlectric.commands.start_commands import TEMPLATES
+from ehlectric.commands.start_commands import TEMPLATES, template
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.file_kinds import kind_of_file
 from ehlectric.runs.meaning import check
@@ -230,3 +231,12 @@ def test_bearings_of_the_library_are_listed(ehlectric):
     (found,) = (bearing for bearing in listed if bearing["name"] == "nu-205")
     assert (found["elements"], found["roller_length"], found["static_rating"]) == (13, 0.008, 27700.0)
     assert (found["rating_of"], found["internal_geometry"]) == ("NSK NU 205 EW", "by rule")
+
+
+def test_files_with_a_motor_state_that_the_second_bearing_is_equal():
+    """All files with a motor but without the capacitance of the second bearing."""
+    files = [*EXAMPLES.glob("*.toml"), *map(template, TEMPLATES)]
+    with_motor = [path for path in files if re.search(r"^\[(case\.)?motor\]", path.read_text("utf-8"), re.M)]
+    assert len(with_motor) >= 8
+    missing = [path.name for path in with_motor if "second bearing" not in path.read_text("utf-8")]
+    assert not missing

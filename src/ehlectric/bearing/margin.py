@@ -601,7 +601,8 @@ def _of_ceramics(solution: BearingSolution) -> Verdict:
     insulates = f"insulates at least {amount(float(f'{most:.2g}'), 'V')}"
     ends = " to ".join(readable(1e-6 * end) for end in strength_interval(element.dielectric_strength))
     why = f"{element.strength_of}, ± {100.0 * STRENGTH_UNKNOWN:.0f} %"
-    assumed = f" Best estimate: strength of the ceramic {ends} V/µm ({why})."
+    assumed = f" Best estimate: strength of the ceramic {ends} V/µm ({why})"
+    assumed = f"{assumed}{equal_bearings_clause(solution.case)}."
     if voltage is None:
         no_voltage = "but no shaft voltage is known without [motor]"
         return Verdict(
@@ -853,4 +854,12 @@ def _assumptions(solution: BearingSolution) -> str:
         films = f"fully flooded, {film} with the solved heat of pure rolling"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
-    return f"{'Upper bound' if case.bearing.bounding else 'Best estimate'}: {films}; {clause}."
+    kind = "Upper bound" if case.bearing.bounding else "Best estimate"
+    return f"{kind}: {films}; {clause}{equal_bearings_clause(case)}."
+
+
+def equal_bearings_clause(case: BearingCase) -> str:
+    """Clause about the second bearing of the shaft if its capacitance is not given, else empty."""
+    if case.motor is None or case.motor.second_bearing_capacitance is not None:
+        return ""
+    return "; the second bearing of the shaft is taken as equal (for two different bearings: ehlectric drive)"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.margin import equal_bearings_clause
 from ehlectric.bearing.quick_contacts import formula_factor
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.bearing_case import BearingCase
@@ -187,7 +188,9 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     strength = assumption_of(case.discharge)
     if _strength_varies(results):
         strength = "the dielectric strength is an assumption"
-    text = f"{bound}{strength}."
+    second = isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied
+    equal = equal_bearings_clause(case) if second else ""
+    text = f"{bound}{strength}{equal}."
     yield text[0].upper() + text[1:]
 
 

@@ -275,3 +275,17 @@ def test_a_field_beyond_any_liquid_is_a_warning():
     strong = solved(discharge__dielectric_strength="3300 V/um")
     assert "strength-above-liquids" in {one.code for one in strong.warnings}
     assert strong.verdict.level == "yellow"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("changes", [{}, {"bearing__element_material": "silicon-nitride"}])
+def test_an_equal_second_bearing_is_an_assumption(changes):
+    """The voltage of a shaft depends on both of its bearings, and the file describes one of them."""
+    given = {"motor__second_bearing_capacitance": "200 pF"}
+    assumed, known, alone = (
+        solved(**changes, **others).verdict.text for others in ({}, given, {"motor": None})
+    )
+    assert "second bearing of the shaft is taken as equal" in assumed
+    assert "ehlectric drive" in assumed
+    assert "second bearing" not in known
+    assert "second bearing" not in alone
