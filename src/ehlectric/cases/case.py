@@ -23,7 +23,7 @@ from ehlectric.cases.grid_inputs import POINT_GRID_KEYS, Electric, Grid, Motion,
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.meter_inputs import Meter
-from ehlectric.cases.replaced_keys import refuse_replaced
+from ehlectric.cases.replaced_keys import refuse_another_oil, refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files, unused_of_surfaces
 from ehlectric.cases.table import CaseFile, Title, as_mapping, read_toml, with_name_keys
 from ehlectric.errors import InputError, short, shown
@@ -315,7 +315,8 @@ class Case(CaseFile, book="case_file"):
         A new key replaces its alternative: a Hertz pressure replaces the load, and a new ``lubricant.base``
         replaces all values of the lubricant; ``lubricant="fva-3"`` is such a base. A new geometry removes the
         keys that only the old geometry has, and the lengths, nodes and error of its grid. ``laws`` replaces
-        laws of your own; None removes them.
+        laws of your own; None removes them. If laws of your own give a property of the oil, a new base needs
+        new ``laws``.
 
         Parameters
         ----------
@@ -328,6 +329,7 @@ class Case(CaseFile, book="case_file"):
         """
         refuse_deep({**tables, "changes": changes})
         flat = with_name_keys({**flattened(tables), **(changes or {})}, Case)
+        new_laws = LAWS in flat
         laws = flat.pop(LAWS, self._laws)
         table = self._without_laws()
         geometry = flattened(flat).get("contact.geometry", self.contact.geometry)
@@ -338,7 +340,10 @@ class Case(CaseFile, book="case_file"):
         changed = self.from_dict(table | {LAWS: laws})
         if changed.own_laws is not None:
             before = flattened(self._without_laws())
-            check_changes(changed, {key: (before.get(key),) for key in flattened(flat)})
+            others = {key: (before.get(key),) for key in flattened(flat) if key != "lubricant.base"}
+            check_changes(changed, others)
+            if "lubricant.base" in flat and not new_laws:
+                refuse_another_oil(changed.lubricant, self.lubricant, changed.own_laws.names)
         return changed
 
 

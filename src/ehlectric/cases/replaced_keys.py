@@ -16,6 +16,9 @@ from ehlectric.quantities.alternatives import ALTERNATIVES
 # Keys of the data sheet of an oil that its viscosity does not use, and those that its density uses also.
 _NOT_VISCOUS, _OF_DENSITY = {"thermal_conductivity"}, ("density_15", "expansion")
 
+# Key of the oil of the library, which a change of the whole oil changes.
+_BASE = "lubricant.base"
+
 
 def replaced_keys(oil: Properties, own: Collection[str]) -> dict[str, str]:
     """Dotted keys that only properties with laws of the user's own use, each with one of these properties.
@@ -73,7 +76,8 @@ def refuse_replaced(
     given: Mapping[str, Any],
     changes: Mapping[str, Iterable[Any]],
 ) -> None:
-    """Raise an InputError for another value of a key that only replaced laws use.
+    """Raise an InputError for another value of a key that only replaced laws use, or for another oil of the
+    library that differs in such a key.
 
     ``names``, names of the user's own laws by property; ``given``, values of the case by dotted key;
     ``changes``, the other values of some keys. All values are in SI units.
@@ -88,3 +92,32 @@ def refuse_replaced(
                 f"has no effect, as {names[of]} gives the {of}; change the function, or remove it from laws",
                 takes="the value of the case",
             )
+    for name in changes.get(_BASE, ()):
+        if name is not None and name != given.get(_BASE):
+            refuse_another_oil(oil, Properties.from_dict({"base": name}), names)
+
+
+def refuse_another_oil(oil: Properties, other: Properties, names: Mapping[str, str]) -> None:
+    """Raise an InputError if another oil differs in a property that laws of the user's own replace.
+
+    ``names``, names of these laws by property.
+    """
+    replaced = replaced_keys(oil, names) | replaced_keys(other, names)
+    for key, of in replaced.items():
+        table, _, path = key.partition(".")
+        if table == "lubricant" and _value(oil, path) != _value(other, path):
+            raise InputError.worded(
+                _BASE,
+                f"another oil does not change the {of}, as {names[of]} gives it; give the laws of the new "
+                "oil with it, as in case.replace(lubricant=..., laws=Laws(...)), or use the case without "
+                "laws, case.replace(laws=None)",
+                takes="the oil of the case",
+            )
+
+
+def _value(oil: Properties, path: str) -> Any:
+    """Value of a key of an oil, or of a key of its data sheet; None if the oil does not give it."""
+    value: Any = oil
+    for name in path.split("."):
+        value = getattr(value, name, None)
+    return value

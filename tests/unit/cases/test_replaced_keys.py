@@ -108,10 +108,38 @@ def test_an_equal_value_is_accepted():
 def test_other_values_are_accepted():
     own = case("plain", "viscosity")
     assert own.replace({"contact.temperature": "60 degC"}).oil.viscosity == pytest.approx(visc(0.0, 333.15))
-    assert own.replace({"lubricant.base": "fva-3"}).lubricant.base == "fva-3"
     assert own.replace({"lubricant.density": 900.0}).oil.density == 900.0
     without = own.replace({"lubricant.viscosity": 0.1}, laws=None)
     assert without.oil.viscosity == 0.1
+
+
+@pytest.mark.parametrize("name", ["viscosity", "density", "permittivity"])
+def test_another_oil_is_refused_if_an_own_law_replaces_its_property(name, tmp_path):
+    """fva-3 has another viscosity, density and permittivity, which would not be used."""
+    own, match = case("plain", name), rf"^(vary\.)?lubricant\.base: .*{name}.*replace\(lubricant=.*laws=Laws"
+    for change in ({"lubricant": "fva-3"}, {"lubricant": {"base": "fva-3"}}):
+        with pytest.raises(InputError, match=match):
+            own.replace(**change)
+    with pytest.raises(InputError, match=match):
+        own.replace({"lubricant.base": "fva-3", "contact.entrainment_speed": 3.0})
+    for vary in ({"lubricant.base": ["paper", "fva-3"]}, {"lubricant": ["paper", "fva-3"]}):
+        with pytest.raises(InputError, match=match):
+            Sweep.from_dict(sweep_of(own, vary))
+        sweep = Sweep.from_dict(sweep_of(case(), vary))
+        with pytest.raises(InputError, match=match):
+            run_sweep(sweep, tmp_path / "sweep", workers=1, laws=laws_of(name))
+
+
+def test_another_oil_is_accepted_without_effect_on_own_laws_or_with_new_laws():
+    own = case("plain", "viscosity")
+    assert own.replace(lubricant="fva-3", laws=None).own_laws is None
+    new = own.replace(lubricant="fva-3", laws=laws_of("viscosity"))
+    assert new.lubricant.base == "fva-3"
+    assert new.oil.viscosity == visc(0.0, 313.15)
+    strength = case("plain", "strength", discharge={"length": "10 mm"})
+    assert strength.replace(lubricant="fva-3").lubricant.base == "fva-3"
+    paper = Case.line(**CONTACT, lubricant="paper", grid={"nodes": 401}, laws=laws_of("viscosity"))
+    assert paper.replace(lubricant="paper") == paper
 
 
 @pytest.mark.parametrize(
@@ -155,7 +183,6 @@ def test_a_sweep_over_a_replaced_value_is_refused_before_it_is_solved(vary, tabl
 
 def test_a_sweep_over_other_values_is_accepted():
     for key, values in {
-        "lubricant.base": ["paper", "fva-3"],
         "contact.temperature": ["40 degC", "60 degC"],
         "lubricant.viscosity": [case().lubricant.viscosity],
     }.items():
