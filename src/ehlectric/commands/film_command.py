@@ -13,9 +13,8 @@ from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.readable import readable
 
 if TYPE_CHECKING:
-    from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
-    from ehlectric.film.atlas.atlas_groups import Groups
     from ehlectric.quantities.rows import Row
+    from ehlectric.runs.lookups import LookedUp
 
 _FILMS = {"central": "central film", "minimum": "minimum film", "mean": "mean film over the Hertz zone"}
 
@@ -46,19 +45,22 @@ def film(
     with user_errors():
         from ehlectric.runs.lookups import film_of, film_summary
 
-        groups, result, found = film_of(given, options=True)
+        looked_up = film_of(given, options=True)
     if as_json:
-        typer.echo(json.dumps(film_summary(groups, result, found), indent=2))
+        typer.echo(json.dumps(film_summary(looked_up), indent=2))
     else:
-        print_rows(_rows(groups, result, found), "film from the atlas")
+        print_rows(_rows(looked_up), "film from the atlas")
 
 
-def _rows(groups: Groups, film: AtlasFilm, found: ContactFilm | None) -> Iterator[Row]:
+def _rows(looked_up: LookedUp) -> Iterator[Row]:
     """Rows of the film: in nm for a contact in SI units, else in Moes' unit."""
     from ehlectric.quantities.rows import Row
 
+    groups, film, found = looked_up.groups, looked_up.film, looked_up.contact
     yield Row("Moes' M", groups.moes_m)
-    yield Row("Moes' L", groups.moes_l, note=", with the coefficient of the atlas")
+    if looked_up.moes_l is not None:
+        yield Row("Moes' L", looked_up.moes_l, note=", with alpha* of the oil")
+    yield Row("Moes' L of the atlas", groups.moes_l, note=", with the film coefficient")
     if groups.ratio is not None:
         yield Row("ratio of the semi-axes k", groups.ratio)
     for name, title in _FILMS.items():

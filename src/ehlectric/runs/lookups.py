@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -134,7 +134,8 @@ def film(
     Parameters
     ----------
     m, l, k : float, optional
-        Moes' load parameter M and material parameter L, and the ratio of the semi-axes k of a point contact.
+        Moes' load parameter M, material parameter L with the film coefficient, ``atlas_moes_l``, and the
+        ratio of the semi-axes k of a point contact.
     oil : str, Path or mapping, optional
         Oil, as ``ehlectric.oil`` takes it.
     temperature : str or float, optional
@@ -151,9 +152,11 @@ def film(
     Returns
     -------
     dict
-        ``moes_m``, ``moes_l``, ``ratio``; ``central``, ``minimum`` and ``mean`` film in Moes' unit;
-        ``errors``, relative error of each; and, with an oil, ``central_thickness``, ``minimum_thickness`` and
-        ``mean_thickness`` [m].
+        ``moes_m``, ``moes_l``, ``atlas_moes_l``, ``ratio``; ``central``, ``minimum`` and ``mean`` film in
+        Moes' unit; ``errors``, relative error of each; and, with an oil, ``central_thickness``,
+        ``minimum_thickness`` and ``mean_thickness`` [m]. ``moes_l`` is L with the reciprocal asymptotic
+        coefficient of the oil, as in ``check`` and in summary.json; None without an oil. ``atlas_moes_l`` is
+        L with the film coefficient, which the atlas uses.
 
     Raises
     ------
@@ -172,22 +175,30 @@ def film(
     """
     given = {"m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed}
     return film_summary(
-        *film_of(given | {"radius": radius, "radius_across": radius_across, "modulus": modulus})
+        film_of(given | {"radius": radius, "radius_across": radius_across, "modulus": modulus})
     )
 
 
-def film_of(
-    given: Mapping[str, Any], *, options: bool = False
-) -> tuple[Groups, AtlasFilm, ContactFilm | None]:
-    """Films of the arguments of ``film``: groups, films in Moes' unit, and of a contact with an oil in m.
+@dataclass(frozen=True)
+class LookedUp:
+    """Film of the atlas as ``film`` finds it."""
+
+    groups: Groups  # M, L with the film coefficient, and k
+    film: AtlasFilm  # films in Moes' unit
+    # Films in m, and L with the reciprocal asymptotic coefficient; None without an oil.
+    contact: ContactFilm | None = None
+    moes_l: float | None = None
+
+
+def film_of(given: Mapping[str, Any], *, options: bool = False) -> LookedUp:
+    """Films of the arguments of ``film``.
 
     Errors name ``options`` of the command if the arguments are texts of them, whose numbers have units.
     """
     groups = [given.get(name) for name in _GROUPS]
     others = {name: value for name, value in given.items() if name not in _GROUPS and value is not None}
     if all(value is None for value in groups):
-        found = _by_numbers(others, options=options)
-        return found.groups, found.film, found
+        return _by_numbers(others, options=options)
     m, l, k = (_named(name, options=options) for name in _GROUPS)  # noqa: E741
     for name in others:
         got = f"it with {m}, {l} or {k}"
@@ -201,7 +212,7 @@ def film_of(
     from ehlectric.film.atlas.atlas_groups import Groups
 
     of_groups = Groups(*groups)
-    return of_groups, atlas_film(of_groups), None
+    return LookedUp(of_groups, atlas_film(of_groups))
 
 
 def _named(name: str, *, options: bool) -> str:
@@ -213,7 +224,7 @@ def _named(name: str, *, options: bool) -> str:
 _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
 
 
-def _by_numbers(given: Mapping[str, Any], *, options: bool) -> ContactFilm:
+def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
     """Film of a contact in SI units and an oil."""
     from ehlectric.cases import case_oil
     from ehlectric.film.atlas.atlas_films import contact_film
@@ -228,10 +239,14 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> ContactFilm:
     needed = [name for name in _UNITS if point or name != "radius_across"]
     values = {name: _number(name, given, _UNITS[name], options=options) for name in needed}
     force = _number("load", given, "N" if point else "N/m", options=options)
-    common = (values["modulus"], force, values["speed"], at.viscosity, 0.0)
+    common = (values["modulus"], force, values["speed"], at.viscosity, at.alpha_star)
+    contact: PointContact | LineContact
     if point:
-        return contact_film(PointContact(values["radius"], values["radius_across"], *common), at)
-    return contact_film(LineContact(values["radius"], *common), at)
+        contact = PointContact(values["radius"], values["radius_across"], *common)
+    else:
+        contact = LineContact(values["radius"], *common)
+    found = contact_film(contact, at)
+    return LookedUp(found.groups, found.film, found, float(contact.moes_l))
 
 
 def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) -> float:
@@ -245,11 +260,13 @@ def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) ->
         return Amount(unit=unit, above=0.0).parse(given[name], written=options)
 
 
-def film_summary(groups: Groups, result: AtlasFilm, found: ContactFilm | None) -> dict[str, Any]:
+def film_summary(found: LookedUp) -> dict[str, Any]:
     """Numbers of a film of the atlas by name: in Moes' unit, and in m for a contact with an oil."""
-    numbers: dict[str, Any] = asdict(groups) | asdict(result)
-    if found is not None:
-        numbers |= {f"{name}_thickness": getattr(found, f"{name}_thickness") for name in _FILMS}
+    groups, films = found.groups, found.contact
+    numbers = {"moes_m": groups.moes_m, "moes_l": found.moes_l, "atlas_moes_l": groups.moes_l}
+    numbers |= {"ratio": groups.ratio} | asdict(found.film)
+    if films is not None:
+        numbers |= {f"{name}_thickness": getattr(films, f"{name}_thickness") for name in _FILMS}
     return numbers
 
 
