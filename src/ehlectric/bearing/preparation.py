@@ -113,21 +113,68 @@ def beyond_shoulders(conditions: BearingConditions[Any], at: Equilibrium) -> Mas
     return np.asarray(inner | outer)
 
 
-def check_shoulders(conditions: BearingConditions[Any], at: Equilibrium) -> None:
+def check_shoulders(conditions: BearingConditions[Any], equilibria: tuple[Equilibrium, ...]) -> None:
     """Refuse ball contacts of a single bearing outside the groove. Raises InputError where the centre of a
-    contact is beyond the shoulder.
+    contact is beyond the shoulder. Its text has no angle of a contact, so that the points of a sweep have one
+    reason; ``got`` contains the largest angle.
     """
     bearing, geometry = conditions.bearing, conditions.geometry
     for name, inner in (("inner", True), ("outer", False)):
-        furthest = furthest_angle(geometry, at, inner=inner)
+        furthest = max(furthest_angle(geometry, at, inner=inner) for at in equilibria)
         end = shoulder_angle(bearing, inner=inner)
         if furthest >= end:
-            raise InputError(
+            height, degrees = f"{bearing.shoulder_height:g}", math.degrees(end)
+            *others, last = "a higher shoulder", *_within_shoulders(conditions, len(equilibria))
+            remedies = " or ".join(filter(None, [", ".join(others), last]))
+            raise InputError.worded(
                 "bearing.shoulder_height",
-                got=f"{bearing.shoulder_height:g}, an {name} groove that ends {math.degrees(end):.1f} "
-                f"deg up, and a contact {math.degrees(furthest):.1f} deg up;",
-                takes="a higher shoulder, a smaller contact angle, or less axial load",
+                f"got {height}, with which the {name} groove ends {degrees:.1f} deg up, and a contact is "
+                f"further up; expected {remedies}",
+                got=f"{height}, an {name} groove that ends {degrees:.1f} deg up, and a contact "
+                f"{math.degrees(furthest):.1f} deg up",
+                takes=remedies,
             )
+
+
+# Parts of a value to which a remedy may reduce it, and parts of the load by which an axial load may rise.
+_REDUCED, _ADDED = (0.9, 0.75, 0.5, 0.25), (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
+
+
+def _within_shoulders(conditions: BearingConditions[Any], positions: int) -> list[str]:
+    """Changes that keep the contacts of a bearing within its grooves, computed for several sizes of each.
+
+    The centrifugal force raises inner contact angles, and most at small axial loads; at low speeds an axial
+    load raises the angles with both rings. Less axial load, which may take the load off balls, is a remedy
+    only where more of it is none.
+    """
+    bearing = conditions.bearing
+    load = math.hypot(bearing.radial_load, bearing.axial_load)
+    tried = {
+        "more axial load": [("axial_load", bearing.axial_load + part * load) for part in _ADDED],
+        "less axial load": [("axial_load", part * bearing.axial_load) for part in _REDUCED],
+        "less radial load": [("radial_load", part * bearing.radial_load) for part in _REDUCED],
+        "a lower speed": [("inner_speed", part * bearing.inner_speed) for part in _REDUCED],
+    }
+    if bearing.contact_angle is not None:
+        tried["a smaller contact angle"] = [
+            ("contact_angle", part * bearing.contact_angle) for part in _REDUCED
+        ]
+    # Each entry changes one quantity; its other quantities are unchanged.
+    changes = [change for sizes in tried.values() for change in sizes]
+    arrays = {
+        name: np.array([value if key == name else getattr(bearing, name) for key, value in changes])
+        for name in dict(changes)
+    }
+    changed = bearing.model_copy(update=arrays)
+    running = {} if conditions.clearance is None else {"radial_clearance": conditions.geometry.clearance}
+    geometry = KINDS[bearing.kind].geometry(changed.model_copy(update=running))
+    many = replace(conditions, bearing=changed, geometry=geometry)
+    refused = np.zeros(len(changes), dtype=bool)
+    for at in equilibria_of(many, positions):
+        refused |= np.logical_not(at.balanced) | beyond_shoulders(many, at)
+    names = (name for name, sizes in tried.items() for _ in sizes)
+    helpful = list(dict.fromkeys(name for name, no in zip(names, refused, strict=True) if not no))
+    return [name for name in helpful if name != "less axial load" or "more axial load" not in helpful]
 
 
 def too_thick(contact: Contact) -> Mask:
@@ -322,8 +369,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
         check_load(conditions)
     equilibria = equilibria_of(conditions, positions)
     if not case.shape:
-        for at in equilibria:
-            check_shoulders(conditions, at)
+        check_shoulders(conditions, equilibria)
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":

@@ -188,8 +188,9 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     strength = assumption_of(case.discharge)
     if _strength_varies(results):
         strength = "the dielectric strength is an assumption"
-    second = isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied
-    equal = equal_bearings_clause(case) if second else ""
+    equal = ""
+    if isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied:
+        equal = equal_bearings_clause(case)
     text = f"{bound}{strength}{equal}."
     yield text[0].upper() + text[1:]
 

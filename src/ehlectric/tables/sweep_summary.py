@@ -36,7 +36,9 @@ def sweep_rows(results: SweepResults) -> list[Row]:
     for status in ("solved", "not converged", "failed"):
         reasons = [point.reason for point in results.points if point.status == status]
         rows.append(Row(f"points {status}", str(len(reasons)), note=f"of {len(results.points)}"))
-        rows += [Row(f"  reason, {_points(count)}", note=reason) for count, reason in _grouped(reasons)]
+        rows += [
+            Row(f"  reason, {_points(count)}", note=reason) for count, reason in grouped_reasons(reasons)
+        ]
     return rows
 
 
@@ -44,7 +46,7 @@ def _points(count: int) -> str:
     return "1 point" if count == 1 else f"{count} points"
 
 
-def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
+def grouped_reasons(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
     """Most frequent reasons with the number of their points; reasons that differ in numbers are one."""
     groups: dict[str, list[str]] = {}
     for reason in filter(None, reasons):

@@ -66,6 +66,7 @@ from ehlectric.sweep.slices import known_values
 from ehlectric.sweep.store import NAME, read_sweep
 from ehlectric.sweep.sweep_inputs import Breakdown, Sweep, breakdown_of, check_varied, ranked_value
 from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.tables.sweep_summary import grouped_reasons
 
 # Number of points whose summaries say what may be shown.
 _SAMPLE = 50
@@ -162,8 +163,8 @@ def deciding(chart: Chart) -> Deciding:
 
 def _failures(results: SweepResults) -> Iterator[PageWarning]:
     """Warnings with the reasons why points have no result, the most frequent one first."""
-    reasons = Counter(point.reason for point in results.points if not point.solved and point.reason)
-    for reason, count in reasons.most_common(_MOST_WARNINGS):
+    reasons = (point.reason for point in results.points if not point.solved)
+    for count, reason in grouped_reasons(reasons):
         points = "1 point has" if count == 1 else f"{count} points have"
         yield PageWarning("", "warning", f"{points} no result: {reason}")
 
