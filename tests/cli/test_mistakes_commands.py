@@ -186,7 +186,7 @@ def test_lambda_of_a_rough_contact_is_estimated_by_formula(ehlectric, files):
     found = json.loads(ehlectric("check", "case.toml", "--json").stdout)
     estimate = found["lambda_by_formula"]
     assert estimate["rq"] == pytest.approx(500e-9 / np.sqrt(2.0), rel=0.01)
-    film = found["film_formulas"]["moes"]["central_thickness"]
+    film = found["film_formulas"]["pan_hamrock"]["minimum_thickness"]
     assert estimate["lambda_ratio"] == pytest.approx(film / estimate["rq"], rel=1e-12)
     assert ("likely to touch" in words_of(ehlectric("check", "case.toml"))) == (film < estimate["rq"])
 

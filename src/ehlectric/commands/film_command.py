@@ -31,6 +31,7 @@ def film(
     modulus: str | None = None,
     load: str | None = None,
     speed: str | None = None,
+    composite_rq: str | None = None,
     as_json: bool = False,
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
@@ -41,6 +42,7 @@ def film(
     given = {
         "m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed,
         "radius": radius, "radius_across": radius_across, "modulus": modulus,
+        "composite_rq": composite_rq,
     }  # fmt: skip
     with user_errors():
         from ehlectric.runs.lookups import film_of, film_summary
@@ -69,6 +71,9 @@ def _rows(looked_up: LookedUp) -> Iterator[Row]:
             yield Row(f"{title}, Moes' unit", getattr(film, name), note=error, digits=".4g")
         else:
             yield Row(title, getattr(found, f"{name}_thickness"), "nm", error, digits=".4g")
+    if looked_up.lambda_ratio is not None:
+        note = ", minimum film / composite Rq"
+        yield Row("lambda ratio", looked_up.lambda_ratio, note=note, digits=".3g")
     yield Row("minimum at x/b", film.minimum_at[0])
     if groups.ratio is not None:
         yield Row("minimum at y/a", film.minimum_at[1])

@@ -164,20 +164,32 @@ def breakdown_by_formula(
         return None
     if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
         return None
-    formula = KINDS[conditions.geometry].formulas[BREAKDOWN_FORMULAS[conditions.geometry]]
-    film = formula(conditions.contact).minimum_thickness
+    found = minimum_by_formula(conditions)
+    film = found["minimum_thickness"]
     if film is None:
         return None
     strength = float(dielectric_strength(discharge, np.zeros(())))
-    voltage, applied = strength * float(film), case.electric.voltage
-    return {
-        "formula": formula.name,
-        "outside_range": formula.ranges(conditions.contact)["minimum_thickness"],
-        "minimum_thickness": float(film),
+    voltage, applied = strength * film, case.electric.voltage
+    return found | {
         "dielectric_strength": strength,
         "breakdown_voltage": voltage,
         "applied_voltage": applied,
         "margin": voltage / applied if applied else None,
+    }
+
+
+def minimum_by_formula(conditions: Conditions | PointConditions) -> dict[str, Any]:
+    """Minimum film of a smooth contact by the formula that breakdown and lambda ratio use.
+
+    Returns the name of the formula, why the contact is ``outside_range``, or None, and
+    ``minimum_thickness`` [m], None if the viscosity does not grow with pressure.
+    """
+    formula = KINDS[conditions.geometry].formulas[BREAKDOWN_FORMULAS[conditions.geometry]]
+    film = formula(conditions.contact).minimum_thickness
+    return {
+        "formula": formula.name,
+        "outside_range": formula.ranges(conditions.contact)["minimum_thickness"],
+        "minimum_thickness": None if film is None else float(film),
     }
 
 

@@ -125,6 +125,7 @@ def film(
     modulus: Value | None = None,
     load: Value | None = None,
     speed: Value | None = None,
+    composite_rq: Value | None = None,
 ) -> dict[str, Any]:
     """Interpolate the films of a smooth contact in the atlas of solved films, as ``ehlectric film`` does.
 
@@ -148,6 +149,8 @@ def film(
         Load [N], of a line contact per length [N/m].
     speed : number, optional
         Entrainment speed, mean speed of both surfaces [m/s].
+    composite_rq : number, optional
+        Composite root-mean-square roughness of both surfaces [m], with an oil.
 
     Returns
     -------
@@ -156,7 +159,8 @@ def film(
         Moes' unit; ``errors``, relative error of each; and, with an oil, ``central_thickness``,
         ``minimum_thickness`` and ``mean_thickness`` [m]. ``moes_l`` is L with the reciprocal asymptotic
         coefficient of the oil, as in ``check`` and in summary.json; None without an oil. ``atlas_moes_l`` is
-        L with the film coefficient, which the atlas uses.
+        L with the film coefficient, which the atlas uses. With ``composite_rq``, ``lambda_ratio`` is
+        ``minimum_thickness`` divided by it.
 
     Raises
     ------
@@ -174,9 +178,8 @@ def film(
     652
     """
     given = {"m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed}
-    return film_summary(
-        film_of(given | {"radius": radius, "radius_across": radius_across, "modulus": modulus})
-    )
+    given |= {"radius": radius, "radius_across": radius_across, "modulus": modulus}
+    return film_summary(film_of(given | {"composite_rq": composite_rq}))
 
 
 @dataclass(frozen=True)
@@ -188,6 +191,7 @@ class LookedUp:
     # Films in m, and L with the reciprocal asymptotic coefficient; None without an oil.
     contact: ContactFilm | None = None
     moes_l: float | None = None
+    lambda_ratio: float | None = None  # minimum film divided by the composite Rq; None without a roughness
 
 
 def film_of(given: Mapping[str, Any], *, options: bool = False) -> LookedUp:
@@ -246,7 +250,11 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
     else:
         contact = LineContact(values["radius"], *common)
     found = contact_film(contact, at)
-    return LookedUp(found.groups, found.film, found, float(contact.moes_l))
+    ratio = None
+    if "composite_rq" in given:
+        rq = _number("composite_rq", given, "m", options=options)
+        ratio = float(found.minimum_thickness) / rq
+    return LookedUp(found.groups, found.film, found, float(contact.moes_l), ratio)
 
 
 def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) -> float:
@@ -267,6 +275,8 @@ def film_summary(found: LookedUp) -> dict[str, Any]:
     numbers |= {"ratio": groups.ratio} | asdict(found.film)
     if films is not None:
         numbers |= {f"{name}_thickness": getattr(films, f"{name}_thickness") for name in _FILMS}
+    if found.lambda_ratio is not None:
+        numbers["lambda_ratio"] = found.lambda_ratio
     return numbers
 
 

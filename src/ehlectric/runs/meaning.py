@@ -86,37 +86,41 @@ def _check_contact(case: Case) -> Meaning:
     if estimate is not None:
         summary["breakdown_by_formula"] = estimate
         rows += _breakdown_rows(estimate)
-    lambda_ratio = _lambda_by_formula(contact)
+    lambda_ratio = _lambda_by_formula(contact, case)
     if lambda_ratio is not None:
         summary["lambda_by_formula"] = lambda_ratio
-        rows += _lambda_rows(lambda_ratio)
+        rows += _lambda_rows(
+            lambda_ratio, ", in the Hertz zone, undeformed" if contact.rough else ", as given"
+        )
     if case.motion is not None:
         summary["motion"] = TransientContact.of(case, contact.rough).schedule.described()
         rows += schedule_rows(summary)
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
-# Formula by geometry of the central film that is compared with the roughness, for all lubrication regimes.
-_OF_LAMBDA = {"line": "moes", "point": "nijenbanning_venner_moes"}
-
-
-def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
-    """Film of smooth surfaces by a formula over the undeformed roughness; None for smooth surfaces."""
+def _lambda_by_formula(contact: PreparedContact, case: Case) -> dict[str, Any] | None:
+    """Minimum film of smooth surfaces by a formula, divided by the undeformed composite Rq; None without a
+    stated roughness. It is the Rq of the rough surfaces, or ``meter.rq``.
+    """
+    from ehlectric.contact.summary import minimum_by_formula
     from ehlectric.surfaces.profiles import FLAT
 
     rq = contact.composite_roughness()
+    if rq is None and case.meter is not None:
+        rq = case.meter.rq
     if rq is None or rq < FLAT:
         return None
-    formula = contact.kind.formulas[_OF_LAMBDA[contact.conditions.geometry]]
-    film: Any = formula(contact.conditions.contact).central_thickness
-    return {"formula": formula.name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
+    found = minimum_by_formula(contact.conditions)
+    film = found["minimum_thickness"]
+    return None if film is None else {**found, "rq": rq, "lambda_ratio": film / rq}
 
 
-def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
-    ratio = estimate["lambda_ratio"]
-    yield _row("lambda_by_formula.rq", estimate["rq"], ", in the Hertz zone, undeformed")
-    likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "hardly touch"
-    note = f", central film ({estimate['formula']}) / combined Rq: the surfaces {likely}"
+def _lambda_rows(estimate: Mapping[str, Any], where: str) -> Iterator[Row]:
+    ratio, reason = estimate["lambda_ratio"], estimate["outside_range"]
+    yield _row("lambda_by_formula.rq", estimate["rq"], where)
+    likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "touch rarely"
+    formula = f"{estimate['formula']}, outside its range: {reason}" if reason else estimate["formula"]
+    note = f", minimum film ({formula}) / combined Rq: the surfaces {likely}"
     yield _row("lambda_by_formula.lambda_ratio", ratio, note)
 
 

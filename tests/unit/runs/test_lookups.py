@@ -9,6 +9,7 @@ import pytest
 
 import ehlectric
 from ehlectric import Case, InputError
+from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES
 
@@ -95,6 +96,35 @@ def test_moes_l_of_a_film_is_that_of_a_check(point):
     assert again["moes_l"] is None
     # Without an oil, the atlas answers for a typical oil, with the spread between oils as an error.
     assert again["central"] == pytest.approx(found["central"], rel=again["errors"]["central"] + 0.05)
+
+
+def test_lambda_is_the_minimum_film_divided_by_the_composite_rq():
+    """Definition of the lambda ratio of bearings; Rq = sqrt(pi/2) Ra of Gaussian heights."""
+    found = ehlectric.film(**OIL, **LINE, composite_rq="0.1 um")
+    assert found["lambda_ratio"] == pytest.approx(found["minimum_thickness"] / 1e-7, rel=1e-12)
+    assert "lambda_ratio" not in ehlectric.film(**OIL, **LINE)
+    with pytest.raises(InputError, match=r"^composite_rq: "):
+        ehlectric.film(**OIL, **LINE, composite_rq="0 um")
+    contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0}
+    contact |= {"reduced_modulus": 226e9, "entrainment_speed": 2.0}
+    tables = {"contact": contact, "lubricant": "paper", "meter": {"fill": "oil", "ra": "50 nm"}}
+    checked = ehlectric.check(tables)
+    film = checked.summary["film_formulas"]["chittenden"]["minimum_thickness"]
+    rq = math.sqrt(math.pi / 2.0) * 50e-9
+    assert checked.summary["lambda_by_formula"]["lambda_ratio"] == pytest.approx(film / rq, rel=1e-12)
+    assert any(row.name == "lambda ratio by formula" for row in checked.rows)
+
+
+@pytest.mark.slow
+def test_lambda_of_a_contact_with_a_stated_roughness_is_in_the_table():
+    contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0}
+    contact |= {"reduced_modulus": 226e9, "entrainment_speed": 2.0}
+    tables = {"contact": contact, "lubricant": "paper", "meter": {"fill": "oil", "rq": "50 nm"}}
+    solved = ehlectric.solve(Case.from_dict(tables | {"grid": {"nodes": 65}}))
+    (row,) = [row for row in result_rows(solved) if row.name == "lambda ratio"]
+    expected = solved.film.minimum_thickness / 50e-9
+    assert row.value == pytest.approx(expected, rel=1e-12)
+    assert solved.summary()["meter"]["film_ratio"] == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_film_in_floats_is_the_film_in_texts():
