@@ -154,7 +154,9 @@ class InputError(ValueError):
 
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
-        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name."""
+        """Error of a key that does not exist; ``nearest`` is the existing key that it may mean, or empty."""
+        if not nearest:
+            return cls.worded(short(key), "unknown key; no known key has a similar name")
         return cls.worded(short(key), f"unknown key; the nearest known one is {nearest}", takes=nearest)
 
     @classmethod

@@ -518,8 +518,12 @@ def _shown_key(key: str) -> str:
     return key if key and key.isprintable() and len(key) <= 60 else shown(key)
 
 
+# Similarity of two names from which one may be a slip of the other, and letters of a name that begins others.
+_SIMILAR, _LEAST_LETTERS = 0.65, 3
+
+
 def nearest_key(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyType({})) -> str:
-    """Known keys that an unknown key may mean, as a text of a message; see ``meant``."""
+    """Known keys that an unknown key may mean, as a text of a message, empty without one; see ``meant``."""
     return any_of(meant(key, model, given))
 
 
@@ -531,6 +535,8 @@ def any_of(keys: Sequence[str]) -> str:
     >>> any_of(["a", "b", "c"])
     'a, b or c'
     """
+    if not keys:
+        return ""
     *first, last = keys
     return f"{', '.join(first)} or {last}" if first else last
 
@@ -539,7 +545,7 @@ def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyT
     """Known keys that an unknown key may mean, and that a file with the given tables can use.
 
     Those of ``ALIASES`` come first, then a key with the same name in another table, then the most similar
-    key in the same table.
+    key in the same table. The list is empty if no key is similar, because a wrong hint is worse than none.
     """
     table, _, leaf = key.rpartition(".")
     unused = model.unused_keys(given) if given else ()
@@ -549,15 +555,21 @@ def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyT
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
         if alias:
             return alias
-    return [_nearest_of(key, table, leaf, known)]
+    return _nearest_of(key, table, leaf, known)
 
 
-def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> str:
-    """Known key with the same name as an unknown key in another table, else the most similar one."""
+def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> list[str]:
+    """Known key with the same name as an unknown key in another table, else the most similar one, if any."""
     elsewhere = [name for name in known if name.rpartition(".")[2] == leaf]
     if elsewhere:
-        return elsewhere[0]
-    return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
+        return elsewhere[:1]
+    inside = {name.rpartition(".")[2]: name for name in known if name.rpartition(".")[0] == table}
+    begun = [one for one in inside if len(leaf) >= _LEAST_LETTERS and one.startswith(leaf)]
+    close = difflib.get_close_matches(leaf[:100], [*inside], n=1, cutoff=_SIMILAR)
+    if begun or close:
+        return [inside[name] for name in (close or begun)[:1]]
+    # The name of the table may be wrong.
+    return [] if table in known else difflib.get_close_matches(key[:100], list(known), n=1, cutoff=_SIMILAR)
 
 
 def fields_within(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:

@@ -6,7 +6,8 @@ Numbers equal those that the commands print with ``--json``.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -242,19 +243,37 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
     point = "radius_across" in given
     needed = [name for name in _UNITS if point or name != "radius_across"]
     values = {name: _number(name, given, _UNITS[name], options=options) for name in needed}
-    force = _number("load", given, "N" if point else "N/m", options=options)
-    common = (values["modulus"], force, values["speed"], at.viscosity, at.alpha_star)
     contact: PointContact | LineContact
-    if point:
-        contact = PointContact(values["radius"], values["radius_across"], *common)
-    else:
-        contact = LineContact(values["radius"], *common)
-    found = contact_film(contact, at)
+    with _of_geometry(point=point, options=options):
+        force = _number("load", given, "N" if point else "N/m", options=options)
+        common = (values["modulus"], force, values["speed"], at.viscosity, at.alpha_star)
+        if point:
+            contact = PointContact(values["radius"], values["radius_across"], *common)
+        else:
+            contact = LineContact(values["radius"], *common)
+        found = contact_film(contact, at)
     ratio = None
     if "composite_rq" in given:
         rq = _number("composite_rq", given, "m", options=options)
         ratio = float(found.minimum_thickness) / rq
     return LookedUp(found.groups, found.film, found, float(contact.moes_l), ratio)
+
+
+@contextmanager
+def _of_geometry(*, point: bool, options: bool) -> Iterator[None]:
+    """Add to errors which contact was assumed, because only ``radius_across`` decides about it."""
+    across, load = (_named(name, options=options) for name in ("radius_across", "load"))
+    assumed = f"{across} is not given, so that a line contact was assumed, with {load} in N/m; for a point "
+    assumed += f"contact, give {across} too, with {load} in N"
+    if point:
+        assumed = f"{across} is given, so that a point contact was assumed, with {load} in N; for a line "
+        assumed += f"contact, omit {across}, with {load} in N/m"
+    try:
+        yield
+    except InputError as error:
+        raise InputError.worded(
+            error.key, f"{error.text}; {assumed}", got=error.got, takes=error.takes
+        ) from None
 
 
 def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) -> float:

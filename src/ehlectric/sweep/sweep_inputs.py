@@ -92,7 +92,7 @@ def _nearest(key: str) -> str:
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
     of_bearing = nearest_key(key, BearingCase)
-    return REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
+    return REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}") if of_bearing else ""
 
 
 @dataclass(frozen=True)

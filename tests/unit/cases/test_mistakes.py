@@ -1,5 +1,6 @@
 """Mistakes in cases: names that mean another key, one mistake of a drive, and doubtful values in Python."""
 
+import re
 import tomllib
 
 import pytest
@@ -8,6 +9,7 @@ from ehlectric import Case, DriveCase, InputError
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.key_names import ALIASES
 from ehlectric.cases.table import nearest_key
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 CONTACT = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
@@ -18,8 +20,95 @@ CONTACT |= {"entrainment_speed": "4 m/s", "lubricant": "paper"}
 def test_every_alias_leads_to_keys_that_exist():
     """A key whose name changes would otherwise stay in messages; an alias that became a key is none."""
     for name, keys in ALIASES.items():
-        models = [m for m in (Case, BearingCase, DriveCase) if all(k in nearest_key(name, m) for k in keys)]
-        assert models, name
+        hints = [nearest_key(name, model) for model in (Case, BearingCase, DriveCase)]
+        for key in keys:
+            assert any(key in hint for hint in hints), (name, key)
+
+
+POINT = {"contact": {"geometry": "point"}}
+
+
+@each(
+    "model, given, name, key",
+    [
+        (Case, POINT, "electric.voltage", "electric.potential_1"),
+        (Case, POINT, "voltage", "electric.potential_1"),
+        (Case, POINT, "rpm", "contact.entrainment_speed"),
+        (Case, POINT, "speed", "contact.entrainment_speed"),
+        (Case, POINT, "contact.fn", "contact.load"),
+        (Case, POINT, "contact.ph", "contact.max_hertz_pressure"),
+        (Case, POINT, "contact.temp", "contact.temperature"),
+        (Case, POINT, "contact.radius_across", "contact.radius_y"),
+        (Case, POINT, "contact.composite_ra", "meter.ra"),
+        (Case, POINT, "contact.composite_rq", "meter.rq"),
+        (Case, POINT, "meter.composite_ra", "meter.ra"),
+        (Case, POINT, "composite_ra", "meter.ra"),
+        (Case, POINT, "lubricant.eta0", "lubricant.viscosity"),
+        (Case, POINT, "lubricant.alpha_star", "lubricant.pressure_viscosity_coefficient"),
+        (Case, POINT, "lubricant.dielectric_constant", "lubricant.relative_permittivity"),
+        (Case, POINT, "lubricant.viscosity_1", "lubricant.temperature.dynamic_viscosity_1"),
+        (Case, POINT, "lubricant.viscosity_40", "lubricant.temperature.kinematic_viscosity_40"),
+        (Case, POINT, "lubricant.vi", "lubricant.temperature.viscosity_index"),
+        (Case, POINT, "lubricant.rho", "lubricant.density"),
+        (Case, POINT, "lubricant.cp", "lubricant.heat_capacity"),
+        (Case, POINT, "oil", "lubricant.base"),
+        (Case, POINT, "discharge.breakdown_field", "discharge.dielectric_strength"),
+        (Case, POINT, "grid.nx", "grid.nodes"),
+        (BearingCase, {}, "bearing.ra", "bearing.composite_ra"),
+        (BearingCase, {}, "bearing.rq", "bearing.composite_rq"),
+        (BearingCase, {}, "bearing.Fr", "bearing.radial_load"),
+        (BearingCase, {}, "bearing.Fa", "bearing.axial_load"),
+        (BearingCase, {}, "bearing.preload", "bearing.axial_load"),
+        (BearingCase, {}, "bearing.n", "bearing.inner_speed"),
+        (BearingCase, {}, "bearing.temp", "bearing.temperature"),
+        (BearingCase, {}, "bearing.z", "bearing.elements"),
+        (BearingCase, {}, "bearing.d", "bearing.bore"),
+        (BearingCase, {}, "bearing.dw", "bearing.element_diameter"),
+        (BearingCase, {}, "bearing.alpha", "bearing.contact_angle"),
+        (BearingCase, {}, "bearing.c0", "bearing.life.static_rating"),
+        (BearingCase, {}, "bearing.voltage", "motor.common_mode_voltage"),
+        (BearingCase, {}, "speed", "bearing.inner_speed"),
+        (BearingCase, {}, "oil", "lubricant.base"),
+        (DriveCase, {}, "drive.n", "drive.speed"),
+        (DriveCase, {}, "source.u_dc", "source.dc_link"),
+        (DriveCase, {}, "source.pwm_frequency", "source.switching_frequency"),
+        (DriveCase, {}, "motor.c_wr", "circuit.winding_rotor_capacitance"),
+        (DriveCase, {}, "drive_end.bearing.ra", "drive_end.bearing.composite_ra"),
+    ],
+)
+def test_the_hint_for_a_name_of_practice_is_the_key(model, given, name, key):
+    assert key in re.split(", | or ", nearest_key(name, model, given))
+
+
+@each(
+    "table, name",
+    [
+        ({}, "film_thickness"),
+        ({"contact": {"film_thickness": 1e-7}}, "contact.film_thickness"),
+        ({"contact": {"capacitance": 1e-12}}, "contact.capacitance"),
+        ({"discharge": {"breakdown_voltage": 3.0}}, "discharge.breakdown_voltage"),
+    ],
+)
+def test_a_result_that_is_given_as_an_input_is_named(table, name):
+    contact = {key: value for key, value in CONTACT.items() if key != "lubricant"}
+    case = {"contact": contact, "lubricant": "paper"}
+    given = case | {"film_thickness": 1e-7} if not table else case | table
+    with pytest.raises(InputError, match=r"unknown key; the .* is computed") as refused:
+        Case.from_dict(given)
+    assert name in str(refused.value)
+
+
+@each(
+    "model, name",
+    [
+        (Case, "contact.colour"), (Case, "lubricant.price"), (Case, "quux"), (BearingCase, "bearing.ip"),
+        (BearingCase, "bearing.oilpump"), (DriveCase, "drive.torque"), (DriveCase, "motor.frame"),
+    ],
+)  # fmt: skip
+def test_a_name_that_resembles_no_key_has_no_hint(model, name):
+    assert nearest_key(name, model) == ""
+    with pytest.raises(InputError, match=r"unknown key; no known key has a similar name"):
+        raise InputError.unknown(name, nearest_key(name, model))
 
 
 @pytest.mark.parametrize(

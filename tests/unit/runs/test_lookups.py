@@ -98,6 +98,20 @@ def test_moes_l_of_a_film_is_that_of_a_check(point):
     assert again["central"] == pytest.approx(found["central"], rel=again["errors"]["central"] + 0.05)
 
 
+@each(
+    "changes, key, assumed",
+    [
+        ({"load": "50 N"}, "load", "line"),
+        ({"load": 50.0}, "moes_m", "line"),
+        ({"load": "0.1 MN/m", "radius_across": "10 mm"}, "load", "point"),
+    ],
+)
+def test_an_error_of_a_film_names_the_assumed_geometry(changes, key, assumed):
+    """Only ``radius_across`` decides whether the load is a force or a force per length."""
+    with pytest.raises(InputError, match=rf"^{key}: .*radius_across.* a {assumed} contact was assumed"):
+        ehlectric.film(**OIL, **(LINE | changes))
+
+
 def test_lambda_is_the_minimum_film_divided_by_the_composite_rq():
     """Definition of the lambda ratio of bearings; Rq = sqrt(pi/2) Ra of Gaussian heights."""
     found = ehlectric.film(**OIL, **LINE, composite_rq="0.1 um")
