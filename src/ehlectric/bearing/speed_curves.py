@@ -152,7 +152,7 @@ Speed = tuple[float, dict[str, Any]]
 Speeds = Sequence[Speed]
 
 # Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
-_ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
+ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
 
 # Number of nodes of a whole curve, at least, between which straight lines are drawn.
 _NODES = 400
@@ -247,7 +247,7 @@ def listed(points: Speeds, own: float) -> list[Speed]:
 def value_of(summary: Mapping[str, Any], key: str) -> Any:
     """Value of a key of the table "bearing"; of a breakdown that on the shaft, with its coating."""
     totals = summary["bearing"]
-    return totals.get(_ON_SHAFT.get(key, key), totals.get(key))
+    return totals.get(ON_SHAFT.get(key, key), totals.get(key))
 
 
 def is_coated(points: Speeds) -> bool:

@@ -26,7 +26,7 @@ from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import CODES
 from ehlectric.figures.style import figure_of, name_over, outlined
-from ehlectric.quantities.formats import CELSIUS, Scale
+from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
 from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import Label, label_of
@@ -270,7 +270,7 @@ def kind_handles(selection: Slice, **look: Any) -> list[Line2D]:
 def labelled(results: SweepResults, key: str, values: Array) -> tuple[Label, Scale]:
     """Name, symbol and SI unit of a key, and the unit that suits the values; °C for temperatures."""
     label = label_of(key, results.case)
-    return label, CELSIUS if label.unit == "K" else label.scaled(values)
+    return label, label.scaled(values)
 
 
 def voltage_text(selection: Slice) -> str:

@@ -83,7 +83,9 @@ class Parameter(Bounds):
     @property
     def quantity(self) -> Quantity:
         """Meaning, unit, label and symbol of the parameter."""
-        return Quantity(self.meaning, self.unit, self.title or self.name.replace("_", " "), self.symbol)
+        shown = "°C" if self.unit == "K" and not self.difference else ""
+        label = self.title or self.name.replace("_", " ")
+        return Quantity(self.meaning, self.unit, label, self.symbol, shown=shown)
 
 
 @cache

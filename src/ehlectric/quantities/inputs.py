@@ -50,6 +50,11 @@ class Input(Bounds, Quantity):
     field_note: str = ""
     optional: bool = False
 
+    @property
+    def absolute(self) -> bool:
+        """Whether the value is a temperature on a scale with a zero, and no difference of temperatures."""
+        return self.unit == "K" and not self.difference
+
 
 @cache
 def _contents() -> dict[str, dict[str, Any]]:

@@ -47,6 +47,13 @@ class Quantity:
     note: str = field(default="", kw_only=True)
     # Text in place of a value that a summary has as null; if it is empty, such a value is not shown.
     null: str = field(default="", kw_only=True)
+    # Key of the same table that contains the dotted key of an input, in whose unit the value is.
+    unit_of: str = field(default="", kw_only=True)
+
+    @property
+    def absolute(self) -> bool:
+        """Whether the value is a temperature on a scale with a zero, and no difference of temperatures."""
+        return self.unit == "K" and self.shown in ("degC", "°C")
 
     def with_sign(self, text: str) -> str:
         """Text of a value after the sign of its bound.

@@ -295,15 +295,14 @@ def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, 
 
 def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str]:
     """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
-    from ehlectric.cases.input_keys import unit_of
     from ehlectric.sweep.axis_labels import label_of
 
-    unit = unit_of(key)
+    label = label_of(key, sweep.case)
     if not all(isinstance(value, float) for value in values):
         return [str(value) for value in values], ""
-    if unit == "K":
+    if label.absolute:
         return [readable(value - 273.15, 4) for value in values], "°C"
-    if unit == "rad/s":
+    if label.unit == "rad/s":
         return [readable(rpm(value), 4) for value in values], "rpm"
-    scale = label_of(key, sweep.case).scaled(np.array(values))
+    scale = label.scaled(np.array(values))
     return [readable(scale.factor * value, 4) for value in values], scale.unit

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +11,19 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.speed_curves import scaled_curves
+from ehlectric.bearing.speed_curves import ON_SHAFT, scaled_curves
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.contact.problems import Setup
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import InputError, printable
-from ehlectric.quantities.formats import CELSIUS, UNITS, USUAL, Scale, scale_for, scale_of
+from ehlectric.quantities.formats import UNITS, USUAL, Scale, scale_for, scale_of
+from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS
 from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.axis_labels import label_of
+from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import flat
 from ehlectric.sweep.result import SweepResults
 
@@ -37,9 +40,6 @@ _WIDTHS = (44, 60, 18, 12, 24, 12)
 
 # Units of all stresses and of all viscosities, so that cells can be compared.
 _ONE_UNIT = {"Pa": "MPa", "Pa*s": "mPa s"}
-
-# Last part of the keys of absolute temperatures; keys of rises and errors end otherwise.
-_ABSOLUTE = re.compile(r"(.+_)?temperature(_[12])?")
 
 
 def workbook(result: AnyResult | SweepResults) -> bytes:
@@ -73,12 +73,11 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
         inputs = flat({"inputs": case.plain_tables()})
     _fill(book, "summary", _keys({key: value for key, value in summary.items() if key not in inputs}, case))
     _fill(book, "inputs", _keys(inputs, case))
-    _fill(book, "table", _table(frame, case))
+    _fill(book, "table", _table(frame, result, case))
     if isinstance(result, BearingResult):
         _fill_over_speed(book, result.case, tables)
     if isinstance(result, BearingResult | DriveResult) and result.duty is not None:
-        columns = {name: (unit, "", values) for name, (unit, values) in result.duty.columns().items()}
-        _fill(book, "duty cycle", _columns(columns))
+        _fill(book, "duty cycle", _duty(result))
     file = BytesIO()
     book.save(file)
     return file.getvalue()
@@ -89,38 +88,38 @@ def _keys(values: dict[str, Any], case: SweptCase) -> Iterator[Iterable[Any]]:
     yield "key", "name", "value", "unit", "SI value", "SI unit"
     for key, value in values.items():
         label, own = label_of(key, case), key.removeprefix("inputs.")
-        name = "" if label.name in (key, own) else label.name
         if not is_number(value):
-            yield own, name, value, "", value, ""
+            yield own, label.name, value, "", value, ""
             continue
-        scale = scale_of_key(own, label.unit, label.shown, np.array([value]))
-        yield own, name, _rounded(scale.of(value)), scale.unit, value, _unit(label.unit)
+        known = key_of(result_keys(case), key)
+        if known is not None and known.unit_of:
+            input_key = values[f"{key.rpartition('.')[0]}.{known.unit_of}"]
+            given = label_of(input_key, case)
+            label = replace(label, unit=given.unit, shown=given.shown)
+        scale = scale_of_values(label.unit, label.shown, np.array([value]))
+        yield own, label.name, _rounded(scale.of(value)), scale.unit, value, _unit(label.unit)
 
 
-def scale_of_key(key: str, unit: str, shown: str, values: Array) -> Scale:
-    """Unit in which values of a dotted key are written.
+def scale_of_values(unit: str, shown: str, values: Array) -> Scale:
+    """Unit in which values are written.
 
     Parameters
     ----------
-    key : str
-        Dotted key.
     unit, shown : str
-        SI unit of the key, in the notation of pint, and unit in which it is usually shown; empty if unknown.
+        SI unit, in the notation of pint, and unit in which the values are usually shown; empty if unknown.
     values : ndarray
         Values [SI unit], which decide the prefix of a unit without a usual one.
 
     Examples
     --------
     >>> speed, modulus = np.array([314.159]), np.array([226e9])
-    >>> scale_of_key("bearing.inner_speed", "rad/s", "rpm", speed).unit
+    >>> scale_of_values("rad/s", "rpm", speed).unit
     'rpm'
-    >>> scale_of_key("contact.reduced_modulus", "Pa", "GPa", modulus).of(226e9)
+    >>> scale_of_values("Pa", "GPa", modulus).of(226e9)
     226000.0
-    >>> [scale_of_key(f"film.{key}", "K", "", speed).unit for key in ("temperature", "temperature_rise")]
-    ['°C', 'K']
+    >>> scale_of_values("K", "°C", speed).unit, scale_of_values("K", "", speed).unit
+    ('°C', 'K')
     """
-    if unit == "K":
-        return CELSIUS if _ABSOLUTE.fullmatch(key.rpartition(".")[2]) else scale_of("K")
     named = _ONE_UNIT.get(unit) or printed(shown) or USUAL.get(unit, "")
     if named in UNITS and UNITS[named][0] == unit:
         return scale_of(named)
@@ -144,14 +143,30 @@ def _unit(unit: str) -> str:
     return unit.replace("**", "^").replace("*", " ")
 
 
-def _table(frame: pd.DataFrame, case: SweptCase) -> Iterator[Iterable[Any]]:
-    """Rows of a table, below heads with units."""
+def _table(frame: pd.DataFrame, result: AnyResult | SweepResults, case: SweptCase) -> Iterator[Iterable[Any]]:
+    """Rows of the table of a result, below heads with units."""
     units = frame.attrs.get("units", {})
     columns = {}
     for name in map(str, frame.columns):
-        values = frame[name].to_numpy()
-        shown = label_of(name, case).shown if name in units else ""
-        columns[name] = (units.get(name), shown, values)
+        match result:
+            case BearingResult():
+                shown = ELEMENT_KEYS[name].shown if name in ELEMENT_KEYS else ""
+            case DriveResult():
+                shown = EVENT_KEYS[name].shown if name in EVENT_KEYS else ""
+            case _:
+                shown = label_of(name, case).shown if name in units else ""
+        columns[name] = (units.get(name), shown, frame[name].to_numpy())
+    return _columns(columns)
+
+
+def _duty(result: BearingResult | DriveResult) -> Iterator[Iterable[Any]]:
+    """Rows of the duty cycle, below heads with units."""
+    assert result.duty is not None
+    table = "bearing" if isinstance(result, BearingResult) else "drive"
+    columns = {}
+    for name, (unit, values) in result.duty.columns().items():
+        key = name if end_and_key(name)[0] else f"{table}.{name}"
+        columns[name] = (unit, label_of(key, result.case).shown if unit == "K" else "", values)
     return _columns(columns)
 
 
@@ -161,7 +176,9 @@ def _fill_over_speed(book: Any, case: BearingCase, summary: Mapping[str, Any]) -
     if curves is None:
         return
     values = {"bearing.inner_speed": curves.speed}
-    values |= {f"bearing.{key}": value for key, value in curves.values.items()}
+    names = {} if case.bearing.coating is None else ON_SHAFT
+    values |= {f"bearing.{names.get(key, key)}": value for key, value in curves.values.items()}
+    values["bearing.margin"] = curves["first_break"] / curves["shaft_voltage"]
     labels = {key: label_of(key, case) for key in values}
     columns = {key: (labels[key].unit, labels[key].shown, values[key]) for key in values}
     _fill(book, "over speed", _columns(columns))
@@ -179,7 +196,7 @@ def _columns(columns: Mapping[str, tuple[str | None, str, Any]]) -> Iterator[Ite
             written.append(list(values))
             continue
         numbers = np.asarray(values, dtype=float)
-        scale = scale_of_key(key, unit, shown, numbers)
+        scale = scale_of_values(unit, shown, numbers)
         heads.append(f"{key} [{scale.unit or '-'}]")
         whole = np.issubdtype(np.asarray(values).dtype, np.integer) and scale == Scale(1.0, scale.unit)
         written.append(list(values) if whole else [_rounded(one) for one in scale.of(numbers).tolist()])

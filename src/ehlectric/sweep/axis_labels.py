@@ -10,7 +10,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
-from ehlectric.quantities.formats import Scale, scale_for
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.quantity import Bound, Keys, key_of
 from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS, NAMES_OF_ENDS
@@ -26,8 +26,17 @@ class Label:
     bound: Bound = ""  # sign of the bound that an ideal film makes of a result
     shown: str = ""  # unit in which a value is usually shown; empty if there is none
 
+    @property
+    def absolute(self) -> bool:
+        """Whether the values are temperatures on a scale with a zero, and no differences of temperatures."""
+        return self.unit == "K" and self.shown == "°C"
+
     def scaled(self, values: Array) -> Scale:
-        """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored."""
+        """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored.
+        Temperatures are in °C, and differences of temperatures in K.
+        """
+        if self.absolute:
+            return CELSIUS
         finite = np.abs(values[np.isfinite(values)])
         return scale_for(float(np.max(finite, initial=0.0)) or 1.0, self.unit)
 
@@ -44,7 +53,7 @@ class Label:
 def label_of(key: str, case: SweptCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary."""
     own = _counted_from_one(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
-    result, entry = key_of(result_keys(case), key), input_of(own)
+    result, entry = key_of(result_keys(case), key), input_of(own) or input_of(_list_of(own))
     # A number of the case that is in the summary, too, is the input.
     if result is not None and (entry is None or (result.label and kind_of(own) is None)):
         bound = result.bound if _bounds(case) else ""
@@ -53,7 +62,13 @@ def label_of(key: str, case: SweptCase) -> Label:
     if entry is None:
         return Label(key, "", "" if own == key else unit_of(own))
     name = f"{entry.label}, {end}" if end else entry.label
-    return Label(name, entry.symbol, entry.unit, shown=entry.shown)
+    return Label(name, entry.symbol, entry.unit, shown="°C" if entry.absolute else entry.shown)
+
+
+def _list_of(key: str) -> str:
+    """Key of the list that a number of a dotted key counts; the key itself if it does not end in a number."""
+    head, _, number = key.rpartition(".")
+    return head if number.isdecimal() else key
 
 
 def _bounds(case: SweptCase) -> bool:

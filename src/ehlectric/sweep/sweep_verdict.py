@@ -262,7 +262,7 @@ def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
 def value_text(key: str, value: Any, case: SweptCase) -> str:
     """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
     label = label_of(key, case)
-    if label.unit == "K":
+    if label.absolute:
         return f"{readable(value - 273.15)} °C"
     scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))
     return f"{readable(value * scale.factor)} {scale.unit}".rstrip()

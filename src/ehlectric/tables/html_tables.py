@@ -111,8 +111,9 @@ def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row
 
 def _scale(key: str, case: SweptCase, values: Sequence[float]) -> Scale:
     """Unit that suits all of some values of an input: °C, rpm, per GPa, or with a prefix that it lacks."""
-    unit, largest = label_of(key, case).unit, max(map(abs, values))
-    if unit == "K":
+    label, largest = label_of(key, case), max(map(abs, values))
+    unit = label.unit
+    if label.absolute:
         return CELSIUS
     if unit in ("rad/s", "A/m**2", "m**2/s", "1/Pa", "m**2", "m**3"):
         return scale_for(largest or 1.0, unit)

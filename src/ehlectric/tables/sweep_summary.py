@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ehlectric.discharge.breakdown_rule import ONE_NUMBER
+from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import label_of
@@ -72,7 +73,8 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     for name, value in values.items():
         # Real films break down at lower voltages; that says nothing about how much the voltages scatter.
         bound = label.bound if at_most and name != "standard deviation" else ""
-        rows.append(Row(f"{label.name}, {name}", readable(scale.factor * value, 4), scale.unit, bound=bound))
+        used = scale_of("K") if label.absolute and name == "standard deviation" else scale
+        rows.append(Row(f"{label.name}, {name}", readable(used.of(value), 4), used.unit, bound=bound))
     share = sensitivity.share_below_voltage
     if share is not None:
         voltage = breakdown.voltage_name

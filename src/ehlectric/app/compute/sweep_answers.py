@@ -42,11 +42,11 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
-from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
+from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
 from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError
-from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
+from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
@@ -214,7 +214,7 @@ def _chart(results: SweepResults, shown: str) -> Chart:
         for point, value in zip(results.points, values, strict=True)
         if value is not None and not point.doubtful
     ]
-    scale = _scale(label.unit, usable)
+    scale = label.scaled(np.array(usable, dtype=float))
     inputs = {key: (named(key, results.case), _input_scale(results, key)) for key in results.varied}
     points = tuple(
         _point(
@@ -260,14 +260,8 @@ def _is_log(values: Sequence[float]) -> bool:
     return bool(np.ptp(ratios) < 1e-6 * abs(ratios[0]) and np.ptp(steps) > 1e-6 * abs(steps[0]))
 
 
-def _scale(unit: str, values: Sequence[float]) -> Scale:
-    if unit == "K":
-        return CELSIUS
-    return scale_for(max(map(abs, values), default=1.0) or 1.0, unit)
-
-
 def _input_scale(results: SweepResults, key: str) -> Scale:
-    return _scale(unit_of(key), results.axes[key])
+    return label_of(key, results.case).scaled(np.array(results.axes[key], dtype=float))
 
 
 def _margin(row: Mapping[str, Any], about: Breakdown) -> float | None:
@@ -501,8 +495,8 @@ def _short(number: float, key: str) -> str:
 
 def _in_si(value: float, key: str) -> tuple[float, str]:
     """Number and unit of an SI value that a file lacks; speeds and temperatures in the usual units."""
-    unit = unit_of(key)
-    if unit == "K":
+    unit, entry = unit_of(key), input_of(key)
+    if entry is not None and entry.absolute:
         return value - 273.15, "degC"
     if unit == "rad/s":
         return rpm(value), "rpm"

@@ -26,7 +26,8 @@ from ehlectric import (
 )
 from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS
 from ehlectric.runs.exports import cells, matlab_names
-from ehlectric.runs.workbooks import scale_of_key
+from ehlectric.runs.workbooks import scale_of_values
+from ehlectric.sweep.axis_labels import label_of
 from tests.helpers.drives import small_drive
 from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES
@@ -199,6 +200,14 @@ def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     assert (speed, unit) == (pytest.approx(30.0 / math.pi * si, rel=1e-13), "rpm")
     temperature, unit, si, _ = (cell.value for cell in inputs["bearing.temperature"])
     assert (temperature, unit) == (pytest.approx(si - 273.15, rel=1e-13), "°C")
+    assert [key for key, row in rows.items() if not row[1].value] == []
+    assert (rows["mechanics.cage_speed"][1].value, rows["mechanics.cage_speed"][3].value) == (
+        "speed of the cage",
+        "rpm",
+    )
+    of_input = next(key for key, row in rows.items() if row[2].value == "bearing.temperature")
+    low = rows[of_input.replace(".key", ".low_input")]
+    assert (low[2].value, low[3].value) == (pytest.approx(60.0), "°C")
     frame = bearing.to_dataframe()
     table = list(book["table"].iter_rows(values_only=True))
     assert len(table) == len(frame) + 1
@@ -208,21 +217,47 @@ def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     column = table[0].index("max_pressure [MPa]")
     known = [(row[column], value) for row, value in zip(table[1:], frame["max_pressure"], strict=True)]
     assert all(shown == pytest.approx(1e-6 * value, rel=1e-13) for shown, value in known if value == value)
+    share = rows["contacts.0.voltage_share"]
+    assert share[3].value == "%"
+    assert table[1][table[0].index("voltage_share [%]")] == share[2].value
     heads, *curve = book["over speed"].iter_rows(values_only=True)
     own = bearing.summary()["bearing"]["capacitance"]
     place = min(curve, key=lambda row: abs(row[0] - speed))
     assert heads[0] == "bearing.inner_speed [rpm]"
     assert place[0] == pytest.approx(speed, rel=1e-9)
     assert place[heads.index("bearing.capacitance [pF]")] == pytest.approx(1e12 * own, rel=1e-6)
+    margin = bearing.summary()["bearing"]["margin"]
+    assert place[heads.index("bearing.margin [-]")] == pytest.approx(margin, rel=1e-6)
 
 
-def test_temperatures_of_workbooks_are_in_degrees_unless_they_are_differences():
-    """Each temperature of the books of inputs and results, by what the books say of it."""
+def test_temperatures_are_in_degrees_unless_they_are_differences():
+    """Each temperature of the books of results, and temperatures of inputs, lists of them as well."""
     books = [BEARING_KEYS, DRIVE_KEYS, *CONTACT_KEYS.values(), *MOTION_KEYS.values()]
-    results = {(key, one.shown == "°C") for book in books for key, one in book.items() if one.unit == "K"}
+    results = {key: one for book in books for key, one in book.items() if one.unit == "K"}
     assert len(results) > 10
-    for key, absolute in results:
-        assert scale_of_key(key, "K", "", np.array([300.0])).unit == ("°C" if absolute else "K"), key
+    for key, one in results.items():
+        differs = any(word in key for word in ("rise", "error"))
+        assert scale_of_values("K", one.shown, np.array([300.0])).unit == ("K" if differs else "°C"), key
+    expected = {
+        "lubricant.temperature_range.0": "°C",
+        "drive_end.lubricant.temperature_range.1": "°C",
+        "bearing.fits.shaft_temperature": "°C",
+        "lubricant.vogel_c": "°C",
+        "lubricant.vogel_b": "K",
+        "lubricant.yasutomi_a1": "K",
+    }
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    assert {key: label_of(key, case).scaled(np.array([300.0])).unit for key in expected} == expected
+
+
+def test_results_have_names_that_are_not_keys():
+    books = [BEARING_KEYS, DRIVE_KEYS, *CONTACT_KEYS.values(), *MOTION_KEYS.values()]
+    assert [
+        key
+        for book in books
+        for key, one in book.items()
+        if not one.label or "_" in one.label.replace("h_min", "")
+    ] == []
 
 
 @pytest.mark.slow
