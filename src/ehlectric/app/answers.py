@@ -325,11 +325,12 @@ class Result:
 
 @dataclass(frozen=True)
 class Film:
-    """Minimum films of the contacts of one ring, over the position of the elements [deg, m]."""
+    """Minimum films or gaps at all elements of one ring, over the position of the elements [deg, m]."""
 
     ring: str
     position: tuple[float, ...]
     thickness: tuple[float, ...]
+    load: tuple[float, ...]  # loads of the contacts [N]; 0 at a gap
 
 
 @dataclass(frozen=True)

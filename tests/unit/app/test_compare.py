@@ -2,12 +2,13 @@
 
 import tomllib
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.app.answers import Effect, Result, effects, in_both, input_rows, only_in
+from ehlectric.app.answers import Effect, Film, Result, effects, in_both, input_rows, only_in
 from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.compute.bearing_answers import judged
 from ehlectric.app.compute.compare_answers import side, whole_side
@@ -197,16 +198,42 @@ def test_tables_escape_what_a_user_typed(both):
 
 def test_figures_hold_the_numbers_of_the_tables(both):
     traces = figures.films(both)["data"]
-    assert [trace["name"] for trace in traces] == [
-        "A, inner ring",
-        "A, outer ring",
-        "B, inner ring",
-        "B, outer ring",
-    ]
+    light = "below 2 % of the load"
+    names = [f"{name}, {what}" for name in "AB" for what in ("inner ring", "outer ring", light)]
+    assert [trace["name"] for trace in traces] == names
     assert figures.over_speed(both)["data"] == [], "voltages over the speed follow with the whole answer"
     thinnest = min(value for trace in traces[:2] for value in trace["r"])
     shown = {row.name: row for row in both[0].results}["minimum film, inner ring"]
     assert thinnest == pytest.approx(1e6 * shown.value)
+
+
+def films_of(*sides):
+    """Figure of cases with one ring each, by the films [µm] of its elements and their loads [N]."""
+    made = [
+        Film(
+            "inner",
+            tuple(range(len(films))),
+            tuple(1e-6 * film for film, _ in films),
+            tuple(load for _, load in films),
+        )
+        for films in sides
+    ]
+    return figures.films([SimpleNamespace(films=(film,)) for film in made])
+
+
+def test_films_of_light_elements_leave_the_radius_to_the_loaded_ones():
+    """A gap of 5 µm, and the film of 2 µm at 1 % of the largest load, are at the rim."""
+    figure = films_of([(0.1, 1000.0), (0.2, 25.0), (5.0, 0.0), (2.0, 10.0)], [(0.15, 500.0)])
+    loaded, light, other = figure["data"]
+    radial = figure["layout"]["polar"]["radialaxis"]
+    assert (loaded["theta"], other["name"]) == ([0, 1], "B, inner ring")
+    assert loaded["r"] == pytest.approx([0.1, 0.2])
+    assert radial["range"] == pytest.approx([0.0, 0.24])
+    assert light["theta"] == [2, 3]
+    assert light["r"] == pytest.approx([0.24, 0.24])
+    assert light["customdata"] == ["inner ring, 0 N: 5 µm", "inner ring, 10 N: 2 µm"]
+    wide = films_of([(0.1, 1000.0), (0.2, 25.0)], [(2.0, 500.0)])["layout"]["polar"]["radialaxis"]
+    assert (wide["type"], 10.0 ** wide["range"][0]) == ("log", pytest.approx(0.08))
 
 
 @pytest.mark.slow

@@ -5,10 +5,11 @@ They are built in the process of the server, so that nothing here loads NumPy.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
-from ehlectric.app.answers import Side
+from ehlectric.app.answers import Film, Side
 from ehlectric.quantities.palette import AMBER, BLUE
 from ehlectric.readable import readable
 
@@ -44,30 +45,33 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
 
 
 def films(sides: Sequence[Side]) -> dict[str, Any]:
-    """Minimum film of every loaded contact over the position of its element, of A and B. Returns polar figure
-    for Plotly, in micrometres and degrees.
+    """Minimum films over the position of the elements, of A and B. Elements without load, or with less than
+    2 % of the largest load of their case, are crosses at the rim: their gaps would hide the films of the
+    others. Returns polar figure for Plotly, in micrometres and degrees.
     """
-    traces = [
-        {
-            "type": "scatterpolar",
-            "mode": "markers",
-            "name": f"{name}, {film.ring} ring",
-            "theta": list(film.position),
-            "r": [1e6 * thickness for thickness in film.thickness],
-            "marker": {
-                "color": colour,
-                "size": 9,
-                "symbol": f"{symbol}-open" if film.ring == "outer" else symbol,
-            },
-            "hovertemplate": f"{name}, {film.ring} ring<br>%{{theta:.0f}}°: %{{r:,.4~r}} µm<extra></extra>",
-        }
-        for side, name, colour, symbol in zip(
-            sides, "AB", (_FIRST, _SECOND), ("circle", "square"), strict=False
-        )
+    shown = [
+        1e6 * thickness
+        for side in sides
         for film in side.films
+        for thickness, load in zip(film.thickness, film.load, strict=True)
+        if _is_loaded(side, load)
     ]
+    low, high, log = _radius(shown)
+    traces: list[dict[str, Any]] = []
+    for side, name, colour, symbol in zip(sides, "AB", (_FIRST, _SECOND), ("circle", "square"), strict=False):
+        for film in side.films:
+            traces.append(_films_of(film, side, name, colour, symbol))
+        # Both signs are visible at one place.
+        traces.append(_at_rim(side, name, colour, high, cross="x-thin" if name == "A" else "cross-thin"))
+    radial: dict[str, Any] = {"angle": 90.0, "tickangle": 0}
+    if log:
+        ticks = [digit * 10.0**power for power in range(-6, 4) for digit in (1, 2, 5)]
+        radial |= {"type": "log", "range": [math.log10(low), math.log10(high)], "tickmode": "array"}
+        radial |= {"tickvals": ticks, "ticktext": [readable(tick, 6) for tick in ticks]}
+    else:
+        radial |= {"range": [low, high], "nticks": 4}
     polar = {
-        "radialaxis": {"rangemode": "tozero", "angle": 90.0, "tickangle": 0, "nticks": 4},
+        "radialaxis": radial,
         "angularaxis": {"rotation": -90.0, "direction": "counterclockwise", "ticksuffix": "°"},
         "bgcolor": "rgba(0,0,0,0)",
     }
@@ -76,7 +80,66 @@ def films(sides: Sequence[Side]) -> dict[str, Any]:
         "margin": {"l": 42, "r": 42, "t": 30, "b": 45},
         "legend": {"orientation": "h", "x": 0.5, "xanchor": "center", "y": -0.12},
     }
-    return _figure(traces, 430, layout)
+    return _figure([trace for trace in traces if trace["theta"]], 470, layout)
+
+
+# Share of the largest load below which the film of an element is not drawn, and ratio of two films above
+# which the radial axis is logarithmic.
+_LIGHT, _WIDE = 0.02, 10.0
+
+
+def _is_loaded(side: Side, load: float) -> bool:
+    """Whether an element has at least a share ``_LIGHT`` of the largest load of its case."""
+    return load > 0.0 and load >= _LIGHT * max(one for film in side.films for one in film.load)
+
+
+def _radius(values: Sequence[float]) -> tuple[float, float, bool]:
+    """Ends of the radial axis over positive values, and whether it is logarithmic.
+
+    Examples
+    --------
+    >>> _radius([0.2, 0.4]), _radius([1.0, 20.0])
+    ((0.0, 0.48, False), (0.8, 24.0, True))
+    """
+    low, high = min(values), 1.2 * max(values)
+    return (0.8 * low, high, True) if max(values) > _WIDE * low else (0.0, high, False)
+
+
+def _films_of(film: Film, side: Side, name: str, colour: str, symbol: str) -> dict[str, Any]:
+    """Marks of the films of the loaded elements of a ring."""
+    kept = [k for k, load in enumerate(film.load) if _is_loaded(side, load)]
+    whole = f"{name}, {film.ring} ring"
+    outer = film.ring == "outer"
+    return {
+        "type": "scatterpolar",
+        "mode": "markers",
+        "name": whole,
+        "theta": [film.position[k] for k in kept],
+        "r": [1e6 * film.thickness[k] for k in kept],
+        "marker": {"color": colour, "size": 9, "symbol": f"{symbol}-open" if outer else symbol},
+        "hovertemplate": f"{whole}<br>%{{theta:.0f}}°: %{{r:,.4~r}} µm<extra></extra>",
+    }
+
+
+def _at_rim(side: Side, name: str, colour: str, rim: float, *, cross: str) -> dict[str, Any]:
+    """Crosses at the rim [µm] at the elements with little or no load at either ring."""
+    light = [
+        (position, f"{film.ring} ring, {readable(load, 2)} N: {readable(1e6 * thickness, 3)} µm")
+        for film in side.films
+        for position, thickness, load in zip(film.position, film.thickness, film.load, strict=True)
+        if not _is_loaded(side, load)
+    ]
+    return {
+        "type": "scatterpolar",
+        "mode": "markers",
+        "name": f"{name}, below {100.0 * _LIGHT:g} % of the load",
+        "theta": [position for position, _ in light],
+        "r": [rim] * len(light),
+        "customdata": [words for _, words in light],
+        "marker": {"color": colour, "size": 10, "symbol": cross, "line": {"color": colour, "width": 2}},
+        "cliponaxis": False,
+        "hovertemplate": f"{name}, %{{customdata}}<br>%{{theta:.0f}}°<extra></extra>",
+    }
 
 
 def _figure(data: list[dict[str, Any]], height: int, layout: dict[str, Any]) -> dict[str, Any]:

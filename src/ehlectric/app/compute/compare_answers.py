@@ -131,11 +131,12 @@ def _results(rows: Iterable[Row]) -> Iterator[Result]:
 
 
 def _over_position(summary: Mapping[str, Any]) -> Iterator[Film]:
-    """Minimum films of loaded contacts over the position of their elements."""
+    """Minimum films and gaps over the position of the elements."""
     for ring in ("inner", "outer"):
-        rows = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
+        rows = [row for row in summary["contacts"] if row["ring"] == ring]
         yield Film(
             ring,
             tuple(math.degrees(row["position"]) for row in rows),
             tuple(row["minimum_thickness"] for row in rows),
+            tuple(row["load"] for row in rows),
         )
