@@ -26,7 +26,7 @@ def export(result: Path, output: Path, quiet: bool = False) -> None:
 
     A .mat file contains all arrays and the summary, and a .vtkhdf file the film and the field of a contact,
     both in SI units. A workbook contains the summary, the inputs, the table of the result and curves over
-    the speed, in rpm, degC, MPa and other usual units.
+    the speed, in rpm, degC, MPa and other usual units; it needs the extra: pip install "ehlectric[excel]".
 
     Exit status 0: written. 2: the result has no such form, or the file cannot be written.
     """

@@ -34,6 +34,7 @@ from ehlectric.figures.style import (
     note,
     scale_axis,
     share_below,
+    side_by_side,
     style,
     titled,
 )
@@ -415,7 +416,8 @@ def energies(result: DriveResult, ax: Axes) -> None:
         ax.set_xlim(0.0, 1.15 * max(positive, default=1.0))
     ax.set_xlabel(f"{DRIVE_BOOK['end.energy_mean'].label} [{unit}]")
     _rows(ax, [name for name, _ in rows])
-    ax.tick_params(labelleft=False)
+    if side_by_side(ax) > 1:
+        ax.tick_params(labelleft=False)
 
 
 def legend_of_remedies(axes: list[Axes]) -> None:
@@ -479,7 +481,7 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     Figures with nothing to show are left out: a spectrum without lines, distributions without discharges,
     remedies and a duty cycle where the file has none, and voltages over time where no time was recorded.
     """
-    voltages_file, over_voltage, over_frequency, of_events, side_by_side, over_cycle = DRIVE_FIGURE_FILES
+    voltages_file, over_voltage, over_frequency, of_events, of_remedies, over_cycle = DRIVE_FIGURE_FILES
     found: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
         found[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
@@ -490,7 +492,7 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
         found[of_events] = _Drawing(DISTRIBUTIONS, 2, (6.3, 5.0), discharges, legend_of_discharges)
     if result.remedies:
         height = 1.7 + 0.5 * (1 + len(result.remedies))
-        found[side_by_side] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
+        found[of_remedies] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
     if result.duty is not None:
         found[over_cycle] = _Drawing(DUTY_PANELS, 3, (6.3, 5.4), duty_cycle, legend_of_cycle, shared=True)
     return found
@@ -507,7 +509,7 @@ def figure(result: DriveResult, name: str) -> Figure:
     if drawing.finding is discharges:
         lines.append(arc_line(result))
     with style():
-        axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size, beside=True)
+        axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size)
         for draw, ax in zip(drawing.panels, axes, strict=True):
             draw(result, ax)
         if drawing.legend is not None:

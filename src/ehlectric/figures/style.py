@@ -163,17 +163,15 @@ def page_size(size: tuple[float, float], panels: int = 1) -> tuple[float, float]
     return width, size[1] * (_LOOKS[_style.get()].height if width < 0.75 * size[0] else 1.0)
 
 
-def new_panels(
-    rows: int, columns: int, size: tuple[float, float], *, exact: bool = False, beside: bool = False
-) -> list[Axes]:
+def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: bool = False) -> list[Axes]:
     """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches].
 
     In the style "journal", panels side by side stand below each other in one column, if they fit on the
-    page. With ``beside`` they stay side by side: panels that share the labels of their rows need it.
+    page.
     """
     look = _LOOKS[_style.get()]
     stacked = (size[0] / columns, size[1] * columns * look.stacked)
-    if look.columns and columns > 1 and not (exact or beside) and stacked[1] <= _PAGE:
+    if look.columns and columns > 1 and not exact and stacked[1] <= _PAGE:
         rows, columns, size, exact = rows * columns, 1, (page_width(stacked[0]), stacked[1]), True
     figure = new_figure(size if exact else page_size(size, columns))
     return list(figure.subplots(rows, columns, squeeze=False).ravel())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -160,6 +161,9 @@ _MARKED = (0.05, 0.5, 0.95)
 # _NOTHING of 0.
 _ZERO, _NOTHING = 0.01, 0.05
 
+# Width of a figure below which names of inputs have several lines [inches], and letters on each of them.
+_NARROW, _LETTERS = 5.0, 18
+
 
 def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
     """Draw the cumulative distribution of a value, with its 5, 50 and 95 % quantiles.
@@ -230,7 +234,10 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
         for row in np.flatnonzero(~drawn):
             ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=text_colour(colour))
     ax.axvline(0.0, color="black", lw=0.7)
-    ax.set_yticks(rows, labels=[label_of(i.key, results.case).name for i in ordered])
+    names = [label_of(index.key, results.case).name for index in ordered]
+    if figure_of(ax).get_figwidth() < _NARROW:
+        names = ["\n".join(textwrap.wrap(name, _LETTERS)) for name in names]
+    ax.set_yticks(rows, labels=names)
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
     lowest = min(0.0, *(i.first_order_interval[0] for i in ordered))
     ax.set_xlim(1.05 * lowest, 1.03 * highest)
@@ -245,7 +252,7 @@ def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
     """Figure of the distribution of a value beside the sensitivity indices of the inputs."""
     with style():
         high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
-        left, right = new_panels(1, 2, (8.4, high), beside=True)
+        left, right = new_panels(1, 2, (8.4, high))
         distribution(results, analysis, left)
         parts(results, analysis, right)
         more = []

@@ -2,6 +2,7 @@
 
 import math
 import subprocess
+import sys
 
 import numpy as np
 import openpyxl
@@ -301,6 +302,13 @@ def test_paraview_reads_a_moving_film(geometry, tmp_path):
         sizes = sizes_of(grid, "Length" if len(plane) == 1 else "Area")
         assert len(sizes) == np.prod([len(axis) - 1 for axis in plane])
         assert np.all(sizes > 0.0)
+
+
+def test_a_workbook_without_its_package_names_the_extra(bearing, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(InputError, match=r"pip install 'ehlectric\[excel\]'"):
+        export(bearing, tmp_path / "bearing.xlsx")
+    assert not (tmp_path / "bearing.xlsx").exists()
 
 
 def test_what_cannot_be_exported_is_refused(bearing, tmp_path):
