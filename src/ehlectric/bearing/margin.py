@@ -75,8 +75,8 @@ from ehlectric.discharge.breakdown_rule import (
 )
 from ehlectric.discharge.film_verdict import (
     Verdict,
-    assumption_of,
     doubts_of,
+    strength_clause,
     strength_doubt,
     unusable,
     weibull_part,
@@ -853,7 +853,7 @@ def _assumptions(solution: BearingSolution) -> str:
     elif case.bearing.film_factor == "solved":
         films = f"fully flooded, {film} with the solved heat of pure rolling"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
-    clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
+    clause = strength_clause(case.discharge, stated.get("discharge.dielectric_strength"))
     kind = "Upper bound" if case.bearing.bounding else "Best estimate"
     return f"{kind}: {films}; {clause}{equal_bearings_clause(case)}."
 

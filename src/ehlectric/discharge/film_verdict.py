@@ -64,17 +64,21 @@ class Verdict:
 DOUBTS: tuple[str, ...] = tuple(data_file("ehlectric.quantities", "warning_codes.toml")["doubts"])
 
 
-def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
-    """Clause on the dielectric strength that is assumed; ``stated`` is the range of a constant one [V/m]."""
+# Why an answer does not become certain with the given strength.
+SELDOM = " that is seldom measured for films"
+
+
+def strength_clause(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
+    """Clause on the dielectric strength of the case; ``stated`` is the range of a constant one [V/m]."""
     strength, table = discharge.dielectric_strength, discharge.strength_table
     if strength is not None:
         between = (
             "" if stated is None else f" ({readable(stated[0] / 1e6)} to {readable(stated[1] / 1e6)} V/µm)"
         )
-        return f"dielectric strength {readable(strength / 1e6)} V/µm{between} is an assumption"
+        return f"dielectric strength {readable(strength / 1e6)} V/µm{between} is an input{SELDOM}"
     if table is not None:
-        return f"the table of dielectric strength over {table.over} is an assumption"
-    return "the Weibull law of the dielectric strength is an assumption"
+        return f"the table of dielectric strength over {table.over} is an input{SELDOM}"
+    return f"the Weibull law of the dielectric strength is an input{SELDOM}"
 
 
 def strength_doubt(discharge: Discharge, margin: float) -> str:
@@ -156,7 +160,7 @@ def contact_verdict(
         part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
         doubts.insert(0, f"The {name} may be {readable(100.0 * part, 2)} % off on this grid.")
     bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
-    last = f"{bound}{assumption_of(discharge)}."
+    last = f"{bound}{strength_clause(discharge)}."
     text = (
         f"{lead}: applied voltage {readable(voltage)} V, breakdown voltage {readable(at)} V{span} "
         f"(margin {ratio_text(margin)}{spread})."

@@ -17,7 +17,7 @@ from ehlectric.discharge.breakdown_rule import (
     doubted,
 )
 from ehlectric.discharge.discharge_laws import beside_limits
-from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of, unusable
+from ehlectric.discharge.film_verdict import DOUBTS, Verdict, strength_clause, unusable
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
@@ -165,7 +165,7 @@ def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     text = f"The largest current over the Hertz areas is {readable(1e-6 * most)} A/mm², {beside_limits(most)}"
     if any(end["events"] for end in ends):
         arc = amount(case.breakdown.arc_resistance, "Ω")
-        text += f"; energies and currents follow from an assumed arc of {arc}"
+        text += f"; energies and currents follow from the given arc of {arc}"
     yield f"{text}."
     yield _HARM
 
@@ -219,7 +219,7 @@ def _bound(case: DriveCase, codes: set[str]) -> str:
 def _assumption(case: DriveCase) -> str:
     """Sentence about the strength of the oil; empty where no bearing has one, as with ceramic elements."""
     told = dict.fromkeys(
-        assumption_of(one.discharge)
+        strength_clause(one.discharge)
         for one in case.bearings
         if one.discharge is not None and one.discharge.has_strength
     )

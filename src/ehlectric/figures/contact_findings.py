@@ -246,10 +246,10 @@ def breakdown_text(result: AnyContact) -> str:
     verdict = result.verdict
     assert verdict is not None
     strength = found.dielectric_strength
-    assumed = "by the table assumed" if strength is None else f"{readable(strength / 1e6)} V/µm assumed"
+    given = "by the table given" if strength is None else f"{readable(strength / 1e6)} V/µm given"
     # The panels of a point contact say where they cut the film.
     where = f" at {place}" if isinstance(result, Result) else ""
-    margin = f"margin {ratio_text(found.margin)}, strength {assumed}"
+    margin = f"margin {ratio_text(found.margin)}, strength {given}"
     return f"{verdict.lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
 
 

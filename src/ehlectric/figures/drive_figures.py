@@ -176,9 +176,9 @@ def case_lines(result: DriveResult) -> list[str]:
 
 
 def arc_line(result: DriveResult) -> str:
-    """Line: the assumption from which charges, energies and currents follow."""
+    """Line: the input from which charges, energies and currents follow."""
     arc, kept = result.case.breakdown.arc_resistance, len(result.solution.record.events)
-    text = f"charges, energies and currents follow from an arc of {amount(arc, 'Ω')}, which is an assumption"
+    text = f"charges, energies and currents follow from the given arc of {amount(arc, 'Ω')}"
     if kept < sum(number_of_events(result, b) for b in range(len(ENDS))):
         text += f"; of the first {kept} discharges"
     return text

@@ -361,7 +361,9 @@ def _meaning(key: str) -> str:
 
 
 def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
-    """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
+    """Table of the inputs that are assumptions, estimates or follow by a rule, and of the given strength,
+    which is seldom measured, grouped by their sources.
+    """
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
         text = f"{named(one.key).text} = {input_text(case, one.key, one.value)}"
@@ -369,10 +371,12 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)
         elif end_and_key(one.key)[1].startswith(_STRENGTHS):
-            groups.setdefault(("assumed", SENTENCES["no_strength_measured"]), []).append(text)
+            groups.setdefault(("given", SENTENCES["no_strength_measured"]), []).append(text)
     rows = tuple(("; ".join(texts), kind, why) for (kind, why), texts in groups.items())
     if rows:
-        yield Table("Inputs that are assumptions", ("inputs", "kind", "why"), rows, shares=(0.42, 0.12, 0.46))
+        yield Table(
+            "Inputs to measure or to check", ("inputs", "kind", "why"), rows, shares=(0.42, 0.12, 0.46)
+        )
     yield Text(SENTENCES["given_inputs"])
 
 

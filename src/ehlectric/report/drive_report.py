@@ -31,7 +31,7 @@ from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.readable import readable
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
-from ehlectric.report.first_page import assumption_table, machine_of, numbers_of, usual_range
+from ehlectric.report.first_page import machine_of, measure_first_table, numbers_of, usual_range
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
@@ -337,7 +337,7 @@ def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
         # Ceramic elements do not break down.
         if summary.get(end, {"breakdown_voltage": 0.0})["breakdown_voltage"] is not None:
             found.setdefault(own, (key, value, why))
-    yield assumption_table(
+    yield measure_first_table(
         (named(key).text, value, usual_range(case, key), why)
         for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
     )

@@ -96,7 +96,7 @@ def is_solved(result: Any) -> bool:
 
 
 def _short(light: Light) -> Light:
-    """Light with the first two sentences and the last one, which has the assumptions."""
+    """Light with the first two sentences and the last one, which names the bound and the strength."""
     sentences = _SENTENCE.split(light.rest)
     text = " ".join(dict.fromkeys([*sentences[:2], sentences[-1]]))
     return replace(light, text=with_units_kept(text))
@@ -171,7 +171,7 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
         yield Text(SENTENCES["no_effects"])
     found = (summary.get("uncertainty") or {}).get("indices", ())[:_ASSUMPTIONS]
     if found:
-        yield assumption_table(
+        yield measure_first_table(
             (
                 (
                     _name(one),
@@ -185,7 +185,7 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
         )
         return
     broken = summary["bearing"]["first_break"] is not None
-    yield assumption_table(
+    yield measure_first_table(
         (named(key).text, input_text(case, key, given[key]), usual_range(case, key), why)
         for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
@@ -262,12 +262,12 @@ def usual_range(case: BearingCase | DriveCase, key: str) -> str:
     return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))
 
 
-def assumption_table(rows: Iterable[tuple[str, str, str, str]], *, ranked: bool = False) -> Table:
-    """Table of the assumptions to measure first; ``ranked``, whether they have the largest shares of a
+def measure_first_table(rows: Iterable[tuple[str, str, str, str]], *, ranked: bool = False) -> Table:
+    """Table of the inputs to measure first; ``ranked``, whether they have the largest shares of a
     spread.
     """
-    which = "the assumptions that matter most" if ranked else "assumptions behind the answer, not ranked"
-    heads, shares = ("assumption", "value", "usual range", "why"), (0.26, 0.13, 0.17, 0.44)
+    which = "the inputs that matter most" if ranked else "inputs behind the answer, not ranked"
+    heads, shares = ("input", "value", "usual range", "why"), (0.26, 0.13, 0.17, 0.44)
     return Table(f"Measure first: {which}", heads, tuple(rows), shares=shares)
 
 

@@ -152,7 +152,7 @@ class Part:
     figures: tuple[str, ...]  # names of the figures, the first of which decides
     figure_note: str = ""  # sentence below the figures
     further: tuple[Section, ...] = ()
-    rests: tuple[Block, ...] = ()  # what the result rests on, beside the inputs that are assumptions
+    rests: tuple[Block, ...] = ()  # what the result rests on, next to the inputs to measure or to check
     details: dict[str, str]  # what is known of the computation, by name
     toml: str
     varied: tuple[str, ...] = ()  # dotted keys that a sweep varies

@@ -17,7 +17,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.discharge.breakdown_rule import TOUCHING, Level, ratio_text, strength_interval
-from ehlectric.discharge.film_verdict import DOUBTS, Verdict, assumption_of
+from ehlectric.discharge.film_verdict import DOUBTS, SELDOM, Verdict, strength_clause
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.readable import readable
@@ -185,9 +185,9 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
         neglected = {"isothermal": not heated, "fully flooded": not supplied}
         kinds = [kind for kind, holds in neglected.items() if holds]
     bound = f"{kind}: {', '.join(kinds)} film; " if kinds else ""
-    strength = assumption_of(case.discharge)
+    strength = strength_clause(case.discharge)
     if _strength_varies(results):
-        strength = "the dielectric strength is an assumption"
+        strength = f"the dielectric strength is an input{SELDOM}"
     equal = ""
     if isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied:
         equal = equal_bearings_clause(case)

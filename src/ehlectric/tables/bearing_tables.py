@@ -153,7 +153,7 @@ def _strength(summary: Summary) -> Noted:
     """Dielectric strength, the scale of its Weibull law, or its range, with its note."""
     discharge = summary["inputs"].get("discharge", {})
     if "dielectric_strength" in discharge:
-        return Noted(discharge["dielectric_strength"], ", as assumed")
+        return Noted(discharge["dielectric_strength"], ", as given")
     if "weibull" in discharge:
         weibull = discharge["weibull"]
         return Noted(weibull["scale"], f", Weibull scale, shape {weibull['shape']:g}")

@@ -196,7 +196,7 @@ def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     assert number(answer.number("end.energy_mean").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
     assert answer.judged.level == "red"
     assert f"{readable(one['events_per_second'])} a second" in answer.judged.numbers
-    assert "is an assumption" in answer.judged.assumptions
+    assert "is an input that is seldom measured" in answer.judged.assumptions
     parts = [done for done, of, _ in told if of]
     assert parts == sorted(parts)
     assert parts[-1] == 100

@@ -45,7 +45,7 @@ def contact(**tables):
 def test_words_of_a_contact_that_holds_its_voltage():
     for flooded in (True, False):
         text = verdict(1.3, flooded=flooded).text
-        numbers = ("No breakdown expected: ", " 8 V", " 10.4 V", "(margin 1.30)", "15 V/µm is an assumption")
+        numbers = ("No breakdown expected: ", " 8 V", " 10.4 V", "(margin 1.30)", "15 V/µm is an input")
         assert [number for number in numbers if number not in text] == []
         assert ("Upper bound: isothermal, fully flooded" in text) == flooded
     assert str(verdict(1.3)) == verdict(1.3).text

@@ -76,8 +76,8 @@ def tables_of(report):
 
 
 LIFE = "Rating life at the operating point"
-RANKED = "Measure first: the assumptions that matter most"
-MEASURE = "Measure first: assumptions behind the answer, not ranked"
+RANKED = "Measure first: the inputs that matter most"
+MEASURE = "Measure first: inputs behind the answer, not ranked"
 
 
 @pytest.mark.slow

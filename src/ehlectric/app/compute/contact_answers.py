@@ -24,7 +24,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, doubted, lead_of, level_of, ratio_text
-from ehlectric.discharge.film_verdict import Verdict, doubts_of
+from ehlectric.discharge.film_verdict import SELDOM, Verdict, doubts_of
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import (
@@ -128,7 +128,7 @@ def verdict_by_formula(
         return Verdict("grey", _NO_VOLTAGE)
     if estimate["outside_range"]:
         return Verdict("grey", _OUTSIDE.format(**estimate))
-    # The film may be that much thinner or thicker than by the formula, and the strength is assumed.
+    # The film may be that much thinner or thicker than by the formula, and so may be the strength.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
     high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
     level, doubts = level_of(low, high), doubts_of(warnings)
@@ -139,7 +139,9 @@ def verdict_by_formula(
         "applied (margin "
         f"{ratio_text(margin)})."
     )
-    strength = f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm is an assumption"
+    strength = (
+        f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm is an input{SELDOM}"
+    )
     last = f"Upper bound: isothermal, fully flooded film; {strength}."
     return Verdict(level, " ".join([text, *doubts, last]), margin, (low, high))
 
