@@ -19,7 +19,8 @@ from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).parents[1]
 TUTORIAL = Path("docs/guide/first_bearing.md")
-PAGES = (Path("README.md"), Path("docs/index.md"), TUTORIAL)
+BEARING = Path("docs/guide/bearing.md")
+PAGES = (Path("README.md"), Path("docs/index.md"), TUTORIAL, BEARING)
 
 _BLOCK = re.compile(r"(<!--(\w+)-->\n+```text\n)(.*?)(```)", re.DOTALL)
 _NUMBER = re.compile(r"(<!--(\w+): ([^>]+)-->)(.*?)(<!--/-->)")
@@ -39,11 +40,31 @@ def by_command(words: list[str], folder: Path) -> str:
 
 def _tutorial(command: str, run: Run, folder: Path, *, grade: int = 46) -> str:
     """Output of a command for the file of the tutorial, with an ISO viscosity grade."""
-    blocks = re.findall(
-        r"^```toml\n(.*?)^```", (ROOT / TUTORIAL).read_text("utf-8"), re.DOTALL | re.MULTILINE
-    )
-    (file,) = (block for block in blocks if "[bearing]" in block)
+    file = _file_in(TUTORIAL, "[bearing]")
     (folder / "bearing.toml").write_text(file.replace("iso_vg = 46", f"iso_vg = {grade}"), "utf-8")
+    return run(shlex.split(command), folder)
+
+
+def _file_in(page: Path, table: str) -> str:
+    """The one file of a page that has a table."""
+    blocks = re.findall(r"^```toml\n(.*?)^```", (ROOT / page).read_text("utf-8"), re.DOTALL | re.MULTILINE)
+    (file,) = (block for block in blocks if table in block)
+    return str(file)
+
+
+def _fits(command: str, run: Run, folder: Path, *, inner: int = 85) -> str:
+    """Output of a command for the bearing with fits, at a temperature of its inner ring [degC]."""
+    example = (ROOT / "examples" / "bearing_6208.toml").read_text("utf-8")
+    file = _file_in(BEARING, "[bearing.fits]").replace('"85 degC"', f'"{inner} degC"')
+    (folder / "bearing.toml").write_text(f"{file}\n{example[example.index('[lubricant]') :]}", "utf-8")
+    return run(shlex.split(command), folder)
+
+
+def _coated(command: str, run: Run, folder: Path) -> str:
+    """Output of a command for the example with the coating of the page."""
+    example = (ROOT / "examples" / "bearing_6208.toml").read_text("utf-8")
+    coating = _file_in(BEARING, "schaeffler-j20aa")
+    (folder / "bearing.toml").write_text(f"{example}\n{coating}", "utf-8")
     return run(shlex.split(command), folder)
 
 
@@ -59,6 +80,9 @@ RUNS: Mapping[str, Callable[[Run, Path], str]] = {
     "solved": partial(_tutorial, f"bearing bearing.toml {_SOLVED}"),
     "thicker": partial(_tutorial, "check bearing.toml", grade=68),
     "readme": partial(_example, f"bearing examples/bearing_6208.toml --contacts atlas {_SOLVED}"),
+    "fits": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}"),
+    "even": partial(_fits, f"bearing bearing.toml --contacts formula {_SOLVED}", inner=70),
+    "coated": partial(_coated, f"bearing bearing.toml --contacts atlas {_SOLVED}"),
     "index": partial(_example, f"bearing examples/bearing_6208.toml {_SOLVED}"),
 }
 

@@ -4,7 +4,7 @@ import re
 import shlex
 
 import pytest
-from docs.renew import TUTORIAL, outputs, renewed, runs_of
+from docs.renew import BEARING, TUTORIAL, outputs, renewed, runs_of
 
 from tests.helpers.commands import run_command
 from tests.helpers.places import ROOT
@@ -103,6 +103,12 @@ def test_the_answer_of_the_readme_is_that_of_the_command():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "ehlectric bearing examples/bearing_6208.toml --contacts atlas -o" in text
     agrees("readme", "README.md")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("run", ["readme", "index", "fits", "even", "coated"])
+def test_the_numbers_in_the_sentences_of_the_bearing_page_are_those_of_its_runs(run):
+    agrees(run, BEARING)
 
 
 def test_every_speed_in_the_sentences_of_the_tutorial_is_of_the_file_or_of_a_run():
