@@ -23,7 +23,7 @@ from ehlectric.cases.grid_inputs import POINT_GRID_KEYS, Electric, Grid, Motion,
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.meter_inputs import Meter
-from ehlectric.cases.replaced_keys import refuse_another_oil, refuse_replaced
+from ehlectric.cases.replaced_keys import BASE, refuse_another_oil, refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files, unused_of_surfaces
 from ehlectric.cases.table import CaseFile, Title, as_mapping, read_toml, with_name_keys
 from ehlectric.errors import InputError, short, shown
@@ -340,9 +340,9 @@ class Case(CaseFile, book="case_file"):
         changed = self.from_dict(table | {LAWS: laws})
         if changed.own_laws is not None:
             before = flattened(self._without_laws())
-            others = {key: (before.get(key),) for key in flattened(flat) if key != "lubricant.base"}
+            others = {key: (before.get(key),) for key in flattened(flat) if key != BASE}
             check_changes(changed, others)
-            if "lubricant.base" in flat and not new_laws:
+            if BASE in flat and not new_laws:
                 refuse_another_oil(changed.lubricant, self.lubricant, changed.own_laws.names)
         return changed
 

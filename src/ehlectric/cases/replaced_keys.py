@@ -17,7 +17,7 @@ from ehlectric.quantities.alternatives import ALTERNATIVES
 _NOT_VISCOUS, _OF_DENSITY = {"thermal_conductivity"}, ("density_15", "expansion")
 
 # Key of the oil of the library, which a change of the whole oil changes.
-_BASE = "lubricant.base"
+BASE = "lubricant.base"
 
 
 def replaced_keys(oil: Properties, own: Collection[str]) -> dict[str, str]:
@@ -92,8 +92,8 @@ def refuse_replaced(
                 f"has no effect, as {names[of]} gives the {of}; change the function, or remove it from laws",
                 takes="the value of the case",
             )
-    for name in changes.get(_BASE, ()):
-        if name is not None and name != given.get(_BASE):
+    for name in changes.get(BASE, ()):
+        if name is not None and name != given.get(BASE):
             refuse_another_oil(oil, Properties.from_dict({"base": name}), names)
 
 
@@ -107,7 +107,7 @@ def refuse_another_oil(oil: Properties, other: Properties, names: Mapping[str, s
         table, _, path = key.partition(".")
         if table == "lubricant" and _value(oil, path) != _value(other, path):
             raise InputError.worded(
-                _BASE,
+                BASE,
                 f"another oil does not change the {of}, as {names[of]} gives it; give the laws of the new "
                 "oil with it, as in case.replace(lubricant=..., laws=Laws(...)), or use the case without "
                 "laws, case.replace(laws=None)",

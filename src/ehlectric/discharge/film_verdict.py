@@ -64,8 +64,9 @@ class Verdict:
 DOUBTS: tuple[str, ...] = tuple(data_file("ehlectric.quantities", "warning_codes.toml")["doubts"])
 
 
-# Why an answer does not become certain with the given strength.
-SELDOM = " that is seldom measured for films"
+def seldom_measured(strength: str) -> str:
+    """Clause on a given strength: why an answer does not become certain with it."""
+    return f"{strength} is an input that is seldom measured for films"
 
 
 def strength_clause(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
@@ -75,10 +76,10 @@ def strength_clause(discharge: Discharge, stated: tuple[float, float] | None = N
         between = (
             "" if stated is None else f" ({readable(stated[0] / 1e6)} to {readable(stated[1] / 1e6)} V/µm)"
         )
-        return f"dielectric strength {readable(strength / 1e6)} V/µm{between} is an input{SELDOM}"
+        return seldom_measured(f"dielectric strength {readable(strength / 1e6)} V/µm{between}")
     if table is not None:
-        return f"the table of dielectric strength over {table.over} is an input{SELDOM}"
-    return f"the Weibull law of the dielectric strength is an input{SELDOM}"
+        return seldom_measured(f"the table of dielectric strength over {table.over}")
+    return seldom_measured("the Weibull law of the dielectric strength")
 
 
 def strength_doubt(discharge: Discharge, margin: float) -> str:

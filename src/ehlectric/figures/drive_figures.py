@@ -26,7 +26,7 @@ from ehlectric.figures.data import Along, Curve, Panel, is_wide
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.duty_panels import cycle_lines, drive_duty_panels
 from ehlectric.figures.duty_panels import time_axis as time_axis_of_cycle
-from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, literal
+from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, broken
 from ehlectric.figures.style import (
     drawing_of,
     legend_above,
@@ -438,15 +438,10 @@ def _rows(ax: Axes, names: list[str]) -> None:
     """Rows with their names, from top to bottom, and lines between them."""
     ax.set_ylim(len(names) - 0.5, -0.5)
     ax.yaxis.set_minor_locator(NullLocator())
-    ax.set_yticks(np.arange(len(names)), labels=[_broken(name) for name in names])
+    ax.set_yticks(np.arange(len(names)), labels=[broken(name, _LETTERS, _LINES) for name in names])
     ax.tick_params(axis="y", length=0.0)
     for row in range(1, len(names)):
         ax.axhline(row - 0.5, color=GREY, lw=0.4, alpha=0.5)
-
-
-def _broken(name: str) -> str:
-    """Name on few short lines."""
-    return "\n".join(textwrap.wrap(literal(name), _LETTERS, max_lines=_LINES, placeholder=" ..."))
 
 
 def _log_axis(axis: Axis, low: float, high: float, ticks: int) -> None:

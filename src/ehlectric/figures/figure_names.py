@@ -6,6 +6,7 @@ The functions that draw them stand in tables by these names; this module is impo
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 
 from ehlectric.errors import InputError, printable, shown
@@ -140,6 +141,17 @@ def literal(text: str) -> str:
     \$film\$.csv
     """
     return printable(text).replace("$", r"\$")
+
+
+def broken(name: str, letters: int, lines: int | None = None) -> str:
+    r"""Name on lines of at most so many letters, shortened to a number of ``lines``.
+
+    Examples
+    --------
+    >>> broken("winding-rotor capacitance", 14), broken("winding-rotor capacitance", 18, 1)
+    ('winding-rotor\ncapacitance', 'winding-rotor ...')
+    """
+    return "\n".join(textwrap.wrap(literal(name), letters, max_lines=lines, placeholder=" ..."))
 
 
 def _of_file_name(text: str) -> str:

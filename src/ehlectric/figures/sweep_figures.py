@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +18,7 @@ from ehlectric.bearing.bearing_touching import OF_TIME, time_text
 from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing_figure_files import save_speed_figures
-from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats, map_files
+from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, broken, in_formats, map_files
 from ehlectric.figures.style import (
     axes_or_new,
     figure_of,
@@ -236,7 +235,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
     ax.axvline(0.0, color="black", lw=0.7)
     names = [label_of(index.key, results.case).name for index in ordered]
     if figure_of(ax).get_figwidth() < _NARROW:
-        names = ["\n".join(textwrap.wrap(name, _LETTERS)) for name in names]
+        names = [broken(name, _LETTERS) for name in names]
     ax.set_yticks(rows, labels=names)
     highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
     lowest = min(0.0, *(i.first_order_interval[0] for i in ordered))

@@ -178,9 +178,12 @@ def film(
     >>> round(found["central_thickness"] * 1e9)
     652
     """
-    given = {"m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed}
-    given |= {"radius": radius, "radius_across": radius_across, "modulus": modulus}
-    return film_summary(film_of(given | {"composite_rq": composite_rq}))
+    given = {
+        "m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed,
+        "radius": radius, "radius_across": radius_across, "modulus": modulus,
+        "composite_rq": composite_rq,
+    }  # fmt: skip
+    return film_summary(film_of(given))
 
 
 @dataclass(frozen=True)

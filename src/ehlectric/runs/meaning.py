@@ -22,7 +22,6 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
-from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
 from ehlectric.sweep.sweep_inputs import Sweep
@@ -297,12 +296,7 @@ def _in_units(key: str, values: list[Any], sweep: Sweep) -> tuple[list[str], str
     """Values as texts in the unit that an engineer uses; other values than numbers as they are."""
     from ehlectric.sweep.axis_labels import label_of
 
-    label = label_of(key, sweep.case)
     if not all(isinstance(value, float) for value in values):
         return [str(value) for value in values], ""
-    if label.absolute:
-        return [readable(value - 273.15, 4) for value in values], "°C"
-    if label.unit == "rad/s":
-        return [readable(rpm(value), 4) for value in values], "rpm"
-    scale = label.scaled(np.array(values))
-    return [readable(scale.factor * value, 4) for value in values], scale.unit
+    scale = label_of(key, sweep.case).scaled(np.array(values))
+    return [readable(scale.of(value), 4) for value in values], scale.unit

@@ -17,7 +17,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.discharge.breakdown_rule import TOUCHING, Level, ratio_text, strength_interval
-from ehlectric.discharge.film_verdict import DOUBTS, SELDOM, Verdict, strength_clause
+from ehlectric.discharge.film_verdict import DOUBTS, Verdict, seldom_measured, strength_clause
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.readable import readable
@@ -187,7 +187,7 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     bound = f"{kind}: {', '.join(kinds)} film; " if kinds else ""
     strength = strength_clause(case.discharge)
     if _strength_varies(results):
-        strength = f"the dielectric strength is an input{SELDOM}"
+        strength = seldom_measured("the dielectric strength")
     equal = ""
     if isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied:
         equal = equal_bearings_clause(case)
@@ -262,7 +262,5 @@ def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
 def value_text(key: str, value: Any, case: SweptCase) -> str:
     """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
     label = label_of(key, case)
-    if label.absolute:
-        return f"{readable(value - 273.15)} °C"
     scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))
-    return f"{readable(value * scale.factor)} {scale.unit}".rstrip()
+    return f"{readable(scale.of(value))} {scale.unit}".rstrip()

@@ -33,8 +33,7 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
             at = {"x": [curve.own[0]], "y": [curve.own[1]], "mode": "markers+text", "text": [name]}
             look = {"marker": {"color": colour, "size": 11}, "textposition": "top left", "showlegend": False}
             traces.append({"type": "scatter", **at, **look, "hovertemplate": hover})
-    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1, 2, 5)]
-    log = {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": [readable(t, 6) for t in ticks]}
+    log = _log_axis()
     layout = {
         "xaxis": {"title": {"text": "speed of the inner ring [rpm]"}, **log},
         "yaxis": {"title": {"text": "voltage [V]"}, **log},
@@ -44,30 +43,31 @@ def over_speed(sides: Sequence[Side]) -> dict[str, Any]:
     return _figure(traces, 400, layout)
 
 
+def _log_axis() -> dict[str, Any]:
+    """Logarithmic axis with ticks at 1, 2 and 5 of each decade."""
+    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1, 2, 5)]
+    texts = [readable(tick, 6) for tick in ticks]
+    return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
+
+
 def films(sides: Sequence[Side]) -> dict[str, Any]:
     """Minimum films over the position of the elements, of A and B. Elements without load, or with less than
     2 % of the largest load of their case, are crosses at the rim: their gaps would hide the films of the
     others. Returns polar figure for Plotly, in micrometres and degrees.
     """
-    shown = [
-        1e6 * thickness
-        for side in sides
-        for film in side.films
-        for thickness, load in zip(film.thickness, film.load, strict=True)
-        if _is_loaded(side, load)
+    # Both crosses are visible at one place.
+    looks = ("A", _FIRST, "circle", "x-thin"), ("B", _SECOND, "square", "cross-thin")
+    loaded = [
+        [_films_of(film, side, name, colour, symbol) for film in side.films]
+        for side, (name, colour, symbol, _) in zip(sides, looks, strict=False)
     ]
-    low, high, log = _radius(shown)
+    low, high, log = _radius([radius for marks in loaded for mark in marks for radius in mark["r"]])
     traces: list[dict[str, Any]] = []
-    for side, name, colour, symbol in zip(sides, "AB", (_FIRST, _SECOND), ("circle", "square"), strict=False):
-        for film in side.films:
-            traces.append(_films_of(film, side, name, colour, symbol))
-        # Both signs are visible at one place.
-        traces.append(_at_rim(side, name, colour, high, cross="x-thin" if name == "A" else "cross-thin"))
+    for side, marks, (name, colour, _, cross) in zip(sides, loaded, looks, strict=False):
+        traces += [*marks, _at_rim(side, name, colour, high, cross=cross)]
     radial: dict[str, Any] = {"angle": 90.0, "tickangle": 0}
     if log:
-        ticks = [digit * 10.0**power for power in range(-6, 4) for digit in (1, 2, 5)]
-        radial |= {"type": "log", "range": [math.log10(low), math.log10(high)], "tickmode": "array"}
-        radial |= {"tickvals": ticks, "ticktext": [readable(tick, 6) for tick in ticks]}
+        radial |= {"range": [math.log10(low), math.log10(high)], **_log_axis()}
     else:
         radial |= {"range": [low, high], "nticks": 4}
     polar = {

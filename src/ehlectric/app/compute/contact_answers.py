@@ -24,7 +24,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, doubted, lead_of, level_of, ratio_text
-from ehlectric.discharge.film_verdict import SELDOM, Verdict, doubts_of
+from ehlectric.discharge.film_verdict import Verdict, doubts_of, seldom_measured
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import (
@@ -139,9 +139,7 @@ def verdict_by_formula(
         "applied (margin "
         f"{ratio_text(margin)})."
     )
-    strength = (
-        f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm is an input{SELDOM}"
-    )
+    strength = seldom_measured(f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm")
     last = f"Upper bound: isothermal, fully flooded film; {strength}."
     return Verdict(level, " ".join([text, *doubts, last]), margin, (low, high))
 
