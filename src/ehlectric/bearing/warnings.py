@@ -225,13 +225,12 @@ def _most_speed(bearing: Bearing) -> Numbers:
 
 def _minimum_load_flag(bearing: Bearing, load: Numbers, tiny: Mask) -> Flag:
     """Note of a load [N] below the minimum load of catalogues; a preload is a sufficient load."""
-    kind, rating = KINDS_OF_BEARINGS[bearing.kind], dynamic_rating(bearing)
-    least = _MINIMUM_LOAD[kind.elements] * rating
-    free = bearing.pair is None or not bearing.pair.preload
+    kind = KINDS_OF_BEARINGS[bearing.kind]
+    least = _MINIMUM_LOAD[kind.elements] * dynamic_rating(bearing)
+    preload = None if bearing.pair is None else bearing.pair.preload
+    free = True if preload is None else np.equal(preload, 0.0)
     below = np.logical_and(load < least, np.logical_not(tiny))
-    return Flag.of(
-        below & free, "load-below-minimum", load=load, least=least, rating=rating, elements=kind.elements
-    )
+    return Flag.of(below & free, "load-below-minimum", load=load, least=least, elements=kind.elements)
 
 
 def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:

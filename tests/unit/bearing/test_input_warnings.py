@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from ehlectric import evaluate
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.warnings import _most_speed, input_flags, library_viscosity
 from ehlectric.cases.bearing_case import BearingCase
@@ -150,3 +151,12 @@ def test_the_minimum_load_of_rollers_is_larger_and_a_preload_is_a_load():
         case = rollers.replace(changes | {"bearing.radial_load": part * least})
         codes = [warning.code for warning in raised(input_flags(case, 0.01))]
         assert ("load-below-minimum" in codes) == told_of, (changes, part)
+
+
+def test_preloads_of_many_points_are_loads_each():
+    """Both points at once, as in sweeps and ``evaluate``: without a preload, a load of 500 N is too small."""
+    pair = BearingCase.from_toml(EXAMPLES / "bearing_tapered_pair.toml")
+    light = pair.replace({"bearing.radial_load": 500.0, "bearing.axial_load": 0.0})
+    found = evaluate(light, {"bearing.pair.preload": [0.0, 200.0]})
+    codes = found["warning_codes"].values.tolist()
+    assert ["load-below-minimum" in one for one in codes] == [True, False]
