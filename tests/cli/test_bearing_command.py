@@ -93,8 +93,8 @@ def test_a_speed_in_rad_per_second_is_seen_at_once(ehlectric, bearing_file):
     bearing_file.write_text(by_formula(text))
     done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
     assert done.returncode == 0, done.stderr
-    assert "speed of the inner ring 28650 rpm" in " ".join(done.stdout.split())
-    assert " at 28650 rpm, 70 °C" in done.stdout.splitlines()[-1]
+    assert "speed of the inner ring 28 650 rpm" in " ".join(done.stdout.split())
+    assert " at 28\xa0650 rpm, 70 °C" in done.stdout.splitlines()[-1]
 
 
 @pytest.mark.slow

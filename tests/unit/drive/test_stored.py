@@ -64,7 +64,7 @@ def test_each_bearing_of_a_drive_has_its_rating_life(drive):
     expected = (29_100.0 / second["equivalent_load"]) ** 3 * 1e6 / turns
     assert second["basic_life"] == pytest.approx(expected, rel=1e-9)
     rows = {row.key: row for row in drive_rows(drive.summary())}
-    assert rows["non_drive_end.life.dynamic_rating"].text == "29100 N, given"
+    assert rows["non_drive_end.life.dynamic_rating"].text == "29\xa0100 N, given"
     assert "drive_end.life.basic_life" not in rows
     checked = checked_summary(prepare(drive.case, workers=1))
     assert checked["non_drive_end"]["life"]["basic_life"] == pytest.approx(expected, rel=1e-9)

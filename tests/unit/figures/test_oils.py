@@ -140,7 +140,7 @@ def test_files_have_the_look_of_all_figures(tmp_path, monkeypatch):
     """A program that calls it outside of any style gets no overlapping titles either."""
     sizes = []
     monkeypatch.setattr(
-        "ehlectric.figures.style.save_figure",
+        "ehlectric.figures.oil_figures.save_figure",
         lambda figure, *_: (
             sizes.append((figure.get_layout_engine(), figure.axes[0].xaxis.label.get_size())) or []
         ),

@@ -214,10 +214,11 @@ def test_a_result_is_loaded_whatever_it_is_of(kind, files, tmp_path):
     assert ehlectric.load is load
     assert type(result) is type(outcome.result)
     assert result.summary() == outcome.summary
-    drawn, warnings = load_and_draw(file, tmp_path / "drawn")
-    assert drawn
-    assert all(path.parent == tmp_path / "drawn" for path in drawn)
-    assert list(map(str, warnings))[: len(outcome.warnings)] == outcome.summary["warnings"]
+    drawn = load_and_draw(file, tmp_path / "drawn")
+    assert drawn.files
+    assert not drawn.undrawn
+    assert all(path.parent == tmp_path / "drawn" for path in drawn.files)
+    assert list(map(str, drawn.warnings))[: len(outcome.warnings)] == outcome.summary["warnings"]
 
 
 def test_a_file_that_is_no_result_is_not_loaded(files, tmp_path):

@@ -120,10 +120,10 @@ def test_without_a_crossing_there_is_no_critical_speed():
     assert safe.margin_analysis.speeds.highest == pytest.approx(4.0 * own)
     least = ratio_text(safe.margin_analysis.speeds.minimum)
     assert least in safe.verdict.text
-    assert "300 to 12000 rpm" in safe.verdict.text
+    assert "300 to 12\xa0000 rpm" in safe.verdict.text
     slowest = margin_at(safe, **{"bearing.inner_speed": 0.1 * own})
     assert float(least) == pytest.approx(slowest, rel=5e-3)
-    assert "300 to 12000 rpm" in broken.verdict.text
+    assert "300 to 12\xa0000 rpm" in broken.verdict.text
 
 
 @pytest.mark.slow
