@@ -27,6 +27,12 @@ MOTOR = {
     "rotor_frame_capacitance": "1 nF",
 }
 
+# An oil that reaches the least viscosity of ASTM D341, 0.21 mm^2/s, near 290 degC.
+THIN = {
+    "lubricant.temperature.kinematic_viscosity_40": "12 mm^2/s",
+    "lubricant.temperature.kinematic_viscosity_100": "1.6 mm^2/s",
+}
+
 
 def with_motor(**changes):
     """A 6208 with a margin near 1, whose oil follows the temperature."""
@@ -98,7 +104,7 @@ def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
     "changes",
     [
         {"ranges": {"bearing.radial_load": ["1500 N", "2500 N"], TEMPERATURE: ["60 degC", "75 degC"]}},
-        {"ranges": {TEMPERATURE: ["60 degC", "230 degC"]}},
+        {"ranges": {TEMPERATURE: ["60 degC", "320 degC"]}, **THIN},
         {"contacts": "formula"},
         {"lubricant.temperature": {"iso_vg": 46, "viscosity_index": 100, "density_15": 870.0}},
     ],
@@ -270,8 +276,10 @@ def test_the_example_is_mapped_by_the_command(tmp_path):
 
 @pytest.mark.slow
 def test_a_point_with_samples_without_a_result_has_the_warning_and_the_bounds():
-    """Up to 230 degC the oil has no viscosity: the point alone and the point of a batch warn."""
-    case = with_motor(ranges={"bearing.temperature": ["60 degC", "230 degC"]})
+    """Near 320 degC the oil is thinner than the least viscosity of ASTM D341: the point alone and the point
+    of a batch warn.
+    """
+    case = with_motor(ranges={"bearing.temperature": ["60 degC", "320 degC"]}, **THIN)
     for outcome, table in outcomes(swept({SPEED: ["1500 rpm", "6000 rpm"]}, case)):
         found = outcome.summary["uncertainty"]
         part = found["failed"] / found["samples"]
