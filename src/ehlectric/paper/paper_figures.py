@@ -171,16 +171,11 @@ def _of(gigapascal: int) -> list[PaperContact]:
     return [contact for contact in CONTACTS if contact.gigapascal == gigapascal]
 
 
-def _panel_name(contact: PaperContact, letter: str, result: Result) -> str:
-    """Letter, name and speed of a sub-figure."""
-    return f"({letter}) {_name(contact, result)}"
-
-
 def _name(contact: PaperContact, result: Result) -> str:
-    """Name as printed and speed of a contact, with the computed M if it differs from the print."""
+    """Name of a contact as printed, with the computed M if it differs from the print."""
     computed, printed = result.conditions.contact.moes_m, float(contact.printed[1:].split("L")[0])
     other = "" if abs(printed - computed) < 1.0 else f" (M = {computed:.1f})"
-    return f"{contact.printed}{other}, {_speed(contact)}"
+    return f"{contact.printed}{other}"
 
 
 def _speed(contact: PaperContact) -> str:
@@ -188,10 +183,14 @@ def _speed(contact: PaperContact) -> str:
     return f"$u_1+u_2$ = {contact.u_s:g} m/s"
 
 
-def _title(ax: Axes, text: str) -> None:
-    """Write the name of a panel over its left end; on narrow pages above what stands over its right end."""
-    above = _narrow(ax) and bool(ax.get_title(loc="right"))
-    ax.set_title(f"{text}\n " if above else text, loc="left", weight="bold")
+def _title(ax: Axes, name: str, *conditions: str) -> None:
+    """Write the name of a panel and its conditions over its left end.
+
+    On narrow pages each has a line above the text over the right end.
+    """
+    lines = [name, *conditions]
+    text = "\n".join([*lines, " "]) if _narrow(ax) and ax.get_title(loc="right") else ", ".join(lines)
+    ax.set_title(text, loc="left", weight="bold")
 
 
 def _narrow(ax: Axes) -> bool:
@@ -222,7 +221,7 @@ def potentials(study: Study) -> Figure:
     contacts = (CONTACTS[0], CONTACTS[3])
     for ax, letter, contact in zip(panels, "ab", contacts, strict=True):
         result = study.smooth[contact]
-        _title(plot.potential(result, ax), _panel_name(contact, letter, result))
+        _title(plot.potential(result, ax), f"({letter}) {_name(contact, result)}", _speed(contact))
     return _compared(panels, [study.smooth[contact] for contact in contacts])
 
 
@@ -238,7 +237,7 @@ def _strengths(part: str, gigapascal: int) -> Callable[[Study], Figure]:
         largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
         for ax, (contact, result) in zip(panels, results.items(), strict=True):
             plot.field_strength(result, ax, largest=largest)
-            _title(ax, _panel_name(contact, contact.label, result))
+            _title(ax, f"({contact.label}) {_name(contact, result)}", _speed(contact))
         return _compared(panels, results.values())
 
     return draw
@@ -269,7 +268,7 @@ def _middle(
             x, factor = result.field.x / result.conditions.half_width, scale(result)
             straight = factor * straight_line(result)
             for axes in drawn_on:
-                name = _name(contact, result)
+                name = f"{_name(contact, result)}, {_speed(contact)}"
                 axes.plot(x, factor * result.field.middle_strength, color=colour, label=name)
                 if not coincide:
                     axes.plot(x, straight, **_STRAIGHT)
@@ -333,7 +332,7 @@ def profile_and_pressure(study: Study) -> Figure:
     left.set(xlabel=label, ylabel="height [nm]", xlim=(x[0], x[-1]), ylim=(-62, 72))
     left.legend(loc="upper right", frameon=False)
     _pressures(right, result, smooth)
-    _title(right, _panel_name(CONTACTS[3], "b", result) + ", 1 GPa")
+    _title(right, f"(b) {_name(CONTACTS[3], result)}", _speed(CONTACTS[3]), "1 GPa")
     return figure_of(left)
 
 
