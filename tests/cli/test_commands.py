@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, load
+from ehlectric.figures.fallback_fonts import fonts_for
 from ehlectric.formulas import film_line
 from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
@@ -138,7 +139,10 @@ def test_surfaces_that_touch_are_said(ehlectric, case_file, tmp_path):
 def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
     case_file.write_text(CASE.replace('"Test"', f'"{title}"'), encoding="utf-8")
     done = ehlectric("run", case_file, "-o", "out")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    _, missing = fonts_for(frozenset(title) - {" "})
+    assert done.stderr.count("\n") == bool(missing)
+    assert ("no font of this machine has" in done.stderr) == bool(missing)
     assert {path.name for path in (tmp_path / "out").iterdir()} > FIGURES
 
 
