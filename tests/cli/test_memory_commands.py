@@ -106,8 +106,9 @@ def killing(folder, *arguments, times):
     killed = set()
     while process.poll() is None and len(killed) < times:
         for pid, seconds in workers_of(process.pid).items():
-            # Far from the end of its first task: it still imports what it computes with.
-            if seconds > 0.1 and pid not in killed and len(killed) < times:
+            # The empty call that each worker answers first takes 0.1 s, up to 0.2 s on a busy machine; a task
+            # takes more than 1 s, as it imports what it computes with.
+            if seconds > 0.4 and pid not in killed and len(killed) < times:
                 with suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
                 killed.add(pid)
