@@ -1,4 +1,4 @@
-"""First page of a report: machine, verdict, numbers, deciding figure, remedies, and what to measure first."""
+"""First page of a report: machine, verdict, numbers, figure, inputs or remedies, what to measure first."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.tables.bearing_tables import input_range
 from ehlectric.version import __version__
 
-# Largest numbers of large numbers, of changes that raise a margin, and of assumptions.
+# Largest numbers of large numbers, of inputs that decide a margin, and of assumptions.
 _MOST, _CHANGES, _ASSUMPTIONS = 6, 4, 3
 
-# Least ratio of a margin to that of the bearing for which a change is worth a row.
+# Least ratio of the margins with an input as it is and at an end of its range for which it has a row.
 _WORTH = 1.05
 
 # Width of a figure that is as wide as the page [inches], and ratio of its height to that on the screen.
@@ -141,32 +141,19 @@ def _unit(row: Row) -> str:
 
 
 def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterable[Row]) -> Iterator[Block]:
-    """Numbers of a bearing, what would raise its margin, and what to measure first."""
+    """Numbers of a bearing, the inputs that decide its margin, and what to measure first."""
     totals = tuple(totals)
     shown = map(partial(_with_chance, summary), totals)
     yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING, summary))
     yield from _lives({row.key: row for row in totals})
     given = flattened(case.to_dict())
-    own, bound = summary["bearing"]["margin"], bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
-    better = [
-        (margin, one, value)
-        for one in (summary.get("margin") or {}).get("effects", ())
-        for margin, value in [max((one[f"{end}_margin"], one[f"{end}_input"]) for end in ("low", "high"))]
-        if margin > _WORTH * own
-    ]
-    if better:
-        rows = tuple(
-            (
-                _name(one),
-                _value(case, one["key"], given.get(one["key"])),
-                _value(case, one["key"], value),
-                f"{bound} {ratio_text(margin)}".strip(),
-            )
-            for margin, one, value in sorted(better, key=lambda row: -row[0])[:_CHANGES]
-        )
-        caption = placed(f"What would raise the margin of {ratio_text(own)}", "margin.effects", summary)
-        caption = f"{caption}, one change at a time"
-        yield Table(caption, ("change", "from", "to", "margin"), rows, (3,), shares=(0.46, 0.18, 0.18, 0.18))
+    own = summary["bearing"]["margin"]
+    deciding = tuple(_deciding(case, summary))
+    if deciding:
+        caption = f"Inputs that decide the margin of {ratio_text(own)}"
+        caption = f"{placed(caption, 'margin.effects', summary)}, one changed at a time"
+        heads, shares = ("input", "value", "range", "margin at these ends"), (0.42, 0.16, 0.2, 0.22)
+        yield Table(caption, heads, deciding, (3,), shares=shares)
     elif own is None:
         yield Text(SENTENCES["no_effects"])
     found = (summary.get("uncertainty") or {}).get("indices", ())[:_ASSUMPTIONS]
@@ -190,6 +177,18 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
         for key, why in TEXTS["first_page"]["bearing" if broken else "no_voltage"].items()
         if key in given
     )
+
+
+def _deciding(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
+    """Rows of the inputs that change the margin most, with the margins at both ends of their ranges."""
+    given, own = flattened(case.to_dict()), summary["bearing"]["margin"]
+    bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
+    for one in (summary.get("margin") or {}).get("effects", ())[:_CHANGES]:
+        margins = one["low_margin"], one["high_margin"]
+        if max(margins) > _WORTH * own or own > _WORTH * min(margins):
+            ends = " to ".join(map(ratio_text, margins))
+            value = _value(case, one["key"], given.get(one["key"]))
+            yield _name(one), value, with_units_kept(input_range(one)), f"{bound} {ends}".strip()
 
 
 def _lives(rows: Mapping[str, Row]) -> Iterator[Text]:
