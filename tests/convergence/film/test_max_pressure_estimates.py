@@ -13,7 +13,7 @@ from tests.helpers.share import share
 MODULUS, RADIUS = 226e9, 14.1e-3
 
 # Nodes along x of the finest grid, and smallest grid of which the estimate is tested, by geometry.
-FINEST, COARSEST = {"line": 12801, "point": 257}, {"line": 401, "point": 65}
+FINEST, COARSEST = {"line": 12801, "point": 513}, {"line": 401, "point": 65}
 
 
 def drawn(geometry, seed, number):
