@@ -31,7 +31,7 @@ from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
 from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.readable import readable
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
-from ehlectric.report.first_page import machine_of, measure_first_table, numbers_of, usual_range
+from ehlectric.report.first_page import life_texts, machine_of, measure_first_table, numbers_of, usual_range
 from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
@@ -321,13 +321,12 @@ def drive_part(result: DriveResult) -> Part:
 
 
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
-    """Numbers of both bearings, remedies, and the three values that decide most."""
-    numbers = [
-        numbers_of(end_rows(summary, end), FIRST_PAGE_OF_DRIVE, summary, place)
-        for end, place in NAMES_OF_ENDS.items()
-    ]
+    """Numbers and rating lives of both bearings, remedies, and the three values that decide most."""
+    rows = {place: tuple(end_rows(summary, end)) for end, place in NAMES_OF_ENDS.items()}
+    numbers = [numbers_of(own, FIRST_PAGE_OF_DRIVE, summary, place) for place, own in rows.items()]
     # A row for each bearing.
     yield Numbers(tuple(chain.from_iterable(numbers)), columns=max(map(len, numbers)))
+    yield from life_texts(rows)
     if result.remedies:
         yield _remedy_table(result, summary)
     case = result.case

@@ -145,7 +145,7 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
     totals = tuple(totals)
     shown = map(partial(_with_chance, summary), totals)
     yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING, summary))
-    yield from _lives({row.key: row for row in totals})
+    yield from life_texts({"": totals})
     given = flattened(case.to_dict())
     own = summary["bearing"]["margin"]
     deciding = tuple(_deciding(case, summary))
@@ -191,18 +191,35 @@ def _deciding(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[tuple[s
             yield _name(one), value, with_units_kept(input_range(one)), f"{bound} {ends}".strip()
 
 
-def _lives(rows: Mapping[str, Row]) -> Iterator[Text]:
-    """Sentences with the rating lives of a bearing and with the numbers from which they follow, and with its
-    lives over a duty cycle; none if no row is a life.
+def life_texts(bearings: Mapping[str, Iterable[Row]]) -> Iterator[Text]:
+    """Sentences with the rating lives and the static safety of bearings, and with the numbers from which they
+    follow, at the operating point and over a duty cycle; none if no row is a life.
+
+    ``bearings``, rows of each bearing by its place, which the sentence names; bearings with equal numbers
+    share a sentence.
     """
-    for place, keys in FIRST_PAGE_OF_LIFE.items():
-        known = {_symbol(key): rows[key] for key in keys if key in rows}
-        texts = [f"{symbol} {_equals(row)}" for symbol, row in known.items()]
-        notes = {symbol: row.note.lstrip(", ") for symbol, row in known.items() if symbol in ("C", "C0")}
-        for source in dict.fromkeys(notes.values()):
-            texts.append(f"{', '.join(symbol for symbol, own in notes.items() if own == source)} {source}")
-        if texts:
-            yield Text(with_units_kept(f"{SENTENCES[f'rating_life_{place}']}: {'; '.join(texts)}."), "small")
+    rows = {place: {_own_key(row.key): row for row in own} for place, own in bearings.items()}
+    for name, keys in FIRST_PAGE_OF_LIFE.items():
+        texts = {place: _life_text(own, keys) for place, own in rows.items()}
+        for text in filter(None, dict.fromkeys(texts.values())):
+            places = " and ".join(place for place, other in texts.items() if place and other == text)
+            about = ", ".join(filter(None, [SENTENCES[f"rating_life_{name}"], places]))
+            yield Text(with_units_kept(f"{about}: {text}."), "small")
+
+
+def _own_key(key: str) -> str:
+    """Key of a number of a bearing for the number of a bearing at an end of a drive."""
+    return key.removeprefix("end.").replace("duty_", "duty.", 1) if key.startswith("end.") else key
+
+
+def _life_text(rows: Mapping[str, Row], keys: Iterable[str]) -> str:
+    """Numbers of the rating life of a bearing with their symbols, and the sources of the load ratings."""
+    known = {_symbol(key): rows[key] for key in keys if key in rows}
+    texts = [f"{symbol} {_equals(row)}" for symbol, row in known.items()]
+    notes = {symbol: row.note.lstrip(", ") for symbol, row in known.items() if symbol in ("C", "C0")}
+    for source in dict.fromkeys(notes.values()):
+        texts.append(f"{', '.join(symbol for symbol, own in notes.items() if own == source)} {source}")
+    return "; ".join(texts)
 
 
 def _symbol(key: str) -> str:

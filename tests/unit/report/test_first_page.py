@@ -188,10 +188,11 @@ def test_a_bearing_without_a_motor_has_a_breakdown_voltage(pages):
     assert "winding" not in machine
 
 
-def life_of(report):
-    """Texts of the rating life by symbol."""
-    (text,) = [one.text for one in blocks(report, Text) if one.text.startswith(LIFE)]
-    parts = text.removeprefix(f"{LIFE}: ").removesuffix(".").replace("\xa0", " ").split("; ")
+def life_of(report, place=""):
+    """Texts of the rating life by symbol; ``place``, end of a drive."""
+    lead = f"{LIFE}, {place}: " if place else f"{LIFE}: "
+    (text,) = [one.text for one in blocks(report, Text) if one.text.startswith(lead)]
+    parts = text.removeprefix(lead).removesuffix(".").replace("\xa0", " ").split("; ")
     return dict(part.replace("= ", "").split(" ", 1) for part in parts)
 
 
@@ -248,6 +249,31 @@ def test_numbers_and_remedies_of_a_drive(pages):
     machine = blocks(report, Text)[0].text.replace("\xa0", " ")
     for text in ("space-vector", "10 kHz", "560 V", "50 pF", "500 pF", "two bearings", "6208", "3000 rpm"):
         assert text in machine
+
+
+@pytest.mark.slow
+def test_a_drive_has_the_lives_of_both_bearings(tmp_path):
+    own = {
+        "drive.duration": 0.02,
+        "bearings.bearing.life": {"contamination_factor": 0.5},
+        "non_drive_end.bearing.radial_load": 1000.0,
+    }
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml").replace(own)
+    table = case.to_dict()
+    del table["remedies"]
+    save(solve_drive(DriveCase.from_dict(table), workers=1), tmp_path / "apart")
+    report = report_of(tmp_path / "apart", summary=True)
+    first, second = life_of(report, "drive end"), life_of(report, "non-drive end")
+    # 6208 of NSK: C 29100 N, C0 17900 N; P = P0 = 1800 N at the drive end, and P0 = 1000 N at the other end.
+    assert number_in(first["L10"]) == pytest.approx(1e6 * (29100.0 / 1800.0) ** 3 / (60.0 * 3000.0), rel=5e-3)
+    assert [number_in(end["s0"]) for end in (first, second)] == pytest.approx([9.94, 17.9], abs=0.005)
+    assert "Lnmr" in second
+    # Two bearings with different loads have two sentences on the page.
+    assert first_page(report).scale >= 0.8
+    table["non_drive_end"]["bearing"]["radial_load"] = "1800 N"
+    save(solve_drive(DriveCase.from_dict(table), workers=1), tmp_path / "alike")
+    report = report_of(tmp_path / "alike", summary=True)
+    assert life_of(report, "drive end and non-drive end") == first
 
 
 @pytest.mark.slow
