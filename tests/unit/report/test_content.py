@@ -93,7 +93,7 @@ def test_every_input_has_its_origin(report):
     assert found["lubricant.roelands_z"][2] == "library paper: assumed [1]"
     assert found["grid.field_degree"][2] == "default"
     (assumed,) = tables(report, "What it rests on")
-    assert "assumption" in assumed.caption
+    assert assumed.caption == "Inputs to measure or to check"
     assert "Roelands' exponent = 0.67" in assumed.rows[0][0]
     assert "relative permittivity" not in assumed.rows[0][0]
     assert assumed.rows[1][0].startswith("dielectric strength = 15")
