@@ -47,7 +47,7 @@ from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.oil_inputs import OilTemperature
-from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual
+from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual, unusual_machine
 from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
@@ -205,6 +205,8 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     around = np.pi * bearing.pitch_diameter
     yield from unusual("filling", bearing.elements * bearing.element_diameter / around)
     yield from unusual("strength", case.discharge.dielectric_strength)
+    if case.motor is not None:
+        yield from unusual_machine({f"motor.{key}": value for key, value in case.motor})
     yield from class_flags(bearing)
     yield from _geometry_flags(bearing)
     oil = case.lubricant.temperature

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
 
-from ehlectric.arrays import Numbers
+from ehlectric.arrays import Mask, Numbers
 from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
 from ehlectric.errors import Flag
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.formats import amount
 from ehlectric.readable import readable
 
 _CELSIUS = 273.15
@@ -132,8 +134,68 @@ def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:
         )
 
 
-# Temperatures that bearing steel, stabilised for 200 degC at most, and ordinary oils stand [degC].
-_COLDEST, _HOTTEST = -40.0, 200.0
+@dataclass(frozen=True)
+class Usual:
+    """Range of a value of a machine or its inverter, in its SI unit, and the source of the range."""
+
+    low: float
+    high: float
+    unit: str
+    source: str
+
+
+# A plate capacitor at the air gap gives the capacitances of the rotor, with a margin of 2: from bores of
+# 15 mm, stacks of 10 mm, gaps of 0.3 mm to bores and stacks of 1 m, gaps of 1.5 mm. The winding faces the
+# rotor through slot openings, at most a quarter of the bore, and may be shielded.
+USUAL: Mapping[str, Usual] = MappingProxyType(
+    {
+        "winding_rotor_capacitance": Usual(1e-13, 1e-8, "F", "plates of slot openings in bores up to 1 m"),
+        "rotor_frame_capacitance": Usual(5e-12, 5e-8, "F", "plates of air gaps, bores of 15 mm to 1 m"),
+        "winding_frame_capacitance": Usual(1e-11, 5e-6, "F", "estimate from slot liners"),
+        "second_bearing_capacitance": Usual(1e-12, 1e-7, "F", "estimate from bearings of 5 mm to 1 m bore"),
+        "cable_capacitance": Usual(5e-12, 2e-6, "F", "0.1 m to 2 km of cable with 50 to 1000 pF/m"),
+        "common_mode_voltage": Usual(0.1, 1e4, "V", "half of DC links up to medium voltage"),
+        "dc_link": Usual(1.0, 2e4, "V", "batteries to medium-voltage inverters"),
+        # Discharges of 5 to 30 V with 0.5 to 3 A have 1.7 to 60 ohm; a factor of 100 is a mistaken unit.
+        "arc_resistance": Usual(0.017, 6000.0, "ohm", "100 times either way of Muetze 2004"),
+    }
+)
+
+
+def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[Flag]:
+    """Conditions of the warning about values of a machine by key, at one or many points; see ``USUAL``.
+
+    Examples
+    --------
+    >>> from ehlectric.errors import raised
+    >>> [flag.code for flag in raised(unusual_machine({"motor.winding_rotor_capacitance": 40e-9}))]
+    ['machine-unusual']
+    """
+    for key, value in values.items():
+        entry = USUAL.get(key.rpartition(".")[2])
+        if entry is None or value is None:
+            continue
+        outside = np.less(value, entry.low) | np.greater(value, entry.high)
+        yield Flag.of(
+            outside,
+            "machine-unusual",
+            key=key,
+            value=partial(_first_amount, value, outside, entry.unit),
+            low=amount(entry.low, entry.unit),
+            high=amount(entry.high, entry.unit),
+            source=entry.source,
+        )
+
+
+def _first_amount(value: Numbers, where: Mask, unit: str) -> str:
+    """First value at which a condition holds, with its unit."""
+    values, found = np.broadcast_arrays(value, where)
+    return amount(float(values[found][0]), unit)
+
+
+# Temperatures that bearing steel and ordinary oils stand [degC]. DIN 623-1: dimensions are stable up to
+# 150 degC (S0), and with the suffix S1 up to 200 degC.
+_COLDEST, _HOTTEST = -40.0, 150.0
 
 
 def extreme(key: str, temperature: Numbers) -> Flag:

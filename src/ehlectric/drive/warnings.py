@@ -11,11 +11,12 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.plausibility import unusual_machine
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, beside_limits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, raised
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
 
@@ -74,6 +75,8 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
             f"circuit.{key} {amount(circuit.capacitances[key], 'F')}" for key in circuit.estimated
         )
         yield ResultWarning.of("capacitances-estimated", capacitances=told)
+    for table in ("source", "circuit", "breakdown"):
+        yield from raised(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
     yield from _of_ring(case)
     yield from _of_oscillations(case, bearings)
     yield from _of_conduction(case, bearings)

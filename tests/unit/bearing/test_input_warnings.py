@@ -41,9 +41,9 @@ def test_an_ordinary_bearing_has_none():
         ),
         (
             "temperature-extreme",
-            {"bearing__temperature": "200 degC"},
-            {"bearing__temperature": "201 degC"},
-            ["bearing.temperature", "201 °C"],
+            {"bearing__temperature": "150 degC"},
+            {"bearing__temperature": "158 degC"},
+            ["bearing.temperature", "158 °C", "-40 to 150 °C", "°F"],
         ),
         (
             "temperature-extreme",

@@ -2,16 +2,20 @@
 
 import pytest
 
-from ehlectric import Case, load, save, solve
-from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual
+from ehlectric import BearingCase, Case, DriveCase, load, save, solve
+from ehlectric.bearing.warnings import bearing_warnings, input_flags
+from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual, unusual_machine
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.warnings import case_warnings
+from ehlectric.drive.warnings import machine_warnings
 from ehlectric.errors import raised
+from ehlectric.formulas.capacitances import Machine, machine_capacitances
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
+from tests.helpers.places import EXAMPLES
 
+NAMES = ("winding_rotor", "rotor_frame", "winding_frame")
 LINE = {"reduced_radius": "8 mm", "reduced_modulus": "226 GPa", "load_per_length": "300 kN/m"}
 LINE |= {"entrainment_speed": "2 m/s"}
 OIL = {"base": "paper"}
@@ -68,6 +72,54 @@ def test_glass_on_steel_by_its_moduli_is_not_doubted():
     contact = {key: value for key, value in LINE.items() if key != "reduced_modulus"} | bodies
     case = Case.from_dict({"contact": contact, "lubricant": OIL})
     assert "modulus-factor" not in {one.code for one in case_warnings(case, resolve(case))}
+
+
+AIR_AND_PAPER = {"permittivity": 1.0, "liner_permittivity": 3.5}
+LARGE = {"length": 1.0, "bore": 1.0, "gap": 1.5e-3, "slots": 72, "opening": 0.011, "depth": 2e-3}
+LARGE |= {"liner_width": 0.3, "liner": 1e-3}
+SMALL = {"length": 0.01, "bore": 0.015, "gap": 3e-4, "slots": 6, "opening": 1e-3, "depth": 5e-4}
+SMALL |= {"liner_width": 5e-3, "liner": 2e-4}
+
+
+@each("sizes, factor", [(LARGE, 1e3), (SMALL, 1e-3)])
+def test_capacitances_of_machines_are_not_doubted(sizes, factor):
+    found = machine_capacitances(Machine(**AIR_AND_PAPER, **sizes))
+    values = {f"circuit.{name}_capacitance": getattr(found, name) for name in NAMES}
+    assert list(raised(unusual_machine(values))) == []
+    # A wrong prefix of a unit is a factor of 1000.
+    assert len(list(raised(unusual_machine({key: factor * value for key, value in values.items()})))) == 3
+
+
+@each(
+    "key, value, words",
+    [
+        ("motor.winding_rotor_capacitance", "40 nF", ("40 nF", "0.1 pF to 10 nF", "slot openings")),
+        ("motor.rotor_frame_capacitance", "1 uF", ("1 µF", "5 pF to 50 nF", "air gaps")),
+        ("motor.common_mode_voltage", "300 kV", ("300 kV", "100 mV to 10 kV", "medium voltage")),
+    ],
+)
+def test_motors(key, value, words):
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+    assert "machine-unusual" not in {one.code for one in raised(input_flags(case, 0.01))}
+    changed = case.replace({key: value})
+    (found,) = [one for one in raised(input_flags(changed, 0.01)) if one.code == "machine-unusual"]
+    assert [word for word in (key, *words) if word not in found.text.replace("\xa0", " ")] == []
+
+
+@each(
+    "key, value",
+    [
+        ("circuit.winding_rotor_capacitance", "40 nF"),
+        ("circuit.winding_frame_capacitance", "5 fF"),
+        ("source.dc_link", "560 kV"),
+        ("breakdown.arc_resistance", "10 kohm"),
+    ],
+)
+def test_drives(key, value):
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml")
+    found = [one for one in machine_warnings(case.replace({key: value}), ()) if one.code == "machine-unusual"]
+    assert [one.text.partition(" is ")[0] for one in found] == [key]
+    assert "machine-unusual" not in {one.code for one in machine_warnings(case, ())}
 
 
 def test_python_warns_where_the_case_is_made():
