@@ -17,6 +17,7 @@ from ehlectric.contact.summary import formulas_of, summary_of
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import Zone, contact_zones
+from ehlectric.film.film_error import pressure_error_text
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount
@@ -65,6 +66,8 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
     def _headline(self) -> str:
         """Title, minimum film, maximum pressure and maximum field on one line."""
         film, touching = self.film, self.spots
+        error = pressure_error_text(film.max_pressure_error)
+        doubt = f" ({error})" if error else ""
         least = f"minimum film {amount(film.minimum_thickness, 'm')}"
         field = CONTACT_BOOK[self.conditions.geometry]["field.max_strength"]
         strongest: str | None = f"maximum field {field.with_sign(amount(self.field.max_strength, 'V/m'))}"
@@ -76,7 +79,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
             self.case.title,
             f"{self.conditions.geometry} contact",
             least,
-            f"maximum pressure {amount(film.max_pressure, 'Pa')}",
+            f"maximum pressure {amount(film.max_pressure, 'Pa')}{doubt}",
             strongest,
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
             verdict=self.verdict,

@@ -19,6 +19,7 @@ from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import part_of_domain
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas.polynomials import gauss_legendre
+from ehlectric.readable import readable
 
 # Factor by which the change of the minimum from the coarser grid exceeds its error on the finer one, with the
 # scheme of third order; see ``of_three_grids``.
@@ -324,6 +325,19 @@ _PART = 0.5
 
 # Estimated relative error above which the grid does not resolve the maximum pressure.
 UNRESOLVED = 0.3
+
+
+def pressure_error_text(error: float | None) -> str:
+    """Text with the relative error of a maximum pressure; empty if the error is unknown.
+
+    Examples
+    --------
+    >>> pressure_error_text(0.012), pressure_error_text(1.17), pressure_error_text(None)
+    ('error 1.2 %', 'not resolved by the grid', '')
+    """
+    if error is None:
+        return ""
+    return f"error {readable(100.0 * error, 2)} %" if error <= UNRESOLVED else "not resolved by the grid"
 
 
 def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float | None:

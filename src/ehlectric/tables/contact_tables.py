@@ -16,7 +16,7 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.summary import case_summary
 from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
-from ehlectric.film.film_error import UNRESOLVED
+from ehlectric.film.film_error import pressure_error_text
 from ehlectric.quantities.formats import amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
@@ -141,10 +141,8 @@ def _zone(summary: Summary) -> str:
 
 def _pressure_error(summary: Summary) -> str:
     """Note with the error of the maximum pressure; empty if the error is unknown."""
-    error = summary["film"]["max_pressure_error"]
-    if error is None:
-        return ""
-    return f", error {readable(100 * error, 2)} %" if error <= UNRESOLVED else ", not resolved by the grid"
+    text = pressure_error_text(summary["film"]["max_pressure_error"])
+    return f", {text}" if text else ""
 
 
 def _film_grid(summary: Summary) -> str:

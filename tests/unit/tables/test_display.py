@@ -1,14 +1,19 @@
 """How results and cases show themselves: one line, a table in a notebook, figures and tables of pandas."""
 # ruff: noqa: E501
 
+import re
 from dataclasses import replace
 from html import escape
+from io import BytesIO
 
 import numpy as np
+import openpyxl
 import pytest
 from matplotlib.figure import Figure
 
 from ehlectric import InputError, Sweep, solve, solve_motion
+from ehlectric.app.charts.line_charts import main_numbers
+from ehlectric.runs.workbooks import workbook
 from ehlectric.runtime.values import WIDTH
 from ehlectric.sweep.points import Range
 from ehlectric.tables.bearing_tables import total_rows
@@ -62,6 +67,18 @@ def test_representation_is_one_short_line(results, kind, parts):
     assert str(results[kind]) == text
     for part in parts:
         assert part in text
+
+
+@pytest.mark.parametrize(("error", "text"), [(0.012, "error 1.2 %"), (1.17, "not resolved by the grid")])
+def test_every_view_has_the_error_of_the_maximum_pressure(error, text):
+    solved = solve(CONTACT)
+    result = replace(solved, film=replace(solved.film, max_pressure_error=error))
+    assert re.search(rf"maximum pressure [\d.]+ GPa \({text}\)", repr(result))
+    assert re.search(rf"maximum pressure in the film<.*GPa, {text}", result._repr_html_())
+    assert text in main_numbers(result)
+    rows = openpyxl.load_workbook(BytesIO(workbook(result)))["summary"].iter_rows(values_only=True)
+    found = {row[0]: row[2:4] for row in rows}
+    assert found["film.max_pressure_error"] == (pytest.approx(100.0 * error), "%")
 
 
 def test_representation_of_what_is_not_converged():

@@ -38,6 +38,7 @@ from ehlectric.figures.contact_profiles import (
     touches,
 )
 from ehlectric.figures.data import Along
+from ehlectric.film.film_error import pressure_error_text
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -62,10 +63,12 @@ def main_numbers(result: Result | PointResult) -> str:
     least = "The surfaces touch: minimum film" if touches(result) else "Minimum film"
     to_h, length = unit_for(film_scale(result), "m")
     to_p, pressure = unit_for(film.max_pressure, "Pa")
+    error = pressure_error_text(film.max_pressure_error)
+    doubt = f" ({error})" if error else ""
     to_e, strength = unit_for(result.field.max_strength, "V/m")
     return (
         f"{least} {readable(to_h * film.minimum_thickness, 4)} {length}, maximum pressure "
-        f"{readable(to_p * film.max_pressure, 4)} {pressure}, maximum field "
+        f"{readable(to_p * film.max_pressure, 4)} {pressure}{doubt}, maximum field "
         f"{readable(to_e * result.field.max_strength, 4)} {strength}."
     )
 

@@ -49,6 +49,7 @@ from ehlectric.figures.contact_profiles import (
     touches,
 )
 from ehlectric.figures.data import Along
+from ehlectric.film.film_error import pressure_error_text
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -268,7 +269,7 @@ def _pressure_map(result: PointResult) -> _Map:
     film = result.film
     factor, unit = unit_for(film.max_pressure, "Pa")
     i, j = np.unravel_index(np.argmax(film.pressure), film.pressure.shape)
-    most = factor * film.max_pressure
+    most, error = factor * film.max_pressure, pressure_error_text(film.max_pressure_error)
     return _Map(
         title="Pressure",
         axes=(film.x, film.y),
@@ -277,7 +278,7 @@ def _pressure_map(result: PointResult) -> _Map:
         limits=(0.0, most),
         colours=PRESSURE_COLOURS,
         mark=(float(film.x[i]), float(film.y[j])),
-        marked=f"maximum pressure, {readable(most, 4)} {unit}",
+        marked=", ".join(filter(None, [f"maximum pressure, {readable(most, 4)} {unit}", error])),
     )
 
 
