@@ -547,9 +547,19 @@ def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyT
     Those of ``ALIASES`` come first, then a key with the same name in another table, then the most similar
     key in the same table. The list is empty if no key is similar, because a wrong hint is worse than none.
     """
-    table, _, leaf = key.rpartition(".")
     unused = model.unused_keys(given) if given else ()
-    known = [name for name in fields_within(model) if name not in unused]
+    return similar_keys(key, [name for name in fields_within(model) if name not in unused])
+
+
+def similar_keys(key: str, known: Sequence[str]) -> list[str]:
+    """Keys of a list of known ones that an unknown key may mean; see ``meant``.
+
+    Examples
+    --------
+    >>> similar_keys("duty.path", ["duty.file"]), similar_keys("duty.speed", ["duty.file"])
+    (['duty.file'], [])
+    """
+    table, _, leaf = key.rpartition(".")
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]

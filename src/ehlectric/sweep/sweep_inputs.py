@@ -32,11 +32,13 @@ from ehlectric.cases.table import (
     Table,
     Title,
     advice_for,
-    nearest,
+    any_of,
+    meant,
     nearest_key,
     number_of,
     parser_of,
     read_toml,
+    similar_keys,
 )
 from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
@@ -91,8 +93,7 @@ def _nearest(key: str) -> str:
     """Key of a drive that is nearest to a key of another kind of file; one of a bearing is that of both."""
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
-    of_bearing = nearest_key(key, BearingCase)
-    return REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}") if of_bearing else ""
+    return any_of([REPLACED.get(one, f"{BOTH}.{one}") for one in meant(key, BearingCase)])
 
 
 @dataclass(frozen=True)
@@ -538,6 +539,12 @@ def _names_a_file(key: str) -> bool:
     return key == "source.file" or (key.startswith("roughness.") and key.endswith(".file"))
 
 
+def _keys_of_range(key: str, name: str) -> list[str]:
+    """Keys in the range of a varied key that an unknown name may mean."""
+    found = similar_keys(f"vary.{name}", ["vary", *(f"vary.{one}" for one in _RANGE_KEYS)])
+    return [f"{key}.{one.removeprefix('vary.')}" for one in found]
+
+
 def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:
     """Values of a varied key, in SI units, or its range in a sobol design."""
     if key.partition(".")[0] == "motion":
@@ -551,7 +558,7 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
         number = number_of(field)
         unknown = [str(name) for name in value if number is not None and name not in _RANGE_KEYS]
         if unknown:
-            raise InputError.unknown(f"{key}.{unknown[0]}", f"{key}.{nearest(unknown[0], _RANGE_KEYS)}")
+            raise InputError.unknown(f"{key}.{unknown[0]}", any_of(_keys_of_range(key, unknown[0])))
         with within(key):
             return _range(value, number, design, written=written)
     if design == "sobol":

@@ -5,10 +5,10 @@ import tomllib
 
 import pytest
 
-from ehlectric import Case, DriveCase, InputError
+from ehlectric import Case, DriveCase, InputError, Sweep
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.key_names import ALIASES
-from ehlectric.cases.table import nearest_key
+from ehlectric.cases.table import nearest_key, similar_keys
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -20,7 +20,8 @@ CONTACT |= {"entrainment_speed": "4 m/s", "lubricant": "paper"}
 def test_every_alias_leads_to_keys_that_exist():
     """A key whose name changes would otherwise stay in messages; an alias that became a key is none."""
     for name, keys in ALIASES.items():
-        hints = [nearest_key(name, model) for model in (Case, BearingCase, DriveCase)]
+        hints = [nearest_key(name, model) for model in (Case, BearingCase, DriveCase, Sweep)]
+        hints += similar_keys(name, [f"vary.{key}" for key in ("from", "to", "count", "spacing")])
         for key in keys:
             assert any(key in hint for hint in hints), (name, key)
 
@@ -73,11 +74,49 @@ POINT = {"contact": {"geometry": "point"}}
         (DriveCase, {}, "source.u_dc", "source.dc_link"),
         (DriveCase, {}, "source.pwm_frequency", "source.switching_frequency"),
         (DriveCase, {}, "motor.c_wr", "circuit.winding_rotor_capacitance"),
+        (DriveCase, {}, "circuit.cwr", "circuit.winding_rotor_capacitance"),
+        (DriveCase, {}, "remedies.name", "remedies.title"),
+        (DriveCase, {}, "remedies.set", "remedies.changes"),
+        (DriveCase, {}, "variants", "remedies"),
+        (BearingCase, {}, "duty.path", "duty.file"),
+        (BearingCase, {}, "duty_cycle", "duty.file"),
+        (DriveCase, {}, "cycle", "duty.file"),
+        (Sweep, {}, "variables", "vary"),
+        (Sweep, {}, "method", "design"),
+        (Sweep, {}, "base", "case"),
         (DriveCase, {}, "drive_end.bearing.ra", "drive_end.bearing.composite_ra"),
     ],
 )
 def test_the_hint_for_a_name_of_practice_is_the_key(model, given, name, key):
     assert key in re.split(", | or ", nearest_key(name, model, given))
+
+
+SPEEDS = {"from": "1 m/s", "to": "2 m/s", "count": 2}
+
+
+@each(
+    "name, replaced, key",
+    [
+        ("start", "from", "from"), ("min", "from", "from"), ("stop", "to", "to"), ("max", "to", "to"),
+        ("n", "count", "count"), ("points", "count", "count"), ("spacin", "", "spacing"), ("colour", "", ""), ("list", "", ""),
+    ],
+)  # fmt: skip
+def test_hints_in_the_range_of_a_sweep(name, replaced, key):
+    """The nearest of four names was proposed whatever the name, as "from" for "max"."""
+    speeds = {one: value for one, value in SPEEDS.items() if one != replaced} | {name: 2}
+    contact = {one: value for one, value in CONTACT.items() if one != "lubricant"}
+    case = Case.from_dict({"contact": contact, "lubricant": "paper"})
+    with pytest.raises(InputError) as refused:
+        Sweep.from_dict({"case": case, "vary": {"contact.entrainment_speed": speeds}})
+    nearest = f"the nearest known one is contact.entrainment_speed.{key}"
+    hint = nearest if key else "no known key has a similar name"
+    assert str(refused.value) == f"vary.contact.entrainment_speed.{name}: unknown key; {hint}"
+
+
+def test_hints_in_the_sweep_of_a_drive_are_keys_of_both_bearings():
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml")
+    with pytest.raises(InputError, match=r"bearings\.bearing\.radial_load or bearings\.bearing\.axial_load$"):
+        Sweep.from_dict({"case": case, "vary": {"bearing.load": ["1 kN", "2 kN"]}})
 
 
 @each(
