@@ -98,7 +98,8 @@ SPEEDS = {"from": "1 m/s", "to": "2 m/s", "count": 2}
     "name, replaced, key",
     [
         ("start", "from", "from"), ("min", "from", "from"), ("stop", "to", "to"), ("max", "to", "to"),
-        ("n", "count", "count"), ("points", "count", "count"), ("spacin", "", "spacing"), ("colour", "", ""), ("list", "", ""),
+        ("n", "count", "count"), ("points", "count", "count"), ("spacin", "", "spacing"), ("colour", "", ""),
+        ("list", "", ""),
     ],
 )  # fmt: skip
 def test_hints_in_the_range_of_a_sweep(name, replaced, key):
