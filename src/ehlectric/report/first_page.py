@@ -223,8 +223,11 @@ def _life_text(rows: Mapping[str, Row], keys: Iterable[str]) -> str:
 
 
 def _symbol(key: str) -> str:
-    """Symbol of a number of the rating life: the last word of its label at the operating point."""
-    return BEARING_BOOK[f"life.{key.partition('.')[2]}"].label.rpartition(" ")[2]
+    """Symbol of a number of the rating life: the last word of its label at the operating point. A minimum
+    over a duty cycle is named.
+    """
+    symbol = BEARING_BOOK[f"life.{key.partition('.')[2]}"].label.rpartition(" ")[2]
+    return f"minimum {symbol}" if ", minimum " in BEARING_BOOK[key].label else symbol
 
 
 def _equals(row: Row) -> str:

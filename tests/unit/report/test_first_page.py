@@ -15,9 +15,11 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.rows import Row
 from ehlectric.quantities.units import to_si
 from ehlectric.report.background import named
 from ehlectric.report.build import report_of
+from ehlectric.report.first_page import life_texts
 from ehlectric.report.light import Light
 from ehlectric.report.pdf import first_page, pdf_of
 from ehlectric.report.report_content import Numbers, Picture, Table, Text
@@ -274,6 +276,21 @@ def test_a_drive_has_the_lives_of_both_bearings(tmp_path):
     save(solve_drive(DriveCase.from_dict(table), workers=1), tmp_path / "alike")
     report = report_of(tmp_path / "alike", summary=True)
     assert life_of(report, "drive end and non-drive end") == first
+
+
+def test_lives_over_a_duty_cycle_have_the_minimum_static_safety():
+    first = [
+        Row("P", 900.0, "N", key="end.duty_equivalent_load"),
+        Row("s0", 2.5, key="end.duty_static_safety"),
+    ]
+    second = [first[0], Row("s0", 1.5, key="end.duty_static_safety")]
+    texts = [
+        one.text.replace("\xa0", " ") for one in life_texts({"drive end": first, "non-drive end": second})
+    ]
+    assert texts == [
+        "Rating life of the duty cycle, drive end: P = 900 N; minimum s0 = 2.5.",
+        "Rating life of the duty cycle, non-drive end: P = 900 N; minimum s0 = 1.5.",
+    ]
 
 
 @pytest.mark.slow

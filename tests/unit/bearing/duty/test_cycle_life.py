@@ -158,7 +158,8 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
     assert summary["life"]["basic_life"] / 3600.0 == pytest.approx((29.1 / 1.8) ** 3 * 1e6 / 180e3, rel=1e-9)
     (page,) = write_report(tmp_path / "out", tmp_path / "page.html", summary=True)
     text = page.read_text(encoding="utf-8").replace("\xa0", " ")
-    assert "Rating life of the duty cycle: P = 2537 N; L10 = 10 100 h" in text
+    # C0/P0 = 17 900 N/3000 N at the largest load.
+    assert "Rating life of the duty cycle: P = 2537 N; minimum s0 = 5.97; L10 = 10 100 h" in text
     assert "Rating life at the operating point: C = 29 100 N" in text
     assert "C, C0 given." in text
 
