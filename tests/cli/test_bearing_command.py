@@ -230,3 +230,20 @@ def test_a_load_with_two_readings_warns_in_one_line(ehlectric, tmp_path):
         "warning: '1.800 kN' is read as 1.8 kN, not as 1800 kN"
     ]
     assert not any(".py" in line for line in lines)
+
+
+def test_a_designation_is_printed_and_written_as_typed(ehlectric, tmp_path):
+    """The ratings of the library are those of NSK, and the bearing is one of SKF."""
+    (tmp_path / "typed.toml").write_text(
+        'contacts = "formula"\n[bearing]\nbase = "skf  6208-2rs1/c3"\nradial_load = "1 kN"\n'
+        'inner_speed = "3000 rpm"\ntemperature = "70 degC"\ncomposite_rq = "0.03 um"\n'
+        '[bearing.life]\ncontamination_factor = 0.5\n[lubricant]\nbase = "fva-3"\n'
+    )
+    for command in (("check", "typed.toml"), ("bearing", "typed.toml", "-o", "out", "--no-plots")):
+        done = ehlectric(*command)
+        assert done.returncode == 0
+        assert "SKF 6208-2RS1/C3" in done.stdout
+        assert "catalogue of NSK; the bearing is from SKF" in " ".join(done.stderr.split())
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["inputs"]["bearing"]["base"] == "6208"
+    assert summary["inputs"]["bearing"]["designation"] == "SKF 6208-2RS1/C3"

@@ -21,13 +21,13 @@ def bearing(name: str) -> dict[str, Any]:
 
 
 def designated(text: str) -> dict[str, str]:
-    """Name of the bearing with the designation of a maker, and its class of clearance, by key of ``bearing``;
-    the text itself where there is no such bearing.
+    """Name of the bearing with the designation of a maker, the designation, and its class of clearance, by
+    key of ``bearing``; the text itself where there is no such bearing.
 
     Examples
     --------
     >>> designated("6314-C3"), designated("6x14")
-    ({'base': '6314', 'clearance_class': 'C3'}, {'base': '6x14'})
+    ({'base': '6314', 'designation': '6314-C3', 'clearance_class': 'C3'}, {'base': '6x14'})
     """
     if text in library.bearing_names():
         return {"base": text}

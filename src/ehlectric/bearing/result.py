@@ -300,7 +300,7 @@ class BearingResult(Shown):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return headline(
             self.case.title,
-            self.case.bearing.base or self.case.bearing.kind,
+            self.case.bearing.name or self.case.bearing.kind,
             f"{readable(rpm(self.case.bearing.inner_speed), 4)} rpm",
             f"capacitance {capacitance}",
             None if breaks is None else f"first breakdown {breaks}",

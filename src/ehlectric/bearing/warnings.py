@@ -45,7 +45,9 @@ from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS, has_rollers
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
+from ehlectric.cases.library.designations import parts_of
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
+from ehlectric.cases.library.printed_ratings import printed_ratings
 from ehlectric.cases.oil_inputs import OilTemperature
 from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag, unusual, unusual_machine
 from ehlectric.contact.warnings import PERMANENT
@@ -209,6 +211,7 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
         yield from unusual_machine({f"motor.{key}": value for key, value in case.motor})
     yield from class_flags(bearing)
     yield from _geometry_flags(bearing)
+    yield from _maker_flags(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
@@ -246,6 +249,23 @@ def _geometry_flags(bearing: Bearing) -> Iterator[Flag]:
         elements=f"{bearing.elements} {'rollers' if rollers else 'balls'}",
         diameter=lambda: 1e3 * float(bearing.element_diameter),
         pitch=lambda: 1e3 * float(bearing.pitch_diameter),
+    )
+
+
+def _maker_flags(bearing: Bearing) -> Iterator[Flag]:
+    """Note of load ratings that another maker prints than the maker in the designation."""
+    maker = parts_of(bearing.designation).maker if bearing.designation else ""
+    printed, life = printed_ratings(bearing.base), bearing.life
+    if not maker or printed is None or printed.kind != bearing.kind:
+        return
+    ratings = () if life is None else (life.dynamic_rating, life.static_rating)
+    used = None in ratings or (life is None and bool(estimated_keys(bearing)))
+    yield Flag.of(
+        used and printed.maker != maker,
+        "ratings-of-other-maker",
+        name=printed.designation.replace("-", " "),
+        catalogue=printed.maker,
+        maker=maker,
     )
 
 

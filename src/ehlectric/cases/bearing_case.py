@@ -16,7 +16,15 @@ from pydantic.fields import FieldInfo
 from ehlectric.arrays import Array
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, base_of, check_heat, class_of
+from ehlectric.cases.bearing_inputs import (
+    Bearing,
+    BearingKeys,
+    Motor,
+    base_of,
+    check_heat,
+    class_of,
+    typed_base,
+)
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
 from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.contact_inputs import Contact
@@ -434,11 +442,11 @@ class BearingCase(CaseFile, book="bearing_file"):
         """Title, bearing, loads and speed on one line."""
         bearing = self.bearing
         if self.shape:
-            return headline(self.title, bearing.base or bearing.kind, f"{self.shape[0]} points")
+            return headline(self.title, bearing.name or bearing.kind, f"{self.shape[0]} points")
         loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
         return headline(
             self.title,
-            bearing.base or bearing.kind,
+            bearing.name or bearing.kind,
             *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
             f"{readable(rpm(bearing.inner_speed), 4)} rpm",
             f"{readable(bearing.oil_temperature - 273.15, 4)} degC",
@@ -489,7 +497,8 @@ class BearingCase(CaseFile, book="bearing_file"):
 
         A new key replaces its alternative. A new ``lubricant.base`` replaces all values of the lubricant, and
         a new ``bearing.base`` all dimensions of the bearing; ``lubricant="fva-3"`` and ``bearing="6209"`` are
-        such bases. A range of a replaced value is removed.
+        such bases. A new base or another clearance class removes the ``designation`` of the old bearing. A
+        range of a replaced value is removed.
 
         Parameters
         ----------
@@ -501,8 +510,10 @@ class BearingCase(CaseFile, book="bearing_file"):
         """
         refuse_deep({**tables, "changes": changes})
         named = with_name_keys(_flat_changes(tables) | dict(changes or {}), BearingCase)
-        changes = _with_named_class(_with_class(named))
+        changes = _with_named_class(_with_class(_with_typed_base(named)))
         table = open_tables(self)
+        if "bearing.base" in changes or _is_of_another_class(self.bearing.designation, changes):
+            table["bearing"].pop("designation", None)
         if "lubricant.base" in changes:
             table["lubricant"] = {}
         if changes.get("bearing.base") is not None:
@@ -564,6 +575,23 @@ def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
         return changes
     rest = {name: value for name, value in changes.items() if name != key}
     return rest | {"bearing.clearance_class": named}
+
+
+def _with_typed_base(changes: dict[str, Any]) -> dict[str, Any]:
+    """Changes with a new designation in the key of the base, which a designation stands for."""
+    keys = ("base", "designation")
+    with within("bearing"):
+        typed = typed_base({key: changes.get(f"bearing.{key}") for key in keys})
+    if changes.get("bearing.designation") is None:
+        return changes
+    rest = {key: value for key, value in changes.items() if key != "bearing.designation"}
+    return rest | {"bearing.base": typed}
+
+
+def _is_of_another_class(designation: str | None, changes: Mapping[str, Any]) -> bool:
+    """Whether new values contain a class of clearance that contradicts a designation."""
+    named, new = class_of(designation), changes.get("bearing.clearance_class")
+    return None not in (named, new) and named != new
 
 
 def _with_named_class(changes: dict[str, Any]) -> dict[str, Any]:

@@ -31,11 +31,17 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_clearance,
 )
 from ehlectric.cases.library.designation_types import no_such_bearing
-from ehlectric.cases.library.designations import kind_and_series, known_bearings, read_designation
+from ehlectric.cases.library.designations import (
+    Designation,
+    as_typed,
+    kind_and_series,
+    known_bearings,
+    read_designation,
+)
 from ehlectric.cases.library.estimated_bearings import estimated_bearing, series
 from ehlectric.cases.mean_heights import FACTOR, rq_of, with_rq, without_rq
 from ehlectric.cases.oil_inputs import library_choice
-from ehlectric.cases.table import Table
+from ehlectric.cases.table import LONGEST, Table
 from ehlectric.errors import InputError, shown, within
 from ehlectric.formulas.inlet_supply import GEOMETRY_CONSTANTS, SUPPLY_CONSTANTS
 from ehlectric.quantities.units import to_fraction
@@ -180,15 +186,17 @@ _Material = Annotated[str, library_choice(partial(library.solid_names, rolling=T
 
 
 def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Table whose ``base`` is a name of the library or of a series, where it is the designation of a maker.
+    """Table whose ``base`` is a name of the library or of a series, where it is the designation of a maker,
+    which then is in ``designation``.
 
     If the table contains no clearance, the class of clearance of the designation is used. A table with
     another class is refused.
     """
-    base, names = table["base"], known_bearings()
-    found = read_designation(base, names) if isinstance(base, str) and base not in names else None
+    base = typed_base(table)
+    rest = {key: value for key, value in table.items() if key != "designation"}
+    found = _read(base)
     if found is None:
-        return table
+        return {**rest, "base": base}
     named, given = found.clearance_class, table.get("clearance_class")
     kind = kind_and_series(found.name)[0]
     if named is not None and "radial_clearance" not in KINDS_OF_BEARINGS[kind].keys:
@@ -199,9 +207,55 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if named is not None and given in CLASSES and given != named:
         takes = f"{named!r}, as in base, or base without its class"
         raise InputError("clearance_class", got=f"{given!r} with base {base!r}", takes=takes)
-    if named is None or _has_clearance(table):
-        return {**table, "base": found.name}
-    return {**table, "base": found.name, "clearance_class": named}
+    rest |= {"base": found.name, **_kept(base, found.name)}
+    return rest if named is None or _has_clearance(table) else rest | {"clearance_class": named}
+
+
+def _read(base: Any, key: str = "base") -> Designation | None:
+    """Bearing with a designation in a key; None for a name of the library or a series, or another value."""
+    if not isinstance(base, str) or base in known_bearings():
+        return None
+    try:
+        return read_designation(base, known_bearings())
+    except InputError as error:
+        raise error.retold(key, error.text) from None
+
+
+def _kept(text: str, name: str) -> dict[str, str]:
+    """Key with a designation; none if the text contains no more than the name of its bearing."""
+    typed = as_typed(text)
+    if len(typed) > LONGEST:
+        raise InputError("base", got=shown(text), takes=f"a designation of at most {LONGEST} characters")
+    return {} if _named(typed) == name else {"designation": typed}
+
+
+def _named(text: str) -> str:
+    """Text as a name of the library or a series is written."""
+    return "-".join(text.lower().split())
+
+
+def typed_base(table: Mapping[str, Any]) -> Any:
+    """Designation of a table ``bearing``, otherwise its ``base``. Raises InputError if both are given and are
+    not the same bearing.
+
+    Examples
+    --------
+    >>> typed_base({"base": "6208", "designation": "SKF 6208-2Z"})
+    'SKF 6208-2Z'
+    """
+    base, typed = table.get("base"), table.get("designation")
+    if typed is None:
+        return base
+    found = _read(typed, "designation")
+    if found is None and typed not in (*known_bearings(),):
+        error = no_such_bearing(typed)
+        raise error.retold("designation", error.text)
+    name = typed if found is None else found.name
+    own = as_typed(base) if isinstance(base, str) else base
+    if own is not None and own != as_typed(typed) and (not isinstance(own, str) or _named(own) != name):
+        takes = f"one of the two, or base {name!r}, the bearing with this designation"
+        raise InputError("designation", got=f"{shown(typed)} with base {shown(base)}", takes=takes)
+    return typed
 
 
 def _has_clearance(table: Mapping[str, Any]) -> bool:
@@ -237,9 +291,7 @@ def class_of(base: Any) -> ClearanceClass | None:
     >>> class_of("6208-2RS1/C3"), class_of("6208"), class_of("own")
     ('C3', None, None)
     """
-    if not isinstance(base, str) or base in known_bearings():
-        return None
-    found = read_designation(base, known_bearings())
+    found = _read(base)
     return None if found is None else found.clearance_class
 
 
@@ -288,6 +340,7 @@ class Bearing(Table, book="bearing", named_by="base"):
     """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
 
     base: str | None = None
+    designation: str | None = None
     kind: Literal[
         "deep-groove ball",
         "angular-contact ball",
@@ -345,7 +398,7 @@ class Bearing(Table, book="bearing", named_by="base"):
         if not isinstance(table, Mapping):
             return table
         table = with_class(table)
-        if table.get("base") is None:
+        if table.get("base") is None and table.get("designation") is None:
             return with_clearance(table)
         table, base = base_of(table)
         if table.get("clearance_class") is not None or table.get("fits") is not None:
@@ -368,11 +421,16 @@ class Bearing(Table, book="bearing", named_by="base"):
     def unused_keys(cls, given: Mapping[str, Any]) -> set[str]:
         """Return the keys that bearings of the given kind, or of the kind of the given base, do not have."""
         kind = given.get("kind")
-        if kind is None and given.get("base") is not None:
+        if kind is None and (given.get("base") or given.get("designation")) is not None:
             with suppress(InputError):
                 kind = base_of(given)[1].get("kind")
         unused = super().unused_keys(given)
         return unused | _not_of_kind(str(kind)) if kind in KINDS_OF_BEARINGS else unused
+
+    @property
+    def name(self) -> str | None:
+        """Designation as typed, otherwise the name of the library; None for a geometry without a name."""
+        return self.designation or self.base
 
     @property
     def oil_temperature(self) -> float:
@@ -573,6 +631,7 @@ class BearingKeys(TypedDict, total=False):
     """Keys of the table ``bearing``, as ``BearingCase.of`` takes them."""
 
     base: str
+    designation: str
     kind: str
     elements: int
     bore: Value

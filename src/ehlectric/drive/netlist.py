@@ -429,7 +429,7 @@ class Subcircuit:
         """Comments: bearing, operating point, how it was solved, notes and warnings."""
         case, bearing, solution = self.case, self.case.bearing, self.results[0].solution
         yield f"title: {case.title or '(none)'}"
-        yield f"bearing: {bearing.base or 'own dimensions'}, {bearing.kind}, {bearing.elements} elements"
+        yield f"bearing: {bearing.name or 'own dimensions'}, {bearing.kind}, {bearing.elements} elements"
         yield (
             f"operating point: {rpm_text(bearing.inner_speed)} rpm, "
             f"{bearing.oil_temperature - _CELSIUS:.4g} degC, radial load {amount(bearing.radial_load, 'N')}, "

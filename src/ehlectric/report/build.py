@@ -118,7 +118,7 @@ def _motion(result: MotionResult) -> Part:
 
 def _bearing(result: BearingResult) -> Part:
     summary, case = result.summary(), result.case
-    rows, base = total_rows(summary), case.bearing.base
+    rows, name = total_rows(summary), case.bearing.name
     loads = "Loads and dry contacts of the elements with both rings"
     films = "Films, capacitances and voltages of the contacts"
     loads, films = (placed(caption, "contacts", summary) for caption in (loads, films))
@@ -127,7 +127,7 @@ def _bearing(result: BearingResult) -> Part:
     return part_of(
         result,
         summary,
-        kind=f"{case.bearing.kind} bearing{f' {base}' if base else ''}, contacts {HOW[case.contacts]}",
+        kind=f"{case.bearing.kind} bearing{f' {name}' if name else ''}, contacts {HOW[case.contacts]}",
         command="bearing",
         asked=machine_of(case, summary),
         first=tuple(bearing_blocks(case, summary, rows)),

@@ -360,7 +360,7 @@ def _remedy_table(result: DriveResult, summary: Summary) -> Table:
 
 def _kind(case: DriveCase) -> str:
     """Phrase for a drive: its source and its bearings."""
-    names = dict.fromkeys(one.bearing.base or f"{one.bearing.kind} bearing" for one in case.bearings)
+    names = dict.fromkeys(one.bearing.name or f"{one.bearing.kind} bearing" for one in case.bearings)
     source = "a measured voltage" if case.source.measured else f"{case.source.modulation} modulation"
     return f"drive with {source}, bearings {' and '.join(names)}"
 

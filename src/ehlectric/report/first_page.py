@@ -333,7 +333,7 @@ def _bearing(case: BearingCase, viscosity: float | None = None) -> str:
     """Bearing with its load, speed, temperature and oil. ``viscosity`` at ambient pressure [Pa s]."""
     bearing, oil = case.bearing, case.lubricant.temperature
     number = "bearing" if bearing.pair is None else "bearings"
-    name = " ".join(filter(None, [bearing.kind, number, printable(bearing.base or "")]))
+    name = " ".join(filter(None, [bearing.kind, number, printable(bearing.name or "")]))
     if bearing.pair is not None:
         name = f"pair of {name} in {bearing.pair.arrangement} arrangement"
     materials = (

@@ -136,7 +136,7 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
     >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
     {'base': '6206', 'clearance_class': 'CN', 'composite_rq': '0.03 um'}
     >>> dict(changed(inputs, {"bearing.base": "6314-C3"}).table["bearing"])
-    {'base': '6314', 'clearance_class': 'C3', 'composite_rq': '0.03 um'}
+    {'base': '6314', 'designation': '6314-C3', 'clearance_class': 'C3', 'composite_rq': '0.03 um'}
     >>> set_by_user = frozenset({"bearing.radial_clearance"})
     >>> changed(inputs, {"bearing.base": "6206"}, set_by_user).value("bearing.radial_clearance")
     '10 um'
@@ -156,8 +156,9 @@ def changed(inputs: Inputs, changes: Mapping[str, Any], given: frozenset[str] = 
 
 def _changed(inputs: Inputs, changes: Mapping[str, Any], set_by_user: frozenset[str]) -> Inputs:
     """Inputs of a case, or of the bearing at one end of a drive, with new values."""
-    if isinstance(changes.get("bearing.base"), str):
-        own = designated(changes["bearing.base"])
+    named = changes.get("bearing.base") or changes.get("bearing.designation")
+    if isinstance(named, str):
+        own = {"designation": None} | designated(named)
         changes = {**changes, **{f"bearing.{key}": value for key, value in own.items()}}
     given = _flat(changes)
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
@@ -228,6 +229,8 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     new = {key for key, value in given.items() if value is not None}
     if "lubricant.base" in new:
         yield from _within(inputs, "lubricant")
+    if "bearing.base" in given or _of_another_class(inputs, given):
+        yield "bearing.designation"
     if "bearing.base" in new:
         names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
         yield from (f"bearing.{name}" for name in names - {"base"})
@@ -242,6 +245,13 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
         yield from (key for key in _within(inputs, "grid") if key.partition(".")[2] not in GRID_OF_ANY)
     for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
         yield from _of_other_rows(rows, new)
+
+
+def _of_another_class(inputs: Inputs, given: Mapping[str, Any]) -> bool:
+    """Whether new values contain a class of clearance that contradicts the designation."""
+    typed, new = inputs.value("bearing.designation"), given.get("bearing.clearance_class")
+    named = designated(str(typed)).get("clearance_class") if typed is not None else None
+    return None not in (named, new) and named != new
 
 
 def _of_other_rows(rows: Rows, new: set[str]) -> Iterable[str]:

@@ -57,7 +57,7 @@ def no_such_bearing(text: object) -> InputError:
 
     The error names the kind of bearings that are not modelled. Examples in it are of the kind of the text.
     """
-    parts = parts_of(text) if isinstance(text, str) else Parts((), "", (), ())
+    parts = parts_of(text) if isinstance(text, str) else Parts((), "", (), (), "")
     found = type_of(parts.head)
     for word, prefix in parts.prefixes:
         if not prefix.kinds:

@@ -78,6 +78,7 @@ class Parts:
     head: str  # what stands behind the prefixes, without a space behind the letters of the type
     stems: tuple[str, ...]  # names that the number can mean, without a contact angle
     rest: tuple[str, ...]
+    maker: str  # first word of a maker, as FAG; empty without one
 
 
 @cache
@@ -107,27 +108,45 @@ def plain(text: str) -> str:
     >>> plain("nu\u00a0208 – ecp"), plain("６２０８")
     ('NU 208 - ECP', '6208')
     """
+    return as_typed(text).replace("X-LIFE", "XL")
+
+
+def as_typed(text: str) -> str:
+    r"""Text of a designation for a case, in capital letters with single spaces and plain dashes.
+
+    Examples
+    --------
+    >>> as_typed(" fag  6208–2rsr c3\n")
+    'FAG 6208-2RSR C3'
+    """
     normal = unicodedata.normalize("NFKC", text.translate(_DASHES).translate(_MARKS))
-    return " ".join(normal.translate(_DASHES).upper().replace("X-LIFE", "XL").split())
+    return " ".join(normal.translate(_DASHES).upper().split())
 
 
 @lru_cache(maxsize=1024)
 def parts_of(text: str) -> Parts:
     """Prefixes, number and suffixes of a designation."""
-    rest, prefixes = plain(text).lstrip("( #"), []
+    rest, prefixes, makers = plain(text).lstrip("( #"), [], []
     while rest:
         found = next(((one, hit) for one in _prefixes() if (hit := one.pattern.match(rest))), None)
         if found is None:
             break
         if found[0].group == "prefix":
             prefixes.append((found[1][1], found[0]))
+        makers += [found[1][1]] if found[0].group == "maker" else []
         rest = rest[found[1].end() :].lstrip()
     head = re.sub(r"^([A-Z]+)[\s.-]+(?=\d)", r"\1", rest)
     stems, behind = _stems(rest)
     words = tuple(part for part in _SEPARATORS.split(behind) if part)
-    while words and any(one.group != "prefix" and one.pattern.fullmatch(words[-1]) for one in _prefixes()):
+    while words and (group := _group_of(words[-1])) in ("maker", "word"):
+        makers += [words[-1]] if group == "maker" else []
         words = words[:-1]
-    return Parts(tuple(prefixes), head, stems, words)
+    return Parts(tuple(prefixes), head, stems, words, makers[0] if makers else "")
+
+
+def _group_of(word: str) -> str:
+    """Group of a word of makers or for a bearing behind a number; empty for another word."""
+    return next((one.group for one in _prefixes() if one.pattern.fullmatch(word)), "")
 
 
 def _stems(text: str) -> tuple[tuple[str, ...], str]:
