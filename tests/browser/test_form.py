@@ -98,6 +98,27 @@ def test_a_designation_keeps_its_class_and_a_kind_its_first_values(page, tmp_pat
 
 
 @pytest.mark.slow
+def test_a_designation_is_shown_and_written_as_typed(page, tmp_path):
+    """Its own field shows the typed text, and changes the bearing; another bearing has no such field."""
+    box, typed = field(page, "bearing.base"), page.get_by_test_id("field-bearing-designation")
+    assert not typed.is_visible()
+    search(page, "skf 6208-2rs1/c3")
+    box.press("Enter")
+    typed.wait_for()
+    assert field(page, "bearing.designation").input_value() == "SKF 6208-2RS1/C3"
+    written = tomllib.loads(downloaded(page, "download-toml", tmp_path).read_text(encoding="utf-8"))
+    assert (written["bearing"]["base"], written["bearing"]["designation"]) == ("6208", "SKF 6208-2RS1/C3")
+    type_into(page, "bearing.designation", "fag 6306/c4")
+    wait_for_address(page, "base='6306'")
+    wait_for_address(page, "clearance_class=C4")
+    assert field(page, "bearing.designation").input_value() == "FAG 6306/C4"
+    search(page, "6208")
+    box.press("Enter")
+    typed.wait_for(state="detached")
+    wait_for_address(page, "base='6208'")
+
+
+@pytest.mark.slow
 def test_values_of_a_group_and_an_own_oil_come_back(page):
     wait_for_number(page, "bearing.capacitance", capacitance())
     type_into(page, "motor.common_mode_voltage", "123 V")

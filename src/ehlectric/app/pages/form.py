@@ -240,7 +240,8 @@ class Form:
             "assumed": [
                 f"{labels.get(key, key)} = {text(key, value)}"
                 for key, value in new.items()
-                if key not in old and other(key)
+                # A typed designation is no assumption.
+                if key not in old and other(key) and end_and_key(key)[1] != "bearing.designation"
             ],
             "changed": [
                 f"{labels.get(key, key)} from {text(key, old[key])} to {text(key, value)}"
