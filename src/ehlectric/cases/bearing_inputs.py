@@ -247,7 +247,7 @@ def typed_base(table: Mapping[str, Any]) -> Any:
     if typed is None:
         return base
     found = _read(typed, "designation")
-    if found is None and typed not in (*known_bearings(),):
+    if found is None and not (isinstance(typed, str) and typed in known_bearings()):
         error = no_such_bearing(typed)
         raise error.retold("designation", error.text)
     name = typed if found is None else found.name
@@ -390,6 +390,18 @@ class Bearing(Table, book="bearing", named_by="base"):
     fits: Fits | None = None
     life: Life | None = None
 
+    @classmethod
+    def of_name(cls, table: Any) -> Any:
+        """Table instead of a text with the name of the bearing; a designation alone is also the base."""
+        found = super().of_name(table)
+        if (
+            not isinstance(found, Mapping)
+            or found.get("designation") is None
+            or found.get("base") is not None
+        ):
+            return found
+        return {**found, "base": found["designation"]}
+
     @model_validator(mode="before")
     @classmethod
     def _from_base(cls, table: Any) -> Any:
@@ -398,7 +410,7 @@ class Bearing(Table, book="bearing", named_by="base"):
         if not isinstance(table, Mapping):
             return table
         table = with_class(table)
-        if table.get("base") is None and table.get("designation") is None:
+        if table.get("base") is None:
             return with_clearance(table)
         table, base = base_of(table)
         if table.get("clearance_class") is not None or table.get("fits") is not None:

@@ -14,6 +14,7 @@ from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.field_rules import changed, own_values
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.library.designations import as_typed, parts_of
+from ehlectric.cases.table import opened_names
 from ehlectric.report.build import report_of
 from ehlectric.report.written_report import html_of
 from ehlectric.runs.example_files import example_text
@@ -263,3 +264,12 @@ def test_a_form_shows_the_designation_where_there_is_one():
     assert field.kind == "text"
     other = changed(changed(EXAMPLE, {"bearing.base": TYPED}), {"bearing.radial_load": "2 kN"})
     assert other.value(field.key) == TYPED
+
+
+def test_a_file_with_a_designation_alone_is_shown_as_its_bearing():
+    table = EXAMPLE.changed({"bearing.base": None, "bearing.radial_clearance": None}).table
+    opened = Inputs(
+        opened_names({**table, "bearing": {**table["bearing"], "designation": TYPED}}, BearingCase)
+    )
+    assert (opened.value("bearing.base"), opened.value("bearing.designation")) == (TYPED, TYPED)
+    assert kept(BearingCase.from_written(opened.table)) == ("6208", TYPED, "C3")
