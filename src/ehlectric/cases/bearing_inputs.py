@@ -392,7 +392,7 @@ class Bearing(Table, book="bearing", named_by="base"):
 
     @classmethod
     def of_name(cls, table: Any) -> Any:
-        """Table instead of a text with the name of the bearing; a designation alone is also the base."""
+        """Table instead of the name of a bearing; a designation without a base is also the base."""
         found = super().of_name(table)
         if (
             not isinstance(found, Mapping)
