@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact.result import PointResult, Result
-    from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.drive.drive_netlist import write_drive_netlist
     from ehlectric.drive.netlist_files import write_netlist
     from ehlectric.drive.result import DriveResult, solve_drive
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from ehlectric.motion.result import MotionResult
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
+    from ehlectric.quantities.verdict import Verdict
     from ehlectric.report.written_report import write_report
     from ehlectric.runs.example_files import example
     from ehlectric.runs.exports import export

@@ -77,3 +77,63 @@ def filled_in(template: str, values: Mapping[str, Any]) -> str:
     '16 000 rpm of 6205'
     """
     return _Readable().vformat(template, (), values)
+
+
+def at_an_end(probability: float, error: float) -> bool:
+    """Whether a probability differs from 0 or from 1 by less than its sampling error."""
+    return min(probability, 1.0 - probability) < error
+
+
+def chance_text(probability: float, error: float) -> str:
+    """Probability with its sampling error as text.
+
+    Examples
+    --------
+    >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
+    ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
+    """
+    if not at_an_end(probability, error):
+        return f"{readable(100.0 * probability, 2)} % (sampling error {readable(100.0 * error, 2)} %)"
+    if probability < error:
+        return f"below {readable(100.0 * (probability + error), 1)} %"
+    return f"above {readable(100.0 * (probability - error))} %"
+
+
+# Difference of the bounds of a probability below which they are one number.
+ONE_NUMBER = 1e-9
+
+
+def mean_text(probability: float, low: float, high: float) -> str:
+    """Mean probability as text, or its bounds if points without a result leave it open.
+
+    Examples
+    --------
+    >>> mean_text(0.694, 0.694, 0.694), mean_text(0.5, 0.165, 0.5664)
+    ('69 %', 'between 16 and 57 %')
+    """
+    return f"{readable(100.0 * probability, 2)} %" if high - low < ONE_NUMBER else bounds_text(low, high)
+
+
+def bounds_text(low: float, high: float) -> str:
+    """Probability between bounds as text.
+
+    Examples
+    --------
+    >>> bounds_text(0.165, 0.5664)
+    'between 16 and 57 %'
+    """
+    return f"between {readable(100.0 * low, 2)} and {readable(100.0 * high, 2)} %"
+
+
+def ratio_text(ratio: Any) -> str:
+    """Ratio as text with two digits behind the point; more where it would be rounded to 1.
+
+    Examples
+    --------
+    >>> ratio_text(1.4432), ratio_text(0.9981), ratio_text(0.0123), ratio_text(2345.6)
+    ('1.44', '0.9981', '0.012', '2300')
+    """
+    if not 0.1 <= ratio < 100.0:
+        return readable(ratio, 2)
+    text = f"{ratio:.2f}"
+    return readable(ratio, 4) if text == "1.00" else text

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import Contacts
 from ehlectric.quantities.units import known_factor, si_unit, split
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 
 
@@ -257,7 +258,8 @@ class SweepView:
     """State of a sweep, finished or not."""
 
     counts: Mapping[str, int]  # number of points by state
-    judged: Judged
+    verdict: Verdict
+    meaning: str  # what the verdict means, in plain words; empty where its heading says so
     deciding: Deciding
     number: Number | None  # lowest margin; None where no point has one
     chart: Chart  # what the map shows
@@ -349,7 +351,8 @@ class Side:
 
     kind: str
     title: str
-    judged: Judged  # verdict, without solving
+    verdict: Verdict  # without solving
+    meaning: str  # what the verdict means, in plain words
     deciding: Deciding
     number: Number | None  # number that decides; None where there is none
     results: tuple[Result, ...]
@@ -556,29 +559,14 @@ class Deciding:
     facts: tuple[tuple[str, str], ...] = ()  # names and values of its interval and its probability
     gauge: Gauge | None = None
     figure: str = ""  # name of the figure; empty without one
-    # Beginnings of sentences of the verdict, and codes of warnings, that say no more than the number.
+    # Codes of statements of the verdict and of warnings that say no more than the number.
     said: tuple[str, ...] = ()
 
 
-# Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
-# in the verdict and next to the margin.
+# Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin next
+# to the margin.
 PENDING = "…"
-FOLLOWS = "Margin at once; its range follows."
 RANGE_FOLLOWS = "its range within the stated ranges follows"
-
-
-@dataclass(frozen=True)
-class Judged:
-    """Verdict on a bearing or a drive, in its parts."""
-
-    level: str  # "green", "yellow", "red", or "grey" without a verdict
-    # Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
-    lead: str
-    meaning: str  # what this means for the bearing, in plain words
-    numbers: str
-    reasons: tuple[str, ...]  # further sentences: speeds, what is uncertain, and what follows
-    assumptions: str  # sentence about what is assumed, which names an upper bound; empty without one
-    bound: str = ""  # "upper bound" where the verdict is on one; empty otherwise
 
 
 @dataclass(frozen=True)
@@ -617,7 +605,8 @@ class PageAnswer:
     """Parts that the answers about a bearing, a drive and a contact share."""
 
     title: str
-    judged: Judged  # the verdict in its parts
+    verdict: Verdict
+    meaning: str  # what the verdict means for the machine, in plain words; empty without such words
     how: str  # how the answer was computed, and how far off it may be
     shown: tuple[Number, ...]  # main numbers
     deciding: Deciding

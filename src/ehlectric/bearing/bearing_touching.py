@@ -31,29 +31,7 @@ from ehlectric.formulas.asperities import (
     summit_deviation,
     summit_separation,
 )
-
-# Share of time below which a text gives no number: a hundredth of a per cent.
-SELDOM = 1e-4
-
-# End of all texts.
-OF_TIME = " of the time"
-
-
-def time_text(share: float) -> str:
-    """Share of time as text.
-
-    Examples
-    --------
-    >>> time_text(0.0257), time_text(3e-9), time_text(0.99999)
-    ('2.57 % of the time', 'less than 0.01 % of the time', 'more than 99.99 % of the time')
-    """
-    if share < SELDOM:
-        return f"less than 0.01 %{OF_TIME}"
-    if share > 1.0 - SELDOM:
-        return f"more than 99.99 %{OF_TIME}"
-    digits = ".3g" if share < 0.99 else ".4g"
-    return f"{100.0 * share:{digits}} %{OF_TIME}"
-
+from ehlectric.quantities.statement import Statement
 
 # Law of ``LOAD_SHARE`` whose asperity load share is given; the others are its spread. It is one of the two
 # that are models of a load share at any lambda: Clarke's is a share of time, Johnson's ends near lambda 2.
@@ -65,13 +43,11 @@ DEFAULT_SHARE = "patir_cheng"
 CAPACITIVE, RESISTIVE = 0.01, 0.99
 
 
-def regime_clause(duty: BearingDuty) -> str:
+def regime_clause(duty: BearingDuty) -> Statement:
     """Clause about a bearing: its regime, and how long contacts short it."""
     if duty.insulated:
-        return (
-            f"an element touches both rings {time_text(duty.touching_time_share)}, and the bearing insulates"
-        )
-    return f"the bearing is {duty.regime}, and contacts short it {time_text(duty.contact_time_share)}"
+        return Statement.of("regime-insulated", share=duty.touching_time_share)
+    return Statement.of("regime", regime=duty.regime, share=duty.contact_time_share)
 
 
 @dataclass(frozen=True, eq=False)

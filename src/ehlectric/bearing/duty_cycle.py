@@ -38,13 +38,13 @@ from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE, void_rows
-from ehlectric.discharge.breakdown_rule import mean_text, ratio_text
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.units import RPM
-from ehlectric.readable import readable
+from ehlectric.readable import ratio_text, readable
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
@@ -214,16 +214,13 @@ class DutyResult(Values):
         return means[0], means[1], means[2]
 
     @property
-    def sentence(self) -> str:
-        """Sentence of the verdict about the cycle: probability of breakdown, share of time with breakdown."""
+    def statement(self) -> Statement | None:
+        """Statement on the cycle: probability of breakdown, share of time with breakdown; None without."""
         probability, low, high = self._means(whole=True)
         if probability is None or low is None or high is None:
-            return ""
-        share = 100.0 * self.rows.share(self.rows.breaks)
-        return (
-            f"Over the duty cycle the mean probability of breakdown is {mean_text(probability, low, high)}; "
-            f"the margin is below 1, or surfaces touch, {readable(share, 2)} % of the time."
-        )
+            return None
+        share = self.rows.share(self.rows.breaks)
+        return Statement.of("cycle", probability=(probability, low, high), share=share)
 
     def _probabilities(self) -> dict[str, float | None]:
         """Probabilities of breakdown with their bounds by their keys."""

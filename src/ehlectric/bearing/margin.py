@@ -1,9 +1,9 @@
-"""Margin against breakdown: critical speed, sensitivity, uncertainty, and the verdict on a bearing."""
+"""Margin against breakdown: critical speed, sensitivity and range."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -12,18 +12,10 @@ import numpy as np
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import (
-    Breakdown,
-    breakdown_of,
     first_margin,
-    leakage_flags,
     margin_apart,
-    margin_with_films,
-    shaft_leakage,
-    shaft_voltage,
     with_films_scaled,
 )
-from ehlectric.bearing.bearing_touching import duty_of, regime_clause
-from ehlectric.bearing.ceramic_elements import element_breakdown, element_field, element_voltage
 from ehlectric.bearing.changed_bearings import (
     OWN,
     PARTS,
@@ -35,8 +27,6 @@ from ehlectric.bearing.changed_bearings import (
     over_parts,
     solve_several,
 )
-from ehlectric.bearing.film_factor import supply_words
-from ehlectric.bearing.impedance import film_share, shaft_path
 from ehlectric.bearing.input_changes import (
     Change,
     changes_of,
@@ -45,44 +35,15 @@ from ehlectric.bearing.input_changes import (
 )
 from ehlectric.bearing.quick_contacts import formula_factor, is_quick, required_quick_case
 from ehlectric.bearing.solution import (
-    CONDUCTING,
     PARTIAL,
     BearingSolution,
-    capacitance_is_bound,
-    error_text,
-    film_error,
     insulating,
     lambda_ratio,
-    lambda_text,
-    lubrication,
     touching_ratio,
 )
 from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
-from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.defaults import HOW
-from ehlectric.discharge.breakdown_rule import (
-    STRENGTH_UNKNOWN,
-    UNLIKELY,
-    Chance,
-    Level,
-    doubted,
-    lead_of,
-    level_of,
-    ratio_text,
-    strength_interval,
-    touching_rule,
-)
-from ehlectric.discharge.film_verdict import (
-    Verdict,
-    doubts_of,
-    strength_clause,
-    strength_doubt,
-    unusable,
-    weibull_part,
-)
-from ehlectric.errors import InputError, raised
-from ehlectric.quantities.formats import amount, rpm_text
+from ehlectric.errors import InputError
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 
@@ -521,345 +482,9 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
     return MarginAnalysis(margin, speeds, low, high, effects, left_out)
 
 
-# Sentence about contacts of asperities, without its full stop.
-_OPENING = "Contacts discharge at a low voltage as they open"
-
-
-def bearing_verdict(
-    solution: BearingSolution,
-    analysis: MarginAnalysis,
-    chance: Chance | None = None,
-    *,
-    unknown: str = "",
-) -> Verdict:
-    """Verdict on a solved bearing; grey where the numbers must not be used, and without a strength or a shaft
-    voltage. Of ceramic elements it is about the voltage that they insulate.
-
-    The level follows the probability of breakdown, ``chance``, where it is known. Otherwise the margin may
-    lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
-    widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
-    that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
-    strength by 20 % takes across 1 is yellow, too. ``unknown``, reason for which the probability has no
-    value, though the bearing has a margin: no such verdict is green. The levels and first words follow
-    ``breakdown_rule``.
-    """
-    warnings = bearing_warnings(solution)
-    refused = unusable(warnings)
-    if refused or not solution.converged:
-        return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
-    state = lubrication(solution)
-    if solution.conditions.ceramic:
-        return _of_ceramics(solution)
-    if state == "conducting":
-        level, lead = touching_rule(chance, driven=solution.case.motor is not None)
-        return Verdict(level, _touching_text(solution, lead, chance))
-    breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
-    if breakdown is None:
-        known = "" if shaft is None else f" The shaft voltage is {readable(shaft)} V {_at(solution)}."
-        return Verdict("grey", f"No verdict: no dielectric strength given, no breakdown voltage.{known}")
-    first = f"first breakdown at {readable(breakdown.shaft_first_break)} V"
-    if shaft is None:
-        return Verdict(
-            "grey",
-            f"No verdict: {first} {_at(solution)}, but no shaft voltage is known without [motor]. "
-            + _assumptions(solution),
-        )
-    warned = [*doubts_of(warnings), *filter(None, [_unknown(unknown)])]
-    return _judged(solution, analysis, breakdown, shaft, warned, chance)
-
-
-def _unknown(reason: str) -> str:
-    """Sentence about a probability without a value; empty without a reason."""
-    return f"The probability of breakdown is not known: {reason}." if reason else ""
-
-
-def _touching_text(solution: BearingSolution, lead: str, chance: Chance | None) -> str:
-    """Verdict on a bearing whose surfaces touch, in sentences."""
-    likely = ""
-    if chance is not None and chance.first:
-        likely = f" The probability of breakdown, which counts touching surfaces, is {chance.text}."
-    return (
-        f"{lead}: {_how_touching(solution)} {_at(solution)} (lambda ratio {lambda_text(solution)}), "
-        f"{regime_clause(duty_of(solution))}. {_OPENING}, and no voltage is computed for that. This is no "
-        f"protection: current passes, and arcs are likely.{likely}"
-    )
-
-
-def _of_ceramics(solution: BearingSolution) -> Verdict:
-    """Verdict on a bearing with ceramic elements, through which no film discharges: whether they insulate the
-    voltage on them, with a strength that is as uncertain as one without a stated range.
-    """
-    voltage, most, element = (
-        element_voltage(solution),
-        element_breakdown(solution),
-        solution.conditions.element,
-    )
-    touch = lubrication(solution) == "touching"
-    touching = f" Surfaces touch (lambda ratio {lambda_text(solution)})." if touch else ""
-    if most is None or element.dielectric_strength is None:
-        return Verdict("grey", f"No verdict: no strength of the insulating elements is known.{touching}")
-    insulates = f"insulates at least {amount(float(f'{most:.2g}'), 'V')}"
-    ends = " to ".join(readable(1e-6 * end) for end in strength_interval(element.dielectric_strength))
-    why = f"{element.strength_of}, ± {100.0 * STRENGTH_UNKNOWN:.0f} %"
-    assumed = f" Best estimate: strength of the ceramic {ends} V/µm ({why})"
-    assumed = f"{assumed}{equal_bearings_clause(solution.case)}."
-    if voltage is None:
-        no_voltage = "but no shaft voltage is known without [motor]"
-        return Verdict(
-            "grey", f"No verdict: each ceramic element {insulates}, {no_voltage}.{touching}{assumed}"
-        )
-    sure, bound = strength_interval(most / voltage)[0] >= 1.0, capacitance_is_bound(solution)
-    return Verdict(
-        "green" if sure else "yellow",
-        f"{'No discharge expected' if sure else 'Discharge possible'}: each ceramic element must insulate "
-        f"{'at most ' if bound else ''}{readable(voltage)} V {_at(solution)}, and {insulates}. The field "
-        "in it is "
-        f"at most {readable(1e-6 * (element_field(solution) or 0.0), 2)} V/µm. Films beside such "
-        "elements do not "
-        f"discharge.{touching}{assumed}",
-    )
-
-
-def _judged(
-    solution: BearingSolution,
-    analysis: MarginAnalysis,
-    breakdown: Breakdown,
-    shaft: float,
-    warned: Iterable[str],
-    chance: Chance | None,
-) -> Verdict:
-    """Verdict on a bearing with a margin; ``warned`` are sentences of warnings that make it doubtful."""
-    margin = breakdown.shaft_first_break / shaft
-    touching, doubts = [*_at_times(solution)], [*_doubts(solution, analysis, chance), *warned]
-    if chance is None:
-        level, lead, reasons, interval = _by_ends(solution, analysis, margin)
-        reasons = [*touching, *_unfavourable(solution, analysis, margin), *doubts, *reasons]
-    else:
-        level, lead, interval = chance.level, chance.lead, ""
-        known = chance.sentence_with(doubts=bool(doubts) and level == "green")
-        reasons = [*touching, *_unfavourable(solution, analysis, margin), *doubts, known]
-        reasons += _widths(solution, analysis, margin)
-    level, lead = doubted(level, lead, doubts=bool(doubts), touching=bool(touching))
-    text = (
-        f"{lead}: shaft voltage {readable(shaft)} V, first breakdown at "
-        f"{readable(breakdown.shaft_first_break)} V (margin {ratio_text(margin)}{interval}) {_at(solution)}."
-    )
-    speeds = list(_speeds(analysis.speeds))
-    shares, leaks = _coating(solution, shaft), _leaks(solution)
-    sentences = filter(None, [text, shares, *speeds, *reasons, leaks, _assumptions(solution)])
-    return Verdict(level, " ".join(sentences), margin)
-
-
-def _by_ends(
-    solution: BearingSolution, analysis: MarginAnalysis, margin: float
-) -> tuple[Level, str, list[str], str]:
-    """Level, first words, reasons and interval of a verdict from the smallest and the largest margin."""
-    reasons: list[str] = []
-    low, high = _widened(solution, *_stated(solution, analysis, margin))
-    # Without a stated range of the strength a usual one counts.
-    strength = not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
-    if strength:
-        weakest, strongest = strength_interval(margin)
-        low, high = min(low, weakest), max(high, strongest)
-    level = level_of(low, high)
-    if strength:
-        reasons += filter(None, [strength_doubt(solution.case.discharge, margin)])
-    reasons += _widths(solution, analysis, margin)
-    interval = ""
-    if analysis.low is not None and analysis.high is not None:
-        interval = (
-            f", {ratio_text(analysis.low)} to {ratio_text(analysis.high)} within the stated ranges of inputs"
-        )
-    return level, lead_of(level, likely=margin < 1.0), reasons, interval
-
-
-def _coating(solution: BearingSolution, shaft: float) -> str:
-    """Sentence about the share of a coating in the shaft voltage [V]; empty without one."""
-    share = film_share(solution)
-    if share is None or not shaft_path(solution).coated:
-        return ""
-    return (
-        f"Of the shaft voltage {readable(share * shaft)} V ({readable(100.0 * share)} %) are across the "
-        "films at high "
-        "frequency, and the coating has the rest."
-    )
-
-
-def _leaks(solution: BearingSolution) -> str:
-    """Sentence about films that discharge through the oil within a period; empty where they do not."""
-    found = shaft_leakage(solution)
-    if found is None or not any(raised(leakage_flags(solution))):
-        return ""
-    motor = solution.case.motor
-    frequency = None if motor is None else motor.switching_frequency
-    period = "the period of a common PWM inverter"
-    if frequency is not None:
-        period = f"one PWM period of {amount(1.0 / frequency, 's')}"
-    time = amount(found.film_time_constant, "s")
-    return (
-        f"The film discharges through the oil within {period} (time constant {time}): its voltage is an "
-        "upper bound."
-    )
-
-
-def _stated(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
-    """Smallest and largest margin within the stated ranges, the smallest at 5 % of a Weibull law."""
-    low = margin if analysis.low is None else analysis.low
-    high = margin if analysis.high is None else analysis.high
-    weibull = solution.case.discharge.weibull
-    return low if weibull is None else low * weibull_part(weibull.shape, UNLIKELY), high
-
-
-def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float, float]:
-    """Interval of margins, widened by the accuracy of the films.
-
-    Over summits a margin falls faster than its film. What it loses beyond that is taken off in full from the
-    low end, and in proportion added to the high end, so that the interval is rather too wide.
-    """
-    thin, thick = film_factors(solution.case, float(film_error(solution)))
-    if not solution.case.bearing.summit_height:
-        return low * thin, high * thick
-    margins, own = margin_with_films(solution, np.array([thin, thick])), first_margin(solution)
-    assert own is not None
-    lowest = low * thin - (own * thin - float(margins[0]))
-    return max(lowest, 0.0), high * float(margins[1]) / own
-
-
 def film_factors(case: BearingCase, off: float) -> tuple[float, float]:
     """Ends of the factor on all films of a bearing, which are ``off`` by at most this part, dimensionless."""
     if case.contacts == "formula":
         factor = formula_factor(case.bearing.kind)
         return 1.0 / factor, factor
     return 1.0 - off, 1.0 + off
-
-
-def _at_times(solution: BearingSolution) -> Iterator[str]:
-    """Sentences about surfaces that touch at times."""
-    duty = duty_of(solution)
-    if lubrication(solution) == "partial film" or duty.regime != "capacitive":
-        yield (
-            f"Surfaces may touch at times (lambda ratio {lambda_text(solution)}): {regime_clause(duty)}. "
-            f"Voltages are upper bounds. {_OPENING}, which is not computed."
-        )
-
-
-def _doubts(solution: BearingSolution, analysis: MarginAnalysis, chance: Chance | None) -> Iterator[str]:
-    """Sentences about ranges that neither the interval of the margin nor its probability contains.
-
-    An estimate of the probability at once does not contain what changes the films.
-    """
-    whole = chance is not None and chance.first
-    if solution.case.ranges and analysis.low is None and not whole:
-        yield "The range of the margin could not be computed from the stated ranges of inputs."
-    if chance is not None:
-        yield from (f"{text[0].upper()}{text[1:]}." for text in chance.neglected)
-
-
-def _unfavourable(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
-    """Sentences about a margin that is lower at unfavourable ends of ranges or of a Weibull law.
-
-    The interval of the margin and its probability contain these ends.
-    """
-    if analysis.low == 0.0:
-        yield "At the unfavourable ends of the stated ranges the surfaces touch, at times at least."
-    weibull = solution.case.discharge.weibull
-    if weibull is not None:
-        unlikely = margin * weibull_part(weibull.shape, UNLIKELY)
-        text = f"The margin is for a probability of 63.2 %; at 5 % it is {ratio_text(unlikely)}."
-        if unlikely < 1.0:
-            yield text
-
-
-def _widths(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
-    """Sentence about the accuracy of the films, where it takes the margin or its stated range across 1."""
-    intervals = ((margin, margin), _stated(solution, analysis, margin))
-    if not any(
-        level_of(*ends) != "yellow" and level_of(*_widened(solution, *ends)) == "yellow" for ends in intervals
-    ):
-        return
-    if is_quick(solution.case):
-        how = HOW[solution.case.contacts]
-        yield f"Films {how} may be {error_text(solution)} off: solved contacts decide."
-    elif film_error(solution) > 0.0:
-        yield f"Films may be {error_text(solution)} off."
-
-
-def _speeds(speeds: SpeedRange | None) -> Iterator[str]:
-    """Sentences about the speeds at which the margin is below 1 or surfaces touch; none where no other speed
-    was computed. Only the first words of a verdict state how likely a breakdown is.
-    """
-    if speeds is None or speeds.lowest >= speeds.highest:
-        return
-    lowest, highest = max(speeds.lowest, speeds.touching or 0.0), speeds.highest
-    within = f"at all speeds computed, {rpm_text(lowest)} to {rpm_text(highest)} rpm"
-    if speeds.crossings:
-        yield f"{_intervals(speeds.broken)} the margin is below 1."
-    elif not speeds.above:
-        yield f"The margin is below 1 {within}."
-    elif speeds.minimum is not None:
-        yield f"The margin is at least {ratio_text(speeds.minimum)} {within}."
-    if speeds.partial == ((None, None),):
-        yield f"Surfaces may touch, and discharge as they part, {within}."
-    elif speeds.partial:
-        yield f"{_intervals(speeds.partial)} surfaces may touch, and discharge as they part."
-    if speeds.touching is not None:
-        yield (
-            f"Below about {rpm_text(speeds.touching)} rpm the surfaces touch, at times at least: contacts "
-            "open and close, discharges are likely, and no voltage is computed."
-        )
-
-
-def _intervals(ranges: Intervals) -> str:
-    """Start of a sentence with intervals of speed [rad/s]."""
-    where = " and ".join(_interval(low, high) for low, high in ranges)
-    return f"{where[0].upper()}{where[1:]}"
-
-
-def _interval(low: float | None, high: float | None) -> str:
-    """Clause with an interval of speed [rad/s], whose open ends are those of all speeds computed."""
-    if low is None:
-        return f"below about {rpm_text(high or 0.0)} rpm"
-    if high is None:
-        return f"above about {rpm_text(low)} rpm"
-    return f"between about {rpm_text(low)} and {rpm_text(high)} rpm"
-
-
-def _how_touching(solution: BearingSolution) -> str:
-    """Clause of a bearing without a voltage: its surfaces touch nearly always, or its highest summits do."""
-    return "surfaces touch" if lambda_ratio(solution) < CONDUCTING else "the highest summits touch at times"
-
-
-def _at(solution: BearingSolution) -> str:
-    """Speed and temperature of a bearing as text, which names the operating point next to a duty cycle."""
-    bearing = solution.case.bearing
-    speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
-    point = "" if solution.case.duty is None else "the operating point of "
-    return f"at {point}{readable(speed, 4)} rpm, {readable(temperature)} °C"
-
-
-def _assumptions(solution: BearingSolution) -> str:
-    """Sentence about the assumptions behind the breakdown voltage."""
-    case, factor = solution.case, solution.conditions.film_factor
-    film = f"{'rough' if case.bearing.summit_height else 'smooth'} film"
-    films = (
-        f"{film} with the given film factor {readable(factor)}, which alone stands for starvation and heat"
-    )
-    if factor == 1.0:
-        films = f"isothermal, fully flooded, {film}"
-    elif case.bearing.supply != "flooded":
-        films = f"{film} with {supply_words(solution)}"
-    elif case.bearing.film_factor == "inlet-shear":
-        films = f"fully flooded, {film} with inlet shear heating"
-    elif case.bearing.film_factor == "solved":
-        films = f"fully flooded, {film} with the solved heat of pure rolling"
-    stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
-    clause = strength_clause(case.discharge, stated.get("discharge.dielectric_strength"))
-    kind = "Upper bound" if case.bearing.bounding else "Best estimate"
-    return f"{kind}: {films}; {clause}{equal_bearings_clause(case)}."
-
-
-def equal_bearings_clause(case: BearingCase) -> str:
-    """Clause about the second bearing of the shaft if its capacitance is not given, else empty."""
-    if case.motor is None or case.motor.second_bearing_capacitance is not None:
-        return ""
-    return "; the second bearing of the shaft is taken as equal (for two different bearings: ehlectric drive)"

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.duty_cycle import DutyResult, check_duty, run_duty
-from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin, bearing_verdict
+from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.ring_contacts import check_contact
@@ -26,11 +27,11 @@ from ehlectric.bearing.uncertainty import (
 )
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown, texts_and_codes
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -206,8 +207,8 @@ class BearingResult(Shown):
         found, why = self._uncertainty_or_reason
         chance = None if found is None else found.chance
         verdict = bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
-        cycle = "" if self.duty is None else self.duty.sentence
-        return replace(verdict, text=f"{verdict.text} {cycle}") if cycle else verdict
+        cycle = None if self.duty is None else self.duty.statement
+        return verdict if cycle is None else replace(verdict, reasons=(*verdict.reasons, cycle))
 
     @read_only_property
     def capacitive_speed(self) -> float | None:
@@ -246,7 +247,7 @@ class BearingResult(Shown):
                 summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
             summary[key] = value
             if key == "warning_codes":
-                summary["verdict"] = verdict.text
+                summary |= verdict.as_data()
             if key == "mechanics" and self.duty is not None:
                 summary["duty"] = plain(self.duty.summary())
         if probable:

@@ -395,10 +395,15 @@ def touches(ratio: Numbers, summit_height: Numbers) -> Any:
 
 
 def lambda_text(solution: BearingSolution) -> str:
+    """Lambda ratio as text, with the digits of ``shown_lambda``."""
+    return readable(shown_lambda(solution))
+
+
+def shown_lambda(solution: BearingSolution) -> float:
     """Lambda ratio with two digits, and with three where the state of lubrication changes nearby."""
     ratio, limits = lambda_ratio(solution), (CONDUCTING, solution.case.bearing.summit_height)
     near = any(0.9 * limit < ratio < 1.1 * limit for limit in limits)
-    return readable(ratio) if near else readable(ratio, 2)
+    return float(f"{ratio:.{3 if near else 2}g}")
 
 
 def lubrication(solution: BearingSolution, *, film_scale: Numbers = 1.0) -> Any:

@@ -18,7 +18,7 @@ from ehlectric.bearing.bearing_discharges import (
     shaft_voltage,
     strength_per_volt,
 )
-from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.input_changes import estimated_keys
@@ -56,6 +56,7 @@ from ehlectric.discharge.film_breakdown import field_flags, strength_flags
 from ehlectric.discharge.film_verdict import breakdown_flag
 from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
+from ehlectric.quantities.formats import time_share_text
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 
@@ -345,7 +346,7 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
         return
     duty = duty_of(solution)
     partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
-    share = partial(time_text, duty.touching_time_share)
+    share = partial(time_share_text, duty.touching_time_share)
     yield Flag.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 
 

@@ -21,12 +21,13 @@ from ehlectric.runtime.progress import Progress, Remaining, silent
 from ehlectric.runtime.undrawn import lines_of
 
 if TYPE_CHECKING:
+    from rich.padding import Padding
     from rich.progress import Progress as RichProgress
     from rich.table import Table
     from rich.text import Text
 
-    from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.quantities.rows import Row
+    from ehlectric.quantities.verdict import Verdict
     from ehlectric.runtime.progress import RunOutcome
     from ehlectric.runtime.undrawn import Undrawn
 
@@ -229,7 +230,7 @@ def print_rows(rows: Iterable[Row], title: str = "") -> None:
     print_table(table_of(rows, title))
 
 
-def print_table(table: Table | Text) -> None:
+def print_table(table: Table | Text | Padding) -> None:
     """Print a table or a text on stdout; without colours where stdout is not a terminal."""
     from rich.console import Console
     from rich.table import Table
@@ -244,22 +245,36 @@ def print_table(table: Table | Text) -> None:
     typer.echo(captured.get(), nl=False)
 
 
+# Width of the labels of the lines of a verdict [characters].
+_LABEL = 13
+
 # Styles of the levels of a verdict, as rich names them.
 _STYLES = {"green": "bold green", "yellow": "bold yellow", "red": "bold red", "grey": "bold"}
 
 
 def print_verdict(verdict: Verdict | None) -> None:
-    """Print a verdict on stdout in the colour of its level; without colours where stdout is no terminal."""
+    """Print a verdict on stdout in lines, its heading in the colour of its level; without colours, and
+    without line breaks within a line, where stdout is no terminal.
+    """
     if verdict is None:
         return
     from rich.console import Console
+    from rich.padding import Padding
+    from rich.table import Table
     from rich.text import Text
 
-    if Console().is_terminal:
-        print_table(Text(printable(verdict.text), style=_STYLES[verdict.level]))
-    else:
-        # A line that is read by a program is not wrapped.
-        say(verdict.text)
+    (_, heading), *lines = verdict.lines()
+    if not Console().is_terminal:
+        for line in (heading, *(f"  {label:{_LABEL}}{text}" for label, text in lines)):
+            say(line)
+        return
+    print_table(Text(printable(heading), style=_STYLES[verdict.level]))
+    grid = Table.grid(padding=(0, 0, 0, 0))
+    grid.add_column(width=_LABEL, style="dim")
+    grid.add_column()
+    for label, text in lines:
+        grid.add_row(label, Text(printable(text)))
+    print_table(Padding(grid, (0, 0, 0, 2)))
 
 
 def echo_files(files: Iterable[Path]) -> None:

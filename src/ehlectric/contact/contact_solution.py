@@ -23,12 +23,13 @@ from ehlectric.contact.touching import (
     weighted_rms,
 )
 from ehlectric.discharge.assessment import Assessment, assess
-from ehlectric.discharge.film_verdict import Verdict, contact_verdict
+from ehlectric.discharge.film_verdict import contact_verdict
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import contact_zones
 from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Shown, Values, read_only_property
 from ehlectric.surfaces.maps import Map

@@ -36,7 +36,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "converged": solution.converged,
         "status": film.status,
         **texts_and_codes(solution.warnings),
-        **({} if solution.verdict is None else {"verdict": solution.verdict.text}),
+        **({} if solution.verdict is None else solution.verdict.as_data()),
         **_known_before(solution.case, conditions),
         "film": _film(solution) | kind.film_summary(solution),
         "field": _field(solution),

@@ -24,9 +24,10 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import Electric
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.problems import SCHEMES, Setup, fluid_of
+from ehlectric.discharge.breakdown_rule import POSSIBLE, TOUCHING_EXPECTED
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
-from ehlectric.discharge.film_verdict import Verdict, unusable
+from ehlectric.discharge.film_verdict import unusable
 from ehlectric.errors import ResultWarning
 from ehlectric.field.zones import areas, areas_by_zone
 from ehlectric.film.flow import flow
@@ -37,6 +38,8 @@ from ehlectric.formulas.asperities import cluster_resistance, film_resistance, g
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.statement import Statement
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import formatted, readable
 from ehlectric.runtime.stored import number
 from ehlectric.surfaces.profiles import FLAT
@@ -645,17 +648,8 @@ def asperities(
     )
 
 
-# First words of a verdict, which are its heading, and what the contact does.
-_LEADS = {
-    "resistive": "The spots conduct",
-    "mixed": "Discharges expected",
-    "capacitive": "Breakdown possible",
-}
-_ANSWERS = {
-    "resistive": "the spots short the film at 10 kHz, and no voltage builds up while they are there",
-    "mixed": "it conducts and insulates in turn, and discharges as the spots open",
-    "capacitive": "only what lies on the spots insulates, and its own breakdown is not known",
-}
+# Codes of a verdict on a contact that touches, by its electrical behaviour.
+_CODES = {"resistive": "spots-conduct", "mixed": TOUCHING_EXPECTED, "capacitive": POSSIBLE}
 
 
 def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
@@ -664,24 +658,20 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
     It is red, yellow where a tribofilm insulates the spots, or grey where the film must not be used.
     """
     refused = unusable(warnings)
-    if refused:
-        return Verdict("grey", refused)
-    answer, number = found.electrical, found.spots.number
-    spots = "1 spot" if number == 1 else f"{number} spots"
-    text = f"{_LEADS[answer.behaviour]}: the surfaces touch in {spots} "
-    text += f"at an applied voltage of {readable(voltage)} V. "
-    text += f"The contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
-    if answer.breakdown_5 is not None:
-        text += (
-            " Around the spots 5 % of the Hertz zone would break down at "
-            f"{readable(answer.breakdown_5, 2)} V."
-        )
-    if answer.breakdown_probability is not None:
-        text += (
-            " Around the spots the film would break down with a probability of "
-            f"{readable(100.0 * answer.breakdown_probability, 2)} %."
-        )
-    return Verdict("yellow" if answer.behaviour == "capacitive" else "red", text)
+    if refused is not None:
+        return refused
+    behaviour, around = found.electrical.behaviour, []
+    if found.electrical.breakdown_5 is not None:
+        around.append(Statement.of("around-spots", breakdown=found.electrical.breakdown_5))
+    if found.electrical.breakdown_probability is not None:
+        probability = found.electrical.breakdown_probability
+        around.append(Statement.of("chance-around-spots", probability=probability))
+    return Verdict(
+        "yellow" if behaviour == "capacitive" else "red",
+        _CODES[behaviour],
+        Statement.of(f"spots-{behaviour}", spots=found.spots.number, voltage=voltage),
+        reasons=tuple(around),
+    )
 
 
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.

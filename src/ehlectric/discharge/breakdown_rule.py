@@ -1,4 +1,4 @@
-"""The rule of every answer about breakdown: probability, level and first words of a verdict.
+"""The rule of every answer about breakdown: probability, level and code of a verdict.
 
 Breakdown is a margin below 1, or surfaces that touch. Its probability is the share of the points within what
 is uncertain at which a bearing breaks down. A point without a result may lie on either side: the probability
@@ -9,16 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
-from ehlectric.readable import readable
-
-# "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
-# expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
-Level = Literal["green", "yellow", "red", "grey"]
+from ehlectric.arrays import Array
+from ehlectric.quantities.statement import Level, Statement
+from ehlectric.readable import bounds_text, chance_text
 
 # Probabilities of breakdown below which it is not expected, below which it is possible, and above which it is
 # expected; between the last two it is likely. The first one also is that at which a voltage of a Weibull law
@@ -35,22 +32,22 @@ STRENGTH_UNKNOWN = 0.2
 # Standard deviations of a normal distribution within which the sampling error is at a confidence of 95 %.
 _CONFIDENCE = 1.959963984540054
 
-# First words of a verdict. All levels except the first and the last are "yellow".
+# Codes of a verdict. The first one is of the level "green", the last one "red", and those between "yellow".
 EXCLUDED, POSSIBLE, LIKELY, EXPECTED = (
-    "No breakdown expected",
-    "Breakdown possible",
-    "Breakdown likely",
-    "Breakdown expected",
+    "breakdown-excluded",
+    "breakdown-possible",
+    "breakdown-likely",
+    "breakdown-expected",
 )
-# First words where the computed margin is safe: something that the probability does not contain may lower it,
-# or surfaces touch at times and discharge as they part.
+# Codes where the computed margin is safe: something that the probability does not contain may lower it, or
+# surfaces touch at times and discharge as they part.
 UNKNOWN, DRIVE_UNKNOWN, TOUCHING_AT_TIMES = (
-    "Breakdown not known",
-    "Discharges not known",
-    "Discharges possible",
+    "breakdown-unknown",
+    "discharges-unknown",
+    "discharges-possible",
 )
-# First words where surfaces touch and no voltage is computed: above the largest probability, and without one.
-TOUCHING_EXPECTED, TOUCHING = "Discharges expected", "Discharges likely"
+# Codes where surfaces touch and no voltage is computed: above the largest probability, and without one.
+TOUCHING_EXPECTED, TOUCHING = "discharges-expected", "discharges-likely"
 
 
 def level_of(low: float, high: float) -> Level:
@@ -64,32 +61,32 @@ def level_of(low: float, high: float) -> Level:
     return "green" if low >= 1.0 else "red" if high < 1.0 else "yellow"
 
 
-def lead_of(level: Level, *, likely: bool) -> str:
-    """First words of a verdict with this level; ``likely``, whether breakdown is likelier than none."""
+def code_of(level: Level, *, likely: bool) -> str:
+    """Code of a verdict with this level; ``likely``, whether breakdown is likelier than none."""
     if level == "yellow":
         return LIKELY if likely else POSSIBLE
     return EXCLUDED if level == "green" else EXPECTED
 
 
 def doubted(
-    level: Level, lead: str, *, doubts: bool, touching: bool = False, drive: bool = False
+    level: Level, code: str, *, doubts: bool, touching: bool = False, drive: bool = False
 ) -> tuple[Level, str]:
-    """Level and first words of a verdict with what its margin does not contain.
+    """Level and code of a verdict with what its margin does not contain.
 
     ``doubts``, whether something may lower the margin that neither its interval nor its probability
     contains; ``touching``, whether surfaces touch at times; ``drive``, whether the verdict is about the
-    discharges of a drive. Doubts and touching surfaces change a green verdict only: the words of another one
-    also hold for a larger probability.
+    discharges of a drive. Doubts and touching surfaces change a green verdict only: the code of another one
+    also holds for a larger probability.
 
     Examples
     --------
     >>> doubted("green", EXCLUDED, doubts=True)
-    ('yellow', 'Breakdown not known')
+    ('yellow', 'breakdown-unknown')
     >>> doubted("yellow", LIKELY, doubts=True)
-    ('yellow', 'Breakdown likely')
+    ('yellow', 'breakdown-likely')
     """
     if level != "green" or not (doubts or touching):
-        return level, lead
+        return level, code
     if touching:
         return "yellow", TOUCHING_AT_TIMES
     return "yellow", DRIVE_UNKNOWN if drive else UNKNOWN
@@ -113,10 +110,6 @@ def sampling_error(probability: float, number: int) -> float:
     """
     z2 = _CONFIDENCE**2 / number
     return math.sqrt(probability * (1.0 - probability) * z2 + 0.25 * z2**2) / (1.0 + z2)
-
-
-# Sentence in place of the probability where only an estimate of it at once is known.
-PROBABILITY_FOLLOWS = "The probability of breakdown follows."
 
 
 @dataclass(frozen=True)
@@ -174,9 +167,9 @@ class Chance:
         return "red" if low > CERTAIN else "yellow"
 
     @property
-    def lead(self) -> str:
-        """First words of a verdict by the bounds of the probability."""
-        return lead_of(self.level, likely=self.bounds[0] > EVEN)
+    def code(self) -> str:
+        """Code of a verdict by the bounds of the probability."""
+        return code_of(self.level, likely=self.bounds[0] > EVEN)
 
     @property
     def text(self) -> str:
@@ -186,39 +179,43 @@ class Chance:
         return chance_text(self.probability, self.error)
 
     @property
-    def sentence(self) -> str:
-        """Sentences about the probability, the interval of the margin, and the input to measure first.
+    def stated(self) -> Statement:
+        """Clause with the probability: with its sampling error, or between its bounds."""
+        if self.failed:
+            return Statement.of("chance-between", pair=self.bounds)
+        return Statement.of("chance", pair=(self.probability, self.error))
+
+    def statements(self, *, doubts: bool = False) -> tuple[Statement, ...]:
+        """Statements on the probability with the interval of the margin, and on the input to measure first.
+
+        ``doubts``, whether they say that the probability does not contain the doubts stated before. An
+        estimate at once has a statement that the probability follows.
 
         Examples
         --------
-        >>> Chance(0.163, 0.016, 0.783, 1.474, 3.0, "rotor capacitance", 0.567).sentence
-        'The probability of breakdown is 16 % (sampling error 1.6 %): within what is uncertain the margin is \
-0.78 to 3.00 in 90 of 100 cases, 1.47 in the middle. Measure first: rotor capacitance, 57 % of the spread.'
-        >>> print(Chance.of(np.array([0.5, 1.5]), failed=6, first="temperature", share=0.6).sentence)
-        The probability of breakdown is between 12 and 88 %: 6 of 8 points within what is uncertain have no \
-result. Measure first: temperature, 60 % of the spread at the other points.
+        >>> chance = Chance(0.163, 0.016, 0.783, 1.474, 3.0, "rotor capacitance", 0.567)
+        >>> [one.code for one in chance.statements()]
+        ['probability', 'measure-first']
         """
-        return self.sentence_with(doubts=False)
-
-    def sentence_with(self, *, doubts: bool) -> str:
-        """Sentences as ``sentence``, which say that the probability does not contain the ``doubts``."""
         if not self.first:
-            return PROBABILITY_FOLLOWS
-        of_known = " at the other points" if self.failed else ""
-        without = ", which does not contain this," if doubts else ""
-        return (
-            f"The probability of breakdown{without} is {self.text}: {self._margins}. "
-            f"Measure first: {self.first}, {100.0 * self.share:.0f} % of the spread{of_known}."
-        )
-
-    @property
-    def _margins(self) -> str:
-        """Clause about the margins, or about the points without one."""
+            return (Statement.of("probability-follows"),)
+        without = Statement.of("without-doubts") if doubts else None
+        about: dict[str, Any] = {"low": self.low, "median": self.median, "high": self.high}
         if self.failed:
-            return f"{self.failed} of {self.samples} points within what is uncertain have no result"
-        low, median, high = map(ratio_text, (self.low, self.median, self.high))
-        interval = f"the margin is {low} to {high} in 90 of 100 cases, {median} in the middle"
-        return f"within what is uncertain {interval}"
+            about = {"failed": self.failed, "samples": self.samples}
+        return (
+            Statement.of(
+                "probability-between" if self.failed else "probability",
+                probability=self.stated,
+                doubts=without,
+                **about,
+            ),
+            Statement.of(
+                "measure-first-at-others" if self.failed else "measure-first",
+                first=self.first,
+                share=self.share,
+            ),
+        )
 
 
 def bounds_of(share: float, samples: int, failed: int) -> tuple[float, float]:
@@ -234,7 +231,7 @@ def bounds_of(share: float, samples: int, failed: int) -> tuple[float, float]:
 
 
 def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
-    """Level and first words of a verdict on surfaces that touch, for which no voltage is computed.
+    """Level and code of a verdict on surfaces that touch, for which no voltage is computed.
 
     Contacts that open discharge at any voltage: such a verdict is red as soon as breakdown is likely.
     ``chance``, probability of breakdown, which counts touching surfaces; None without one: then the verdict
@@ -243,7 +240,7 @@ def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
     Examples
     --------
     >>> touching_rule(None, driven=True), touching_rule(Chance.of(np.array([0.0, 1.2])), driven=True)
-    (('red', 'Discharges likely'), ('yellow', 'Discharges possible'))
+    (('red', 'discharges-likely'), ('yellow', 'discharges-possible'))
     """
     if chance is None:
         return "red" if driven else "yellow", TOUCHING
@@ -251,63 +248,3 @@ def touching_rule(chance: Chance | None, *, driven: bool) -> tuple[Level, str]:
     if least <= EVEN:
         return "yellow", TOUCHING_AT_TIMES
     return "red", TOUCHING_EXPECTED if least > CERTAIN else TOUCHING
-
-
-def at_an_end(probability: float, error: float) -> bool:
-    """Whether a probability differs from 0 or from 1 by less than its sampling error."""
-    return min(probability, 1.0 - probability) < error
-
-
-def chance_text(probability: float, error: float) -> str:
-    """Probability with its sampling error as text.
-
-    Examples
-    --------
-    >>> chance_text(0.163, 0.016), chance_text(0.0, 0.0009), chance_text(1.0, 0.0009)
-    ('16 % (sampling error 1.6 %)', 'below 0.09 %', 'above 99.9 %')
-    """
-    if not at_an_end(probability, error):
-        return f"{readable(100.0 * probability, 2)} % (sampling error {readable(100.0 * error, 2)} %)"
-    if probability < error:
-        return f"below {readable(100.0 * (probability + error), 1)} %"
-    return f"above {readable(100.0 * (probability - error))} %"
-
-
-# Difference of the bounds of a probability below which they are one number.
-ONE_NUMBER = 1e-9
-
-
-def mean_text(probability: float, low: float, high: float) -> str:
-    """Mean probability as text, or its bounds if points without a result leave it open.
-
-    Examples
-    --------
-    >>> mean_text(0.694, 0.694, 0.694), mean_text(0.5, 0.165, 0.5664)
-    ('69 %', 'between 16 and 57 %')
-    """
-    return f"{readable(100.0 * probability, 2)} %" if high - low < ONE_NUMBER else bounds_text(low, high)
-
-
-def bounds_text(low: float, high: float) -> str:
-    """Probability between bounds as text.
-
-    Examples
-    --------
-    >>> bounds_text(0.165, 0.5664)
-    'between 16 and 57 %'
-    """
-    return f"between {readable(100.0 * low, 2)} and {readable(100.0 * high, 2)} %"
-
-
-def ratio_text(ratio: Numbers) -> str:
-    """Ratio as text with two digits behind the point; more where it would be rounded to 1.
-
-    Examples
-    --------
-    >>> ratio_text(1.4432), ratio_text(0.9981), ratio_text(0.0123), ratio_text(2345.6)
-    ('1.44', '0.9981', '0.012', '2300')
-    """
-    if not 0.1 <= ratio < 100.0:
-        return readable(ratio, 2)
-    text = f"{ratio:.2f}"
-    return readable(ratio, 4) if text == "1.00" else text

@@ -1,118 +1,78 @@
-"""Verdict on a film: whether breakdown is expected, in sentences and as a colour."""
+"""Verdict on a film: whether breakdown is expected."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 from ehlectric.arrays import Numbers
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.breakdown_rule import (
     STRENGTH_UNKNOWN,
-    Level,
+    code_of,
     doubted,
-    lead_of,
     level_of,
-    ratio_text,
     strength_interval,
 )
 from ehlectric.discharge.film_breakdown import Breakdown
-from ehlectric.errors import CODES, Flag, ResultWarning
+from ehlectric.errors import Flag, ResultWarning
 from ehlectric.quantities.quantity import data_file
-from ehlectric.readable import readable
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Answer to the question whether a film breaks down.
-
-    Attributes
-    ----------
-    level : str
-        "green": no breakdown expected; "yellow": breakdown is possible within what is uncertain; "red":
-        breakdown expected, or surfaces that touch under a voltage; "grey": there is no voltage or no
-        strength to judge by.
-    text : str
-        The answer in whole sentences, with the numbers that decide and the assumptions behind them.
-    margin : float or None
-        Breakdown voltage / applied voltage, dimensionless; None where there is none.
-    interval : tuple of float or None
-        Smallest and largest margin that are possible, dimensionless; None where none is stated.
-
-    Examples
-    --------
-    >>> Verdict("green", "No breakdown expected: margin 1.44.", 1.44).level
-    'green'
-    """
-
-    level: Level
-    text: str
-    margin: float | None = None
-    interval: tuple[float, float] | None = None
-
-    @property
-    def lead(self) -> str:
-        """First words of the answer, as "Breakdown likely"."""
-        return self.text.partition(":")[0]
-
-    def __str__(self) -> str:
-        return self.text
-
+from ehlectric.quantities.statement import Fact, Statement
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text
 
 # Codes of warnings of results whose margin may be lower than computed: no verdict is green with one of them.
 DOUBTS: tuple[str, ...] = tuple(data_file("ehlectric.quantities", "warning_codes.toml")["doubts"])
 
 
-def seldom_measured(strength: str) -> str:
-    """Clause on a given strength: why an answer does not become certain with it."""
-    return f"{strength} is an input that is seldom measured for films"
-
-
-def strength_clause(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
+def strength_clause(discharge: Discharge, stated: tuple[float, float] | None = None) -> Statement:
     """Clause on the dielectric strength of the case; ``stated`` is the range of a constant one [V/m]."""
     strength, table = discharge.dielectric_strength, discharge.strength_table
     if strength is not None:
-        between = (
-            "" if stated is None else f" ({readable(stated[0] / 1e6)} to {readable(stated[1] / 1e6)} V/µm)"
-        )
-        return seldom_measured(f"dielectric strength {readable(strength / 1e6)} V/µm{between}")
+        between = None if stated is None else Statement.of("strength-range", low=stated[0], high=stated[1])
+        return Statement.of("strength", strength=strength, range=between)
     if table is not None:
-        return seldom_measured(f"the table of dielectric strength over {table.over}")
-    return seldom_measured("the Weibull law of the dielectric strength")
+        return Statement.of("strength-table", over=table.over)
+    return Statement.of("strength-weibull")
 
 
-def strength_doubt(discharge: Discharge, margin: float) -> str:
-    """Sentence for a margin that a change of the strength takes across 1; empty where none does.
+def strength_doubt(discharge: Discharge, margin: float) -> tuple[Statement, ...]:
+    """Statement on a margin that a change of the strength takes across 1; none where none does.
 
     Examples
     --------
     >>> law = Discharge.from_dict({"dielectric_strength": "15 V/um"})
-    >>> strength_doubt(law, 1.1), strength_doubt(law, 1.3)
-    ('At a strength of 12 V/µm (20 % lower) the margin is 0.88.', '')
+    >>> (one,) = strength_doubt(law, 1.1)
+    >>> one.code, round(one.values["strength"]), round(one.values["margin"], 3), strength_doubt(law, 1.3)
+    ('strength-decides', 12000000, 0.88, ())
     """
     low, high = strength_interval(margin)
     if level_of(low, high) != "yellow":
-        return ""
+        return ()
     above, strength = margin >= 1.0, discharge.dielectric_strength
     end, way = (low, "lower") if above else (high, "higher")
-    change = f"{100.0 * STRENGTH_UNKNOWN:.0f} % {way}"
-    at = f"strength that is {change}"
-    if strength is not None:
-        at = f"strength of {readable(strength * end / margin / 1e6)} V/µm ({change})"
-    return f"At a {at} the margin is {ratio_text(end)}."
+    values = {"change": STRENGTH_UNKNOWN, "way": way, "margin": end}
+    if strength is None:
+        return (Statement.of("strength-law-decides", **values),)
+    return (Statement.of("strength-decides", strength=strength * end / margin, **values),)
 
 
-def doubts_of(warnings: Iterable[ResultWarning]) -> list[str]:
-    """Sentences of warnings for which the margin may be lower than computed, each once."""
+def doubts_of(warnings: Iterable[ResultWarning]) -> list[Statement]:
+    """Statements of warnings for which the margin may be lower than computed, each once."""
     codes = {warning.code for warning in warnings}
-    return [CODES[code].meaning for code in DOUBTS if code in codes]
+    return [Statement.of("warning", code=code) for code in DOUBTS if code in codes]
 
 
-def unusable(warnings: Iterable[ResultWarning]) -> str:
-    """Sentence that says why the numbers must not be used; empty where they may be used."""
+def no_verdict(answer: Statement, margin: float | None = None, *, code: str = "none") -> Verdict:
+    """Verdict that states why there is none."""
+    facts = () if margin is None else (Fact("bearing.margin", margin),)
+    return Verdict("grey", code, answer, facts=facts)
+
+
+def unusable(warnings: Iterable[ResultWarning]) -> Verdict | None:
+    """Verdict that says why the numbers must not be used; None where they may be used."""
     severe = [warning.code for warning in warnings if warning.severity == "severe"]
-    return "" if not severe else f"No verdict: the numbers must not be used. {CODES[severe[0]].meaning}"
+    return no_verdict(Statement.of("not-to-be-used", code=severe[0])) if severe else None
 
 
 def contact_verdict(
@@ -134,39 +94,46 @@ def contact_verdict(
     """
     warnings = tuple(warnings)
     refused = unusable(warnings)
-    if refused:
-        return Verdict("grey", refused)
+    if refused is not None:
+        return refused
     margin, at = breakdown.margin, breakdown.breakdown_voltage
     if margin is None or at is None:
-        return Verdict(
-            "grey",
-            "No verdict: no dielectric strength given, no breakdown voltage. "
-            f"The applied voltage is {readable(voltage)} V.",
-        )
+        return no_verdict(Statement.of("no-strength-contact", voltage=voltage))
     of_film, of_field = error or 0.0, field_error or 0.0
     off = of_film + of_field
     low, doubts = margin * (1.0 - off), doubts_of(warnings)
-    span, spread = "", ""
     lowest, highest = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
+    spread: dict[str, Statement | None] = {"weibull": None, "margins": None}
     if lowest is not None and highest is not None:
         low *= lowest / at
-        span = f" at a probability of 63.2 %, {readable(lowest)} to {readable(highest)} V from 5 to 95 %"
-        spread = f", {ratio_text(margin * lowest / at)} to {ratio_text(margin * highest / at)}"
+        spread = {
+            "weibull": Statement.of("weibull-voltages", low=lowest, high=highest),
+            "margins": Statement.of("weibull-margins", low=margin * lowest / at, high=margin * highest / at),
+        }
     weakest, strongest = strength_interval(margin)
     interval = min(low, weakest), max(margin * (1.0 + off), strongest)
     level = level_of(*interval)
-    level, lead = doubted(level, lead_of(level, likely=margin < 1.0), doubts=bool(doubts))
-    doubts += filter(None, [strength_doubt(discharge, margin)])
+    level, code = doubted(level, code_of(level, likely=margin < 1.0), doubts=bool(doubts))
+    doubts += strength_doubt(discharge, margin)
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
-        part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
-        doubts.insert(0, f"The {name} may be {readable(100.0 * part, 2)} % off on this grid.")
-    bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
-    last = f"{bound}{strength_clause(discharge)}."
-    text = (
-        f"{lead}: applied voltage {readable(voltage)} V, breakdown voltage {readable(at)} V{span} "
-        f"(margin {ratio_text(margin)}{spread})."
+        name, part = max((("film", of_film), ("field", of_field)), key=lambda pair: pair[1])
+        doubts.insert(0, Statement.of(f"{name}-off-on-grid", part=part))
+    return Verdict(
+        level,
+        code,
+        Statement.of("contact-voltages", voltage=voltage, breakdown=at, margin=margin, **spread),
+        facts=(Fact("discharge.breakdown_voltage", at), Fact("discharge.margin", margin, interval)),
+        reasons=tuple(doubts),
+        assumptions=(*ideal_films(flooded=flooded, isothermal=isothermal), strength_clause(discharge)),
+        bound="upper" if flooded else "",
     )
-    return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin, interval)
+
+
+def ideal_films(*, flooded: bool, isothermal: bool = True) -> tuple[Statement, ...]:
+    """Clause on films without starvation and, where they are isothermal, heat; none for starved films."""
+    if not flooded:
+        return ()
+    return (Statement.of("films", words=(*(["isothermal"] if isothermal else []), "fully flooded")),)
 
 
 def weibull_part(shape: float, probability: float) -> float:

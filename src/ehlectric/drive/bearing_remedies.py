@@ -10,9 +10,11 @@ from ehlectric.bearing.bearing_discharges import voltage_ratio
 from ehlectric.bearing.impedance import shaft_capacitance
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.discharge.breakdown_rule import lead_of, level_of, ratio_text, strength_interval
-from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.discharge.breakdown_rule import code_of, level_of, strength_interval
+from ehlectric.discharge.film_verdict import no_verdict
 from ehlectric.quantities.inputs import BOTH
+from ehlectric.quantities.statement import Fact, Statement
+from ehlectric.quantities.verdict import Verdict
 
 # Change of the common-mode voltage of an inverter by one edge over its largest value: a third of the DC link,
 # as one phase of three switches, over half of it.
@@ -69,6 +71,11 @@ def at_shaft_voltage(summary: Mapping[str, Any], voltage: float) -> dict[str, An
 def grounded_verdict(margin: float | None) -> Verdict:
     """Verdict on a bearing with a grounding ring from its margin, without the spread of its inputs."""
     if margin is None:
-        return Verdict("grey", "No verdict: there is no margin.")
+        return no_verdict(Statement.of("no-margin-known"))
     level = level_of(*strength_interval(margin))
-    return Verdict(level, f"{lead_of(level, likely=margin < 1.0)}: margin {ratio_text(margin)}.", margin)
+    return Verdict(
+        level,
+        code_of(level, likely=margin < 1.0),
+        Statement.of("margin-only", margin=margin),
+        facts=(Fact("bearing.margin", margin),),
+    )

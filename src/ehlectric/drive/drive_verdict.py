@@ -1,4 +1,4 @@
-"""Verdict on a drive: whether its bearings discharge, as sentences and as a colour."""
+"""Verdict on a drive: whether its bearings discharge."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ehlectric.discharge.breakdown_rule import (
     TOUCHING,
     TOUCHING_AT_TIMES,
     TOUCHING_EXPECTED,
-    Level,
     doubted,
 )
 from ehlectric.discharge.discharge_laws import beside_limits
-from ehlectric.discharge.film_verdict import DOUBTS, Verdict, strength_clause, unusable
+from ehlectric.discharge.film_verdict import DOUBTS, no_verdict, strength_clause, unusable
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
-from ehlectric.errors import CODES, ResultWarning
-from ehlectric.quantities.formats import amount
+from ehlectric.errors import ResultWarning
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
+from ehlectric.quantities.statement import Bound, Fact, Level, Statement
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
@@ -33,18 +33,14 @@ SELDOM = 1.0 / 60.0
 # Warnings for which a film may break down at a lower voltage.
 _DOUBTS = (*DOUBTS, "partial-film")
 
-_UNSOLVED = "No verdict: a film is not converged, and the numbers must not be used."
-_HARM = "How much currents damage raceways and oil is not computed."
-_OPENING = "contacts discharge as they open, which is not computed"
-
-# First words of a verdict by its level, in the order of their severity.
-LEADS: Mapping[Level, str] = {
-    "grey": "No verdict",
-    "green": "No discharge expected",
+# Codes of a verdict by its level, in the order of their severity.
+CODES_OF_LEVELS: Mapping[Level, str] = {
+    "grey": "none",
+    "green": "discharge-excluded",
     "yellow": TOUCHING_AT_TIMES,
     "red": TOUCHING_EXPECTED,
 }
-_ORDER = tuple(LEADS)
+_ORDER = tuple(CODES_OF_LEVELS)
 
 
 def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterable[ResultWarning]) -> Verdict:
@@ -55,27 +51,30 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
     """
     warnings = tuple(warnings)
     codes = {warning.code for warning in warnings}
-    refused = unusable(warnings) or ("" if summary["converged"] else _UNSOLVED)
-    if refused:
-        return Verdict("grey", refused)
+    refused = unusable(warnings)
+    if refused is not None:
+        return refused
+    if not summary["converged"]:
+        return no_verdict(Statement.of("film-not-converged"))
     part = weakest_part(case, formula="formula-contacts" in codes)
     ends = [summary[end] for end in ENDS]
     levels = [_level(end, summary["source"]["peak"], part) for end in ends]
     events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
-    doubts = [] if events else [CODES[code].meaning for code in _DOUBTS if code in codes]
+    doubts = [] if events else [Statement.of("warning", code=code) for code in _DOUBTS if code in codes]
     level: Level = max(levels, key=_ORDER.index)
-    level, lead = doubted(
-        level, LEADS[level], doubts=bool(doubts), touching="partial-film" in codes and not events, drive=True
-    )
+    touching = "partial-film" in codes and not events
+    level, code = doubted(level, CODES_OF_LEVELS[level], doubts=bool(doubts), touching=touching, drive=True)
+    reasons = [*_touching(ends), *_harm(case, ends), *([] if arcs else doubts)]
+    answer, bound = _none(summary, part), _bound(case)
     if events or arcs:
-        lead = TOUCHING if level == "yellow" and events >= FEW else lead
-        sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
-    else:
-        sentences = [f"{lead}: {_none(summary, part)}."]
-    sentences += [*_touching(ends), *_harm(case, ends), *([] if arcs else doubts)]
-    if any(end["breakdown_voltage"] is not None for end in ends):
-        sentences += [*([] if events or arcs else [_bound(case, codes)]), _assumption(case)]
-    return Verdict(level, " ".join(filter(None, sentences)))
+        code = TOUCHING if level == "yellow" and events >= FEW else code
+        answer, bound = _rates(summary), ""
+        reasons = [*_doubts_of_rates(ends, level), *reasons]
+    assumed = tuple(_assumptions(case, codes, films=bool(bound)))
+    if all(end["breakdown_voltage"] is None for end in ends):
+        assumed, bound = (), ""
+    facts = (Fact("drive.events_per_second", summary["drive"]["events_per_second"]),)
+    return Verdict(level, code, answer, None, facts, tuple(reasons), assumed, bound)
 
 
 def weakest_part(case: DriveCase, *, formula: bool) -> float:
@@ -125,74 +124,68 @@ def most_by_law(end: Mapping[str, Any], part: float = 1.0) -> float:
     return float(-math.expm1(-(min(ratio, 1e3) ** end["weibull_shape"]))) / float(end["renewal_time"])
 
 
-def _rates(summary: Mapping[str, Any]) -> str:
-    """Clause: how often each bearing discharges, with bounds, and with which energy."""
-    duration = amount(summary["drive"]["duration"], "s")
+def _rates(summary: Mapping[str, Any]) -> Statement:
+    """Statement on how often each bearing discharges, with bounds, and with which energy."""
     clauses = []
     for key, name in NAMES_OF_ENDS.items():
         end = summary[key]
-        high = readable(end["events_per_second_high"])
+        high = end["events_per_second_high"]
         if end["events"]:
-            low = readable(end["events_per_second_low"])
-            clauses.append(
-                f"{readable(end['events_per_second'])} a second ({low} to {high} at 95 %) at the {name}, "
-                f"with {_rounded(end['energy_mean'], 'J')} on average"
-            )
+            rate = {"rate": end["events_per_second"], "low": end["events_per_second_low"], "high": high}
+            clauses.append(Statement.of("rate-of-end", **rate, end=name, energy=end["energy_mean"]))
         else:
-            clauses.append(f"none in {duration} at the {name}, at most {high} a second at 95 %")
-    return "; ".join(clauses)
+            duration = summary["drive"]["duration"]
+            clauses.append(Statement.of("no-rate-of-end", duration=duration, end=name, high=high))
+    return Statement.of("rates", ends=tuple(clauses))
 
 
-def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterator[str]:
-    """Sentences: why discharges are not sure, and arcs that burn on."""
+def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterator[Statement]:
+    """Statements: why discharges are not sure, and arcs that burn on."""
     ends = list(ends)
     if level == "yellow" and any(end["events"] >= FEW for end in ends):
-        yield f"A strength that is {100.0 * STRENGTH_UNKNOWN:.0f} % higher would end them."
+        yield Statement.of("strength-ends", change=STRENGTH_UNKNOWN)
     elif level == "yellow":
-        yield "So few discharges give no certain rate."
+        yield Statement.of("few-discharges")
     burning = max(end["burning_time_share"] for end in ends)
     if burning > MOSTLY:
-        yield f"After breakdowns the films conduct for {readable(100.0 * burning)} % of the time."
+        yield Statement.of("burning", share=burning)
 
 
-def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
-    """Sentences: current density beside its published limits, what it rests on, and that harm is unknown."""
+def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[Statement]:
+    """Statements on the current density and its published limits, and that harm is unknown."""
     ends = list(ends)
     densities = [end["current_density"] for end in ends if end["current_density"]]
     if not densities:
         return
-    most = max(densities)
-    text = f"The largest current over the Hertz areas is {readable(1e-6 * most)} A/mm², {beside_limits(most)}"
+    most, arc = max(densities), None
     if any(end["events"] for end in ends):
-        arc = amount(case.breakdown.arc_resistance, "Ω")
-        text += f"; energies and currents follow from the given arc of {arc}"
-    yield f"{text}."
-    yield _HARM
+        arc = Statement.of("given-arc", resistance=case.breakdown.arc_resistance)
+    yield Statement.of("current-density", density=most, limits=beside_limits(most), arc=arc)
+    yield Statement.of("harm-unknown")
 
 
-def _none(summary: Mapping[str, Any], part: float) -> str:
-    """Clause: that nothing discharged, the bound of the rate, and how far the voltage is from the films'."""
+def _none(summary: Mapping[str, Any], part: float) -> Statement:
+    """Statement that nothing discharged, with the bound of the rate, and the voltages."""
     ends = [summary[end] for end in ENDS]
-    high = max(end["events_per_second_high"] for end in ends)
-    peak = max(end["peak_voltage"] for end in ends)
-    known = [end["breakdown_voltage"] for end in ends if end["breakdown_voltage"] is not None]
-    text = (
-        f"none in {amount(summary['drive']['duration'], 's')}, so that there are at most {readable(high)} "
-        f"a second in each bearing at 95 %; the largest voltage is {_rounded(peak, 'V')}"
+    return Statement.of(
+        "no-discharges",
+        duration=summary["drive"]["duration"],
+        high=max(end["events_per_second_high"] for end in ends),
+        peak=max(end["peak_voltage"] for end in ends),
+        films=_films(ends, part),
     )
+
+
+def _films(ends: list[Mapping[str, Any]], part: float) -> Statement:
+    """Clause on the voltage at which films break down, and on the rate that Weibull's law allows."""
+    known = [end["breakdown_voltage"] for end in ends if end["breakdown_voltage"] is not None]
     if not known:
-        return f"{text}, and the elements are ceramic"
-    text += f", and the films break down at {readable(min(known))} V"
-    if all(end["weibull_shape"] is None for end in ends):
-        return text
-    most = sum(most_by_law(end, part) for end in ends)
-    weaker = f"{100.0 * (1.0 - part):.0f} % weaker"
-    return f"{text}. With films that are {weaker}, Weibull's law allows {_seldom(most)} of both bearings"
-
-
-def _rounded(value: float, unit: str) -> str:
-    """Value with three digits in a unit that suits it."""
-    return amount(float(f"{value:.3g}"), unit)
+        return Statement.of("ceramic-elements")
+    law = None
+    if any(end["weibull_shape"] is not None for end in ends):
+        most = sum(most_by_law(end, part) for end in ends)
+        law = Statement.of("weibull-allows", weaker=1.0 - part, most=_seldom(most))
+    return Statement.of("films-break-at", breakdown=min(known), law=law)
 
 
 def _seldom(rate: float) -> str:
@@ -203,25 +196,26 @@ def _seldom(rate: float) -> str:
     return "less than one discharge a year"
 
 
-def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[Statement]:
     share = max(end["touching_time_share"] for end in ends)
     if share:
-        yield f"Asperities close the films for {readable(100.0 * share)} % of the time: {_OPENING}."
+        yield Statement.of("asperities-close", share=share)
 
 
-def _bound(case: DriveCase, codes: set[str]) -> str:
-    films = f"{'rough' if all(one.bearing.summit_height for one in case.bearings) else 'smooth'} films"
-    films = f"isothermal, fully flooded, {films}" if "isothermal-film" in codes else films
-    kind = "Upper bound" if any(one.bearing.bounding for one in case.bearings) else "Best estimate"
-    return f"{kind}: the voltages at which films break down are those of {films}."
+def _bound(case: DriveCase) -> Bound:
+    """Whether the voltages at which films break down are upper bounds, or best estimates."""
+    return "upper" if any(one.bearing.bounding for one in case.bearings) else "best"
 
 
-def _assumption(case: DriveCase) -> str:
-    """Sentence about the strength of the oil; empty where no bearing has one, as with ceramic elements."""
-    told = dict.fromkeys(
+def _assumptions(case: DriveCase, codes: set[str], *, films: bool) -> Iterator[Statement]:
+    """Clauses on the films, where ``films``, and on the strength of the oil of bearings that have one."""
+    if films:
+        rough = "rough" if all(one.bearing.summit_height for one in case.bearings) else "smooth"
+        ideal = ("isothermal", "fully flooded") if "isothermal-film" in codes else ()
+        yield Statement.of("films-of-drive", words=(*ideal, rough))
+    clauses = [
         strength_clause(one.discharge)
         for one in case.bearings
         if one.discharge is not None and one.discharge.has_strength
-    )
-    text = "; ".join(told)
-    return f"{text[0].upper()}{text[1:]}." if text else ""
+    ]
+    yield from (clause for place, clause in enumerate(clauses) if clause not in clauses[:place])

@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, Level, ratio_text
-from ehlectric.discharge.film_verdict import Verdict
-from ehlectric.drive.drive_verdict import LEADS, SELDOM, most_by_law, weakest_part
+from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
+from ehlectric.discharge.film_verdict import no_verdict
+from ehlectric.drive.drive_verdict import CODES_OF_LEVELS, SELDOM, most_by_law, weakest_part
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
-from ehlectric.readable import readable
+from ehlectric.quantities.statement import Fact, Level, Statement
+from ehlectric.quantities.verdict import Verdict
 
-_RING = (
-    "The grounding ring leads the charge of the shaft away, which the divider leaves out: "
-    "simulate the drive to see what is left."
-)
-_INDUCTANCE = (
-    "An inductance and the capacitances of the machine ring together, which the divider leaves out: "
-    "simulate the drive to see the voltage of the bearings."
-)
-_SCATTER = "Thresholds scatter, so that some films break down at lower voltages."
-_RINGING = "The ringing of the source lifts the voltage above the divider's."
+# Code of a verdict that the divider alone cannot give.
+_UNSIMULATED = "none-without-simulation"
 
 
 def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
@@ -52,29 +46,34 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     }
     touching = max(summary[end]["touching_time_share"] for end in ENDS)
     if not margins:
-        return Verdict("green", "No discharge expected: the ceramic elements of both bearings insulate.")
+        return Verdict("green", CODES_OF_LEVELS["green"], Statement.of("ceramics-insulate"))
     circuit = case.running_circuit
     if circuit.common_mode_inductance is not None or circuit.ground_inductance is not None:
-        return Verdict("grey", f"No verdict without a simulation: {_INDUCTANCE}")
+        return no_verdict(Statement.of("inductance"), code=_UNSIMULATED)
     end = min(margins, key=lambda name: margins[name])
     margin, about = margins[end], summary[end]
-    numbers = (
-        f"at the peak of the common-mode voltage the films of the {NAMES_OF_ENDS[end]} would have "
-        f"{readable(about['voltage_at_peak'])} V by the capacitive divider, "
-        f"{'above' if margin < 1.0 else 'below'} their breakdown voltage of at most "
-        f"{readable(about['breakdown_voltage'])} V (ratio {ratio_text(margin)})."
+    numbers = Statement.of(
+        "divider",
+        end=NAMES_OF_ENDS[end],
+        voltage=about["voltage_at_peak"],
+        way="above" if margin < 1.0 else "below",
+        breakdown=about["breakdown_voltage"],
+        margin=margin,
     )
     if circuit.grounding_ring_resistance is not None:
-        return Verdict("grey", f"No verdict without a simulation: {numbers} {_RING}", margin)
+        refused = no_verdict(numbers, margin, code=_UNSIMULATED)
+        return replace(refused, reasons=(Statement.of("ring-leads-away"),))
     level = _level(about, case)
-    doubts = [_SCATTER] if level == "yellow" and margin >= 1.0 and about["weibull_shape"] else []
+    scatter = level == "yellow" and margin >= 1.0 and about["weibull_shape"]
+    doubts = [Statement.of("thresholds-scatter")] if scatter else []
     if case.source.overshoot:
-        doubts.append(_RINGING)
+        doubts.append(Statement.of("source-rings"))
     if touching:
-        doubts.append(f"Asperities close the films for {readable(100.0 * touching)} % of the time.")
+        doubts.append(Statement.of("asperities-close-at-peak", share=touching))
     if doubts and level == "green":
         level = "yellow"
-    return Verdict(level, " ".join([f"{LEADS[level]}: {numbers}", *doubts]), margin)
+    facts = (Fact(f"{end}.voltage_at_peak", about["voltage_at_peak"]), Fact(f"{end}.margin", margin))
+    return Verdict(level, CODES_OF_LEVELS[level], numbers, facts=facts, reasons=tuple(doubts))
 
 
 def _level(about: Mapping[str, Any], case: DriveCase) -> Level:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
 from ehlectric.drive.drive_verdict import drive_verdict
@@ -22,6 +21,7 @@ from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning, within
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.values import Shown, headline

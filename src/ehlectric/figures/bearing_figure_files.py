@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.impedance import impedance_of, shaft_capacitance
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lambda_text, lubrication
@@ -29,7 +29,6 @@ from ehlectric.bearing.speed_curves import (
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing_figures import (
     LEAST_VARIATION,
@@ -67,8 +66,9 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
+from ehlectric.quantities.formats import time_share_text
 from ehlectric.quantities.units import rpm
-from ehlectric.readable import readable
+from ehlectric.readable import ratio_text, readable
 
 _TOUCHING = ("conducting", "touching")
 
@@ -123,7 +123,9 @@ def impedance(result: BearingResult) -> str:
     values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
     if found.mean is not None:
         duty = duty_of(result.solution)
-        return f"An element touches both rings {time_text(duty.touching_time_share)}: mean |Z| = {values}"
+        return (
+            f"An element touches both rings {time_share_text(duty.touching_time_share)}: mean |Z| = {values}"
+        )
     value = prefixed(shaft_capacitance(result.solution), "F")
     return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
 

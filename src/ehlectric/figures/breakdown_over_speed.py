@@ -16,7 +16,6 @@ from ehlectric.bearing.speed_curves import (
     curves_of,
     value_of,
 )
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.figures.bearing_figures import label_ends, volts
 from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel
@@ -24,6 +23,7 @@ from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, m
 from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
 from ehlectric.quantities import formats, units
 from ehlectric.quantities.palette import GREY, ORANGE
+from ehlectric.readable import ratio_text
 
 # Height of the room that a label between curves needs, as part of the axes.
 _GAP = 0.2

@@ -10,7 +10,6 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.touching import about_share
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.figures.figure_names import (
     BREAKDOWN_FIGURE,
@@ -21,7 +20,7 @@ from ehlectric.figures.figure_names import (
     TEMPERATURE_FIGURE,
 )
 from ehlectric.quantities.units import unit_for
-from ehlectric.readable import readable
+from ehlectric.readable import ratio_text, readable
 
 AnyContact = Result | PointResult
 

@@ -14,8 +14,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.bearing_touching import OF_TIME, time_text
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError, shown
 from ehlectric.figures.bearing_figure_files import save_speed_figures
 from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, broken, in_formats, map_files
@@ -40,9 +38,9 @@ from ehlectric.figures.sweep_points import (
     range_text,
     voltage_text,
 )
-from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.formats import OF_TIME, Scale, time_share_text
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
-from ehlectric.readable import readable
+from ehlectric.readable import ratio_text, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
@@ -66,7 +64,7 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
 
 def _of_time(shares: Array) -> str:
     """Sentence: range of the shares of time in which contacts short bearings."""
-    low, high = (time_text(float(of(shares))) for of in (np.min, np.max))
+    low, high = (time_share_text(float(of(shares))) for of in (np.min, np.max))
     ends = high if low == high else f"{low.removesuffix(OF_TIME)} to {high}"
     return f"Contacts short the bearing {ends}"
 

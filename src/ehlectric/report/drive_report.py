@@ -4,9 +4,7 @@ drives.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import Any
 
@@ -15,8 +13,6 @@ import numpy as np
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.discharge.breakdown_rule import Level
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable
@@ -32,7 +28,6 @@ from ehlectric.quantities.units import rpm, unit_for
 from ehlectric.readable import readable
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import life_texts, machine_of, measure_first_table, numbers_of, usual_range
-from ehlectric.report.light import light_of
 from ehlectric.report.report_content import Block, Named, Numbers, Part, Section, Table, Text
 from ehlectric.report.report_facts import density_tables, part_of, row_tables
 from ehlectric.report.report_texts import SENTENCES, TEXTS
@@ -191,8 +186,8 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
 def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
     """Heading of the verdict on a drive."""
     verdict = drive_verdict(result.case, summary, result.warnings)
-    light = light_of(verdict.level, verdict.text)
-    return f"{light.words} ({light.bound})" if light.bound else light.words
+    bound = verdict.beside
+    return f"{verdict.heading} ({bound})" if bound else verdict.heading
 
 
 def _further(result: DriveResult, known: set[str]) -> str:
@@ -239,9 +234,6 @@ def _value_at(case: DriveCase, key: str, tables: Mapping[str, Any]) -> str:
     return "; ".join(f"{text}, {NAMES_OF_ENDS[end_and_key(one)[0]]}" for one, text in texts.items())
 
 
-_WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
-
-
 def swept_values(results: SweepResults) -> tuple[str, ...]:
     """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same."""
     return tuple(at_ends(SWEEPS["drive_drawn"], _ends(results)))
@@ -262,49 +254,9 @@ def _ends(results: SweepResults) -> tuple[str, ...]:
     return ENDS[:1] if alike else ENDS
 
 
-def swept_verdict(results: SweepResults) -> Verdict | None:
-    """Verdict on a sweep of a drive from those of its points; None without a solved point. Returns green
-    where no point is expected to discharge, red where all are, else yellow; points that are not solved, or
-    must not be used, leave neither green nor red.
-    """
-    assert isinstance(results.case, DriveCase)
-    counts = Counter(
-        drive_verdict(results.case, point.summary, point.warnings).level
-        for point in results.points
-        if point.solved and point.summary
-    )
-    known = sum(counts[level] for level in ("green", "yellow", "red"))
-    if not known:
-        return None
-    missing = len(results.points) - known
-    level: Level = "yellow"
-    if not missing and max(counts["green"], counts["red"]) == known:
-        level = "green" if counts["green"] else "red"
-    lead = TEXTS["meanings"]["swept_drives"][level]
-    if level == "yellow" and not counts["red"]:
-        lead = "Discharges possible"
-    told = [f"expected at {counts['red']} of {known} points"]
-    told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
-    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), SENTENCES["swept_drives"]]
-    if missing:
-        more = "1 more point is" if missing == 1 else f"{missing} more points are"
-        sentences.insert(1, f"{more} not solved, or must not be used.")
-    return Verdict(level, " ".join(sentences))
-
-
-def _range(results: SweepResults) -> list[str]:
-    """Sentence with the smallest and the largest rate of discharges."""
-    rates = [float(point.usable["drive"]["events_per_second"]) for point in results.points if point.usable]
-    if not rates:
-        return []
-    low, high = readable(min(rates)), readable(max(rates))
-    return [f"Both bearings together discharge {low} to {high} times a second."]
-
-
 def drive_part(result: DriveResult) -> Part:
     """Part of a report about a drive."""
     summary, case = result.summary(), result.case
-    verdict = result.verdict
     return part_of(
         result,
         summary,
@@ -312,7 +264,7 @@ def drive_part(result: DriveResult) -> Part:
         command="drive",
         asked=machine_of(case, summary),
         lead=_lead(summary),
-        verdict=replace(verdict, text=with_units_kept(verdict.text)),
+        verdict=result.verdict,
         first=tuple(_first_blocks(result, summary)),
         numbers=tuple(number_tables(summary)),
         further=tuple(_sections(result, summary)),

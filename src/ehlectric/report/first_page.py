@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -15,7 +14,6 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.breakdown_rule import chance_text, ratio_text
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
@@ -26,10 +24,9 @@ from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
 from ehlectric.quantities.units import rpm
-from ehlectric.readable import readable
+from ehlectric.readable import chance_text, ratio_text, readable
 from ehlectric.report.background import given_inputs, input_text, named
-from ehlectric.report.light import Light, light_of
-from ehlectric.report.report_content import Block, Numbers, Part, Picture, Section, Table, Text
+from ehlectric.report.report_content import Block, Light, Numbers, Part, Picture, Section, Table, Text
 from ehlectric.report.report_facts import alarms_of, pictures_of
 from ehlectric.report.report_texts import SENTENCES, TEXTS
 from ehlectric.tables.bearing_tables import input_range
@@ -47,9 +44,6 @@ _WIDE, _LOW = 6.85, 0.75
 # Warnings that say what the verdict says, and not how likely it is.
 _IN_VERDICT = ("breakdown-expected",)
 
-# End of a sentence of a verdict.
-_SENTENCE = re.compile(r"(?<=[.!?]) (?=[A-Z])")
-
 
 def first_section(result: Any, part: Part, path: Path) -> Section:
     """First page of a report of a stored result: all that a reader needs who reads nothing else."""
@@ -63,7 +57,8 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
     if part.verdict is None:
         yield Text(SENTENCES["no_verdict"])
     else:
-        yield _short(light_of(part.verdict.level, part.verdict.text))
+        # The verdict with its first reason, and what it assumes.
+        yield Light.of(part.verdict, reasons=1)
     # Numbers that must not be used do not stand large on a page.
     numbers, tables = ((), ()) if alarms else (part.first[:1], part.first[1:])
     yield from numbers
@@ -93,13 +88,6 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
 def is_solved(result: Any) -> bool:
     """Whether figures of a result show a solution; those of a sweep leave out points without one."""
     return bool(getattr(result, "converged", True))
-
-
-def _short(light: Light) -> Light:
-    """Light with the first two sentences and the last one, which names the bound and the strength."""
-    sentences = _SENTENCE.split(light.rest)
-    text = " ".join(dict.fromkeys([*sentences[:2], sentences[-1]]))
-    return replace(light, text=with_units_kept(text))
 
 
 def numbers_of(

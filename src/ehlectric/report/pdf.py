@@ -38,10 +38,10 @@ from reportlab.platypus import (
 from ehlectric.errors import SEVERITY_WORDS, short
 from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.quantities.quantity import data_file
-from ehlectric.report.light import Light
 from ehlectric.report.pdf_letters import FOLDER, marked, runs_of
 from ehlectric.report.report_content import (
     Cell,
+    Light,
     Link,
     Named,
     Numbers,

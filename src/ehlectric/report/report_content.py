@@ -11,10 +11,11 @@ from typing import Literal, TypeAlias
 
 from matplotlib.figure import Figure
 
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import ResultWarning, Severity
+from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.style import style as figure_style
-from ehlectric.report.light import Light
+from ehlectric.quantities.statement import Level
+from ehlectric.quantities.verdict import Verdict
 
 # Resolution of pixels [1/inch].
 DPI = 200
@@ -107,6 +108,29 @@ class Numbers:
     numbers: tuple[tuple[str, str, str], ...]
     # Number of columns. A figure that follows stands beside a single column, and below several of them.
     columns: int = 1
+
+
+@dataclass(frozen=True)
+class Light:
+    """Verdict of a result, with its traffic light."""
+
+    level: Level
+    # Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
+    words: str
+    text: str  # sentences after the heading
+    bound: str = ""  # "upper bound" for a verdict on one, beside the heading; empty otherwise
+
+    @classmethod
+    def of(cls, verdict: Verdict, reasons: int) -> Light:
+        """Light of a verdict, with so many of its reasons.
+
+        Examples
+        --------
+        >>> Light.of(Verdict("green", "breakdown-excluded", bound="upper"), 0).words
+        'No breakdown expected in an ideal film'
+        """
+        text = with_units_kept(verdict.rest(reasons))
+        return cls(verdict.level, verdict.heading, text, verdict.beside)
 
 
 Block: TypeAlias = Text | Table | Picture | Warnings | Light | Numbers

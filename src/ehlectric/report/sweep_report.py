@@ -17,12 +17,13 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS
 from ehlectric.readable import readable
 from ehlectric.report.background import named
-from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values, swept_verdict
+from ehlectric.report.drive_report import deciding_blocks, listed_values, swept_values
 from ehlectric.report.report_content import Block, Cell, Named, Part, Section, Table, Text
 from ehlectric.report.report_facts import cell_table, lead_of, row_tables, swept_names
 from ehlectric.report.report_texts import SENTENCES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
+from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity

@@ -28,7 +28,7 @@ from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
     from ehlectric.contact.check import PreparedContact
-    from ehlectric.discharge.film_verdict import Verdict
+    from ehlectric.quantities.verdict import Verdict
     from ehlectric.sweep.engine import Planned
 
 # Largest number of points of a sweep that are checked one by one.

@@ -17,12 +17,12 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.input_keys import kind_of, of_both_ends, unit_of
 from ehlectric.cases.table import nearest
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.quantities.sheets import SWEEP_COLUMNS
 from ehlectric.quantities.units import ROTATION
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.files import Content, column_head, csv_of, write_together
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.netcdf import content_of

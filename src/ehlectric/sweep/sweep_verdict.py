@@ -10,16 +10,17 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.margin import equal_bearings_clause
+from ehlectric.bearing.bearing_verdict import equal_bearings
 from ehlectric.bearing.quick_contacts import formula_factor
-from ehlectric.bearing.solution import percent
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import ISOTHERMAL, QUICK
 from ehlectric.cases.drive_case import DriveCase, SweptCase
-from ehlectric.discharge.breakdown_rule import TOUCHING, Level, ratio_text, strength_interval
-from ehlectric.discharge.film_verdict import DOUBTS, Verdict, seldom_measured, strength_clause
+from ehlectric.discharge.breakdown_rule import TOUCHING, strength_interval
+from ehlectric.discharge.film_verdict import DOUBTS, strength_clause
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.statement import Bound, Fact, Level, Statement
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of
@@ -52,32 +53,41 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         return _without_voltages(results)
     below, missing = int(np.sum(known < 1.0)), usable.size - known.size
     lowest, highest = float(np.min(known)), float(np.max(known))
-    count = str(below) if below else "none"
-    span = f"{ratio_text(lowest)} to {ratio_text(highest)}"
     doubts = list(_doubts(results, usable))
     word = "likely" if doubts and below else "expected"
-    sentences = [
-        f"Breakdown is {word} at {count} of {known.size} points: the margin is {span}.",
-        *_crossings(results, usable),
-    ]
+    reasons = list(_crossings(results, usable))
     if missing:
-        have = "point has" if missing == 1 else "points have"
-        sentences.append(f"{missing} more {have} no margin, {_why(results, usable)}.")
+        reasons.append(Statement.of("points-without-margin", missing=missing, why=_why(results, usable)))
     touching = sum(
         math.isfinite(margin) and any(one.code == "asperities-touch" for one in point.warnings)
         for point, margin in zip(results.points, usable, strict=True)
     )
     if touching:
-        sentences.append(
-            f"At {touching} of the points the surfaces touch: spots conduct, and the margin is that of the "
-            "boundary film; use the asperities of these points."
-        )
+        reasons.append(Statement.of("points-on-spots", number=touching))
     # A point that is not solved may lie on either side.
     everywhere = below == known.size and not _not_solved(results, usable)
     level: Level = "red" if everywhere else "yellow" if below or missing or touching else "green"
     if doubts:
         level = "yellow"
-    return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
+    bound, clauses = _assumptions(results)
+    return Verdict(
+        level,
+        _code(level, below, word),
+        Statement.of("points-margins", word=word, below=below, known=known.size, low=lowest, high=highest),
+        facts=(Fact("sweep.margin", lowest, (lowest, highest)),),
+        reasons=(*reasons, *doubts),
+        assumptions=clauses,
+        bound=bound,
+    )
+
+
+def _code(level: Level, below: int, word: str) -> str:
+    """Code of a verdict on points, of which some have a margin below 1."""
+    if not below:
+        return "points-none" if level == "green" else "points-none-possible"
+    if level == "red":
+        return "points-all"
+    return "points-some-likely" if word == "likely" else "points-some"
 
 
 def _not_solved(results: SweepPoints, margins: Array) -> int:
@@ -98,15 +108,12 @@ def _without_voltages(results: SweepPoints) -> Verdict | None:
     # With a motor, its common-mode voltage lies on the shaft.
     driven = isinstance(results.case, BearingCase) and results.case.motor is not None
     everywhere = sure and count == len(states) and driven
-    return Verdict(
-        "red" if everywhere else "yellow",
-        f"{TOUCHING}: at {count} of {len(states)} points surfaces touch, at times at least, and "
-        "contacts discharge at a low voltage as they open; no voltage is computed for that.",
-    )
+    answer = Statement.of("points-touching-all", number=count, known=len(states))
+    return Verdict("red" if everywhere else "yellow", TOUCHING, answer)
 
 
-def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
-    """Sentences for which margins may lie on the other side of 1."""
+def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
+    """Statements for which margins may lie on the other side of 1."""
     known = [
         (point, margin)
         for point, margin in zip(results.points, margins, strict=True)
@@ -121,18 +128,18 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
         )
     )
     if near:
-        yield f"At {near} of the points the margin is within the {percent(off)} that films may be off."
+        yield Statement.of("points-within-films", number=near, error=off)
     if not _strength_varies(results):
         weak = sum(low < 1.0 <= high for low, high in (strength_interval(margin) for _, margin in known))
         if weak:
-            yield f"At {weak} of the points a strength that differs by 20 % takes the margin across 1."
+            yield Statement.of("points-by-strength", number=weak)
     doubtful = sum(
         bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"})
         for point, margin in known
         if margin >= 1.0
     )
     if doubtful:
-        yield f"At {doubtful} of the points warnings say that the margin may be lower."
+        yield Statement.of("points-with-doubts", number=doubtful)
 
 
 def _film_error(point: Point, case: SweptCase) -> float:
@@ -160,12 +167,12 @@ def _strength_varies(results: SweepPoints) -> bool:
     return any(key.startswith("discharge.") for key in results.varied)
 
 
-def _assumptions(results: SweepPoints) -> Iterator[str]:
-    """Sentence about the assumptions behind the margins, which drives have not."""
+def _assumptions(results: SweepPoints) -> tuple[Bound, tuple[Statement, ...]]:
+    """Bound and clauses on the assumptions behind the margins, which drives have not."""
     case = results.case
     if isinstance(case, DriveCase) or case.discharge is None or not case.discharge.has_strength:
-        return
-    kind = "Upper bound"
+        return "", ()
+    bound: Bound = "upper"
     if isinstance(case, BearingCase):
         factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
         taken = [
@@ -178,21 +185,19 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
             "smooth" if smooth else "rough",
         ]
         ideal = smooth or any(factor in ISOTHERMAL for factor, _ in taken)
-        kind = "Upper bound" if ideal else "Best estimate"
+        bound = "upper" if ideal else "best"
     else:
         supplied = case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
         heated = case.film is not None and case.film.thermal and "film.thermal" not in results.varied
         neglected = {"isothermal": not heated, "fully flooded": not supplied}
         kinds = [kind for kind, holds in neglected.items() if holds]
-    bound = f"{kind}: {', '.join(kinds)} film; " if kinds else ""
-    strength = strength_clause(case.discharge)
-    if _strength_varies(results):
-        strength = seldom_measured("the dielectric strength")
-    equal = ""
+    films = (Statement.of("films", words=tuple(kinds)),) if kinds else ()
+    varies = _strength_varies(results)
+    strength = Statement.of("strength-varied") if varies else strength_clause(case.discharge)
+    equal: tuple[Statement, ...] = ()
     if isinstance(case, BearingCase) and "motor.second_bearing_capacitance" not in results.varied:
-        equal = equal_bearings_clause(case)
-    text = f"{bound}{strength}{equal}."
-    yield text[0].upper() + text[1:]
+        equal = equal_bearings(case)
+    return bound if kinds else "", (*films, strength, *equal)
 
 
 def _margins(results: SweepPoints) -> Array:
@@ -221,8 +226,8 @@ def _why(results: SweepPoints, margins: Array) -> str:
     return ", ".join(f"{count} {reason}" for reason, count in counts.items())
 
 
-def _crossings(results: SweepPoints, margins: Array) -> list[str]:
-    """Sentences about the values of a single varied input at which the margin crosses 1."""
+def _crossings(results: SweepPoints, margins: Array) -> list[Statement]:
+    """Statements on the values of a single varied input at which the margin crosses 1."""
     if len(results.varied) != 1 or results.design == "sobol":
         return []
     key = results.varied[0]
@@ -235,8 +240,13 @@ def _crossings(results: SweepPoints, margins: Array) -> list[str]:
         if math.isfinite(margin)
     )
     return [
-        f"{'Below' if low[1] < high[1] else 'Above'} about "
-        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1."
+        Statement.of(
+            "margin-crosses",
+            way="below" if low[1] < high[1] else "above",
+            key=key,
+            at=crossing(low, high),
+            value=value_text(key, crossing(low, high), results.case),
+        )
         for low, high in pairwise(rows)
         if (low[1] < 1.0) != (high[1] < 1.0)
     ]

@@ -7,14 +7,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing.bearing_touching import SELDOM, time_text
 from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.mean_heights import GAUSSIAN
-from ehlectric.discharge.breakdown_rule import ONE_NUMBER, at_an_end, chance_text, ratio_text
-from ehlectric.quantities.formats import UNITS, amount, rpm_text, scale_for, scale_of
+from ehlectric.quantities.formats import SELDOM, UNITS, amount, rpm_text, scale_for, scale_of, time_share_text
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import (
@@ -35,7 +33,7 @@ from ehlectric.quantities.sheets import (
     LOAD_COLUMNS,
     VALUES,
 )
-from ehlectric.readable import formatted, readable
+from ehlectric.readable import ONE_NUMBER, at_an_end, chance_text, formatted, ratio_text, readable
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -240,11 +238,11 @@ def _regime_note(summary: Summary) -> str:
     totals = summary["bearing"]
     if totals["contact_time_share"] == 0.0 and totals["touching_time_share"] > 0.0:
         return ", ceramic elements or a coating insulate"
-    return f", contacts short it {time_text(totals['contact_time_share'])}"
+    return f", contacts short it {time_share_text(totals['contact_time_share'])}"
 
 
 def _time(key: str) -> Callable[[Summary], str]:
-    return lambda summary: time_text(summary["bearing"][key])
+    return lambda summary: time_share_text(summary["bearing"][key])
 
 
 def _asperity_shares(summary: Summary) -> tuple[str, str]:

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.discharge.breakdown_rule import ONE_NUMBER
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.rows import Row
-from ehlectric.readable import readable
+from ehlectric.readable import ONE_NUMBER, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity

@@ -28,12 +28,13 @@ from ehlectric.app.compute.bearing_answers import (
     whole_quick_answer,
 )
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS, ratio_text
-from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS
 from ehlectric.errors import CODES, InputError, ResultWarning
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.units import rpm
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
 

@@ -3,7 +3,7 @@
 from rich.console import Console
 
 from ehlectric.commands.terminal import print_verdict
-from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.tables.bearing_tables import input_range
 from tests.helpers.each import each
 

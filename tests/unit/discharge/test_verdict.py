@@ -6,10 +6,10 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.discharge.film_verdict import contact_verdict, weibull_part
 from ehlectric.errors import ResultWarning
+from ehlectric.readable import ratio_text
 from tests.helpers.each import each
 
 CONSTANT = Discharge.from_dict({"dielectric_strength": "15 V/um"})

@@ -13,10 +13,10 @@ from reportlab.platypus import LongTable
 from ehlectric import BearingCase, DriveCase, save, solve, solve_drive, write_report
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.units import to_si
+from ehlectric.readable import ratio_text
 from ehlectric.report.background import named
 from ehlectric.report.build import report_of
 from ehlectric.report.first_page import life_texts

@@ -7,22 +7,19 @@ uploaded in the same session.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import SEVERITIES, Judged, Line, Number, PageWarning
+from ehlectric.app.answers import SEVERITIES, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
-from ehlectric.discharge.breakdown_rule import ratio_text
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError, ResultWarning, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.rows import Row, row_of
-from ehlectric.report.light import light_of
+from ehlectric.readable import ratio_text
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
 
@@ -184,37 +181,6 @@ def _changed(key: str, value: Any, change: Change) -> Any:
         inner = (key if names else f"{key}.{number}" for number in range(1, len(value) + 1))
         return [_changed(name, item, change) for name, item in zip(inner, value, strict=True)]
     return change(key, value) if isinstance(value, str) and (names or key == _CASE) else value
-
-
-def sentences_of(text: str) -> list[str]:
-    """Sentences of a verdict; numbers such as 1.44 have no space behind their point.
-
-    Examples
-    --------
-    >>> sentences_of("No breakdown expected: margin 1.44. Upper bound: smooth film.")
-    ['No breakdown expected: margin 1.44.', 'Upper bound: smooth film.']
-    >>> sentences_of("The margin is 0.5 to 2.00. 16 more points have no margin.")
-    ['The margin is 0.5 to 2.00.', '16 more points have no margin.']
-    """
-    return re.split(r"(?<=[.!?]) (?=[A-Z]|\d+ more )", text)
-
-
-def judged_of(verdict: Verdict, assumed: tuple[str, ...]) -> Judged:
-    """Verdict in its parts under the heading of reports, without its meaning. ``assumed`` are beginnings of
-    sentences on assumptions.
-    """
-    first, *others = sentences_of(verdict.text)
-    _, _, rest = first.partition(": ")
-    light = light_of(verdict.level, verdict.text)
-    return Judged(
-        level=verdict.level,
-        lead=light.words,
-        meaning="",
-        numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(text for text in others if not text.startswith(assumed)),
-        assumptions=" ".join(text for text in others if text.startswith(assumed)),
-        bound=light.bound,
-    )
 
 
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers import (
-    FOLLOWS,
     PENDING,
     RANGE_FOLLOWS,
     BearingAnswer,
@@ -20,7 +19,6 @@ from ehlectric.app.answers import (
     DutyAnswer,
     Figure,
     Gauge,
-    Judged,
     Number,
     PageWarning,
     Table,
@@ -42,15 +40,15 @@ from ehlectric.app.compute.answer_parts import (
     cards,
     case_of,
     gauge_text,
-    judged_of,
     lines_of,
     page_warnings_of,
     unknown,
 )
 from ehlectric.app.compute.duty_answers import shown_duty
+from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.loads.totals import around_in_rows
-from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
+from ehlectric.bearing.margin import MarginAnalysis
 from ehlectric.bearing.quick_contacts import heat_by_formula
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, error_text
@@ -60,15 +58,14 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import quick_chance
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
-from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS, ratio_text
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.result_bounds import bearing_bounds
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
-from ehlectric.readable import readable
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text, readable
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.files import plain
@@ -170,10 +167,17 @@ def _no_shaft(summary: Mapping[str, Any]) -> str:
     return "the surfaces touch" if "motor" in summary["inputs"] else "no motor is given"
 
 
-# Interval of the margin and probability of breakdown, and beginnings of sentences of the verdict that the
+# Interval of the margin and probability of breakdown, and codes of statements and of a warning that the
 # margin with these says, too.
 _WITHIN = ("uncertainty.margin_range", "uncertainty.breakdown_probability")
-_SAID = ("Shaft voltage ", PROBABILITY_FOLLOWS.removesuffix(" follows."), "breakdown-expected")
+_SAID = (
+    "bearing-voltages",
+    "probability",
+    "probability-between",
+    "probability-unknown",
+    "probability-follows",
+    "breakdown-expected",
+)
 
 
 def deciding(summary: Mapping[str, Any], *, probable: bool) -> Deciding:
@@ -234,22 +238,16 @@ def _difference(quick: Row | None, solved: Row | None, way: Contacts) -> Differe
 
 _NO_VERDICT = "This page cannot say whether the bearing sparks."
 
-_OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
 
-
-def judged(verdict: Verdict) -> Judged:
-    """Verdict taken apart.
+def meaning_of(verdict: Verdict) -> str:
+    """What a verdict means for the bearing, in plain words.
 
     Examples
     --------
-    >>> parts = judged(Verdict("green", "No breakdown expected: margin 1.4. Upper bound: smooth film."))
-    >>> parts.lead, parts.bound
-    ('No breakdown expected in an ideal film', 'upper bound')
-    >>> parts.numbers, parts.assumptions
-    ('Margin 1.4.', 'Upper bound: smooth film.')
+    >>> meaning_of(Verdict("green", "breakdown-excluded"))
+    'The computed film holds; a real film may be thinner and break down earlier.'
     """
-    meaning = TEXTS["meanings"]["bearing"].get(verdict.lead.rstrip("."), _NO_VERDICT)
-    return replace(judged_of(verdict, ("Upper bound", "Best estimate")), meaning=meaning)
+    return str(TEXTS["meanings"]["bearing"].get(verdict.code, _NO_VERDICT))
 
 
 def quick_verdict(solution: BearingSolution) -> Verdict:
@@ -257,13 +255,7 @@ def quick_verdict(solution: BearingSolution) -> Verdict:
 
     It is not green then: the verdict without an analysis counts an unknown range as a doubt.
     """
-    verdict = bearing_verdict(solution, MarginAnalysis(), quick_chance(solution))
-    if verdict.margin is None or not solution.case.ranges:
-        return verdict
-    text = verdict.text.replace(_OPEN_RANGE, FOLLOWS)
-    if FOLLOWS not in text:
-        text = f"{text} {FOLLOWS}"
-    return Verdict(verdict.level, text, verdict.margin)
+    return bearing_verdict(solution, MarginAnalysis(), quick_chance(solution), follows=True)
 
 
 # Sentences about the direction of the load.
@@ -394,7 +386,8 @@ def answer_of(
         converged=result.converged,
         level=verdict.level,
         text=verdict.text,
-        judged=judged(verdict),
+        verdict=verdict,
+        meaning=meaning_of(verdict),
         how=_how(result),
         shown=shown_numbers(summary, placed, whole=whole),
         deciding=deciding(summary, probable=whole and probable),

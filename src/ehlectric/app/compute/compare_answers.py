@@ -47,7 +47,8 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
     return Side(
         kind="bearing",
         title=case.title,
-        judged=bearing_answers.judged(verdict),
+        verdict=verdict,
+        meaning=bearing_answers.meaning_of(verdict),
         deciding=decides,
         number=_number(rows, decides.key),
         results=tuple(_results(rows)),
@@ -69,7 +70,8 @@ def _contact(case: Case) -> Side:
     return Side(
         kind="contact",
         title=case.title,
-        judged=contact_answers.judged(verdict),
+        verdict=verdict,
+        meaning=contact_answers.meaning_of(verdict),
         deciding=decides,
         number=_number(meaning.rows, decides.key),
         results=tuple(_results(_outcomes_first(meaning.rows))),

@@ -8,14 +8,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import ContactAnswer, Deciding, Figure, Gauge, Judged
+from ehlectric.app.answers import ContactAnswer, Deciding, Figure, Gauge
 from ehlectric.app.charts.line_charts import Lengths, line_figures, spot_position
 from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.app.compute.answer_parts import (
     cards,
     case_of,
     gauge_text,
-    judged_of,
     lines_of,
     page_warnings_of,
     with_warnings,
@@ -23,8 +22,8 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, doubted, lead_of, level_of, ratio_text
-from ehlectric.discharge.film_verdict import Verdict, doubts_of, seldom_measured
+from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, code_of, doubted, level_of
+from ehlectric.discharge.film_verdict import doubts_of, ideal_films, no_verdict
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.sheets import (
@@ -34,7 +33,9 @@ from ehlectric.quantities.sheets import (
     SPOT_CARDS,
     TOUCHING_CARDS,
 )
-from ehlectric.readable import readable
+from ehlectric.quantities.statement import Fact, Statement
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -86,7 +87,8 @@ def by_formula(case: Case) -> ContactAnswer:
     moving = case.motion is not None
     return ContactAnswer(
         title=meaning.title,
-        judged=judged(verdict),
+        verdict=verdict,
+        meaning=meaning_of(verdict),
         how=_TEXTS["moving" if moving else "by_formula"],
         shown=with_warnings(cards(meaning.rows, keys), told),
         deciding=deciding(deciding_by_formula(case, verdict), verdict, case.electric.voltage),
@@ -103,15 +105,8 @@ def _is_quick(case: Case) -> bool:
     return plain and quick and case.contact.geometry == "line"
 
 
-_NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
-_NOT_BY_FORMULA = (
-    "No verdict before solving: the breakdown voltage needs the solved film, because the dielectric strength "
-    "depends on pressure, or the viscosity does not."
-)
-_OUTSIDE = (
-    "No verdict before solving: the contact is outside the range of the formula ({formula}): {outside_range}."
-)
-_NO_VOLTAGE = "No verdict: give a voltage (group Voltage and breakdown) for a margin."
+_NO_STRENGTH = no_verdict(Statement.of("no-strength-page"))
+_BEFORE_SOLVING = "none-before-solving"
 
 _TEXTS = data_file("ehlectric.app", "page_texts.toml")["contact"]
 
@@ -122,26 +117,29 @@ def verdict_by_formula(
     """Verdict by formula, within the errors of film and strength."""
     if estimate is None:
         given = case.discharge is not None and case.discharge.has_strength
-        return Verdict("grey", _NOT_BY_FORMULA if given else _NO_STRENGTH)
+        return no_verdict(Statement.of("not-by-formula"), code=_BEFORE_SOLVING) if given else _NO_STRENGTH
     margin = estimate["margin"]
     if margin is None:
-        return Verdict("grey", _NO_VOLTAGE)
+        return no_verdict(Statement.of("no-voltage-page"))
     if estimate["outside_range"]:
-        return Verdict("grey", _OUTSIDE.format(**estimate))
+        why = {"formula": estimate["formula"], "reason": estimate["outside_range"]}
+        return no_verdict(Statement.of("outside-formula", **why), code=_BEFORE_SOLVING)
     # The film may be that much thinner or thicker than by the formula, and so may be the strength.
     low = margin * (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA)
     high = margin * (1.0 + STRENGTH_UNKNOWN) / (1.0 - _FORMULA)
     level, doubts = level_of(low, high), doubts_of(warnings)
-    level, lead = doubted(level, lead_of(level, likely=margin < 1.0), doubts=bool(doubts))
-    text = (
-        f"{lead}: by formula the film breaks down at "
-        f"{readable(estimate['breakdown_voltage'])} V, {readable(estimate['applied_voltage'])} V are "
-        "applied (margin "
-        f"{ratio_text(margin)})."
+    level, code = doubted(level, code_of(level, likely=margin < 1.0), doubts=bool(doubts))
+    at, voltage = estimate["breakdown_voltage"], estimate["applied_voltage"]
+    strength = Statement.of("strength", strength=estimate["dielectric_strength"], range=None)
+    return Verdict(
+        level,
+        code,
+        Statement.of("formula-voltages", breakdown=at, voltage=voltage, margin=margin),
+        facts=(Fact("breakdown_by_formula.margin", margin, (low, high)),),
+        reasons=tuple(doubts),
+        assumptions=(*ideal_films(flooded=True), strength),
+        bound="upper",
     )
-    strength = seldom_measured(f"dielectric strength {readable(estimate['dielectric_strength'] / 1e6)} V/µm")
-    last = f"Upper bound: isothermal, fully flooded film; {strength}."
-    return Verdict(level, " ".join([text, *doubts, last]), margin, (low, high))
 
 
 def solve_contact(
@@ -188,7 +186,8 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
         known = "asperities.behaviour"
     return ContactAnswer(
         title=result.case.title,
-        judged=judged(verdict),
+        verdict=verdict,
+        meaning=meaning_of(verdict),
         how="Solved." if result.converged else "Not converged.",
         shown=with_warnings(shown, told),
         deciding=deciding(
@@ -211,17 +210,13 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
 def _verdict(result: Result | PointResult) -> Verdict:
     """Verdict of the command."""
     if not result.converged:
-        return Verdict("grey", f"Not converged ({result.film.status}): do not use this result.")
-    return result.verdict or Verdict("grey", _NO_STRENGTH)
+        return no_verdict(Statement.of("status", status=result.film.status), code="not-converged")
+    return result.verdict or _NO_STRENGTH
 
 
-# Beginnings of sentences of a verdict on what is assumed.
-_ASSUMED = ("Upper bound", "Dielectric strength ", "The table of ", "The Weibull law ")
-
-
-def judged(verdict: Verdict) -> Judged:
-    """Verdict in its parts, with a heading that says where it is that of an ideal film."""
-    return replace(judged_of(verdict, _ASSUMED), meaning=_TEXTS["meanings"][verdict.level])
+def meaning_of(verdict: Verdict) -> str:
+    """What a verdict means for the contact, in plain words."""
+    return str(_TEXTS["meanings"][verdict.level])
 
 
 def deciding_by_formula(case: Case, verdict: Verdict) -> str:
@@ -231,8 +226,8 @@ def deciding_by_formula(case: Case, verdict: Verdict) -> str:
     return f"film_formulas.{BREAKDOWN_FORMULAS[case.contact.geometry]}.minimum_thickness"
 
 
-# Beginnings of sentences, and code of a warning, that say no more than the margin beside its voltages.
-_SAID = ("Applied voltage ", "By formula the film ", "breakdown-expected")
+# Codes of statements and of a warning that say no more than the margin beside its voltages.
+_SAID = ("contact-voltages", "formula-voltages", "breakdown-expected")
 
 
 def deciding(key: str, verdict: Verdict, voltage: float, figure: str = "") -> Deciding:

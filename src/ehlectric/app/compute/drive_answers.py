@@ -10,7 +10,6 @@ from typing import Any
 from ehlectric.app.answers import (
     Deciding,
     DriveAnswer,
-    Judged,
     Number,
     PageWarning,
     Table,
@@ -21,7 +20,6 @@ from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
     card,
     drive_of,
-    judged_of,
     lines_of,
     page_warnings_of,
     unknown,
@@ -29,7 +27,6 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.quick_drive import expected, quick_drive
 from ehlectric.drive.solver import SIMULATING, prepare
@@ -40,6 +37,8 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
+from ehlectric.quantities.statement import Statement
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.report.report_texts import TEXTS
 from ehlectric.runs.by_kind import run_drive
@@ -117,16 +116,16 @@ def _worse(pairs: Mapping[str, Pair]) -> int:
     return int(rates[1] > rates[0])
 
 
-def deciding_rate(summary: Summary, judged: Judged, figures: Mapping[str, Any]) -> Deciding:
+def deciding_rate(summary: Summary, figures: Mapping[str, Any]) -> Deciding:
     """Discharges in a second of the worse bearing of a simulated drive, with their interval."""
     pairs = _pairs(summary, DRIVE)
     worse = _worse(pairs)
     rate, interval = (pairs[key][worse] for key in (_RATE, _RATE_RANGE))
     facts = () if interval is None else ((DRIVE_BOOK[_RATE_RANGE].head, interval.amount),)
-    # The sentence on discharges has both rates; that on none says how many there may be.
-    said = rate is not None and rate.value and judged.level != "grey"
+    # The statement on discharges has both rates; that on none says how many there may be.
+    said = ("rates",) if rate is not None and rate.value else ()
     named = (name for name in ("remedies", "voltages") if name in figures)
-    return Deciding(_RATE, facts, figure=next(named, ""), said=(judged.numbers,) if said else ())
+    return Deciding(_RATE, facts, figure=next(named, ""), said=said)
 
 
 def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
@@ -158,36 +157,10 @@ def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
     yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
 
 
-_NOT_SIMULATED = "How often, and with which energy, the simulation says."
-
-# Beginnings of sentences on what is assumed.
-_ASSUMED = (
-    "Upper bound",
-    "Best estimate",
-    "Dielectric strength",
-    "The table of dielectric",
-    "The Weibull law of",
-)
-
-
-def judged_before(verdict: Verdict) -> Judged:
-    """Verdict on a drive that is not simulated.
-
-    Examples
-    --------
-    >>> parts = judged_before(Verdict("red", "Discharges expected: 12.9 V, above 4.63 V. More follows."))
-    >>> parts.lead, parts.numbers, parts.reasons
-    ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
-    """
+def meaning_before(verdict: Verdict) -> str:
+    """What a verdict on a drive that is not simulated means, in plain words."""
     insulated = verdict.level == "green" and verdict.margin is None
-    meaning = TEXTS["meanings"]["drive_before"]["ceramic" if insulated else verdict.level]
-    return replace(judged_of(verdict, ()), meaning=meaning, assumptions=_NOT_SIMULATED)
-
-
-def judged_after(verdict: Verdict) -> Judged:
-    """Verdict on a simulated drive, which is that of its report."""
-    meaning = TEXTS["meanings"]["drive_after"][verdict.level]
-    return replace(judged_of(verdict, _ASSUMED), meaning=meaning)
+    return str(TEXTS["meanings"]["drive_before"]["ceramic" if insulated else verdict.level])
 
 
 _SOLVING = "solving the contacts of both bearings, then simulating"
@@ -209,13 +182,16 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     warnings = merged(page_warnings_of(found))
     shown = drive_numbers(summary, DRIVE_CHECK, warnings)
+    # The divider does not say how often, and with which energy, the bearings discharge.
+    verdict = replace(expected(case, summary), assumptions=(Statement.of("not-simulated"),))
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
     solved = "; the simulation solves them" if _is_solved(case) else ""
     return DriveAnswer(
         title=case.title,
         simulated=False,
-        judged=judged_before(expected(case, summary)),
+        verdict=verdict,
+        meaning=meaning_before(verdict),
         how=f"{how}{solved}. By the capacitive divider, without a simulation.",
         shown=shown,
         deciding=Deciding("end.voltage_at_peak"),
@@ -248,14 +224,15 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     shown = drive_numbers(summary, DRIVE, warnings)
     progress(0, 0, "drawing")
     figures = drive_figures(outcome.result) if summary["converged"] else {}
-    judged = judged_after(drive_verdict(case, summary, outcome.warnings))
+    verdict = drive_verdict(case, summary, outcome.warnings)
     return DriveAnswer(
         title=case.title,
         simulated=True,
-        judged=judged,
+        verdict=verdict,
+        meaning=TEXTS["meanings"]["drive_after"][verdict.level],
         how=f"Simulated in {readable(summary['seconds'])} s, as ehlectric drive does it.",
         shown=shown,
-        deciding=deciding_rate(summary, judged, figures),
+        deciding=deciding_rate(summary, figures),
         ends=ends_table(summary, DRIVE),
         lines=lines_of(drive_rows(summary)),
         warnings=limited_to(warnings, {one.key for one in shown}),

@@ -12,12 +12,11 @@ from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly,
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.defaults import HOW
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.drive.bearing_remedies import at_shaft_voltage, grounded_verdict, grounded_voltage, with_remedy
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIED
-from ehlectric.report.light import light_of
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.tables.bearing_tables import total_rows
 
 # Text in place of a number that one of both has not.
@@ -65,8 +64,7 @@ def _answer(
     for key, same in _WITHOUT_COATING.items():
         if key in then and same in now:
             now.setdefault(key, now[same])
-    words = (light_of(one.level, one.text).words for one in (verdict, other_verdict))
-    rows = [("Verdict", *words)]
+    rows = [("Verdict", verdict.heading, other_verdict.heading)]
     for key in REMEDIED:
         texts = now.get(key, _NONE), then.get(key, _NONE)
         if texts[0] != texts[1] or PENDING in texts or (key == "bearing.margin" and key in now):

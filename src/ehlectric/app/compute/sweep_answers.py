@@ -18,7 +18,6 @@ from ehlectric.app.answers import (
     ChartPoint,
     Deciding,
     Gauge,
-    Judged,
     Number,
     PageWarning,
     PointState,
@@ -30,7 +29,7 @@ from ehlectric.app.answers import (
 )
 from ehlectric.app.charts.sweep_charts import figure_of
 from ehlectric.app.compute import answer_parts
-from ehlectric.app.compute.answer_parts import gauge_text, judged_of, page_warnings_of, run_case_of
+from ehlectric.app.compute.answer_parts import gauge_text, page_warnings_of, run_case_of
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field
@@ -43,8 +42,6 @@ from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
-from ehlectric.discharge.breakdown_rule import ratio_text
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.grouped_digits import certain
@@ -53,11 +50,13 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, si_unit, split
-from ehlectric.readable import readable
+from ehlectric.quantities.verdict import Verdict
+from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.batches import seconds_of
+from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
@@ -89,7 +88,8 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
     verdict, lowest = _verdict(results), _lowest(chart)
     return SweepView(
         counts=dict(Counter(point.state for point in chart.points)),
-        judged=_NO_VERDICT if verdict is None else judged(verdict),
+        verdict=verdict or _NO_VERDICT,
+        meaning=meaning_of(verdict or _NO_VERDICT),
         deciding=Deciding("") if lowest is None else deciding(chart),
         number=lowest,
         chart=chart,
@@ -114,28 +114,25 @@ def _verdict(results: SweepResults) -> Verdict | None:
     """Verdict of the command or, on drives, of their report."""
     if not isinstance(results.case, DriveCase):
         return results.verdict
-    # Reports load a library for figures, which no other answer of a page needs.
-    from ehlectric.report.drive_report import swept_verdict
-
     return swept_verdict(results)
 
 
-# Judgement on points without margins.
-_NO_VERDICT = Judged("grey", "No margin to judge by", "The map has the results of the points.", "", (), "")
+# Verdict on points without margins.
+_NO_VERDICT = Verdict("grey", "no-margin")
 
 
-def judged(verdict: Verdict) -> Judged:
-    """Verdict on a sweep in its parts.
+def meaning_of(verdict: Verdict) -> str:
+    """First words of a verdict on a sweep where its heading has others, as a sentence.
 
     Examples
     --------
-    >>> text = "Breakdown is likely at 3 of 8 points: the margin is 0.5 to 2.00. Best estimate: rough film."
-    >>> found = judged(Verdict("yellow", text, 0.5))
-    >>> found.lead, found.meaning, found.assumptions
-    ('Breakdown likely at some points', 'Breakdown is likely at 3 of 8 points.', 'Best estimate: rough film.')
+    >>> counts = Statement.of("points-margins", word="likely", below=3, known=8, low=0.5, high=2.0)
+    >>> meaning_of(Verdict("yellow", "points-some-likely", counts))
+    'Breakdown is likely at 3 of 8 points.'
     """
-    parts = judged_of(verdict, ("Upper bound", "Best estimate", "Points are judged "))
-    return replace(parts, meaning="" if parts.lead.startswith(verdict.lead) else f"{verdict.lead}.")
+    if verdict is _NO_VERDICT:
+        return "The map has the results of the points."
+    return "" if verdict.heading.startswith(verdict.lead) else f"{verdict.lead}."
 
 
 def _lowest(chart: Chart) -> Number | None:
@@ -157,7 +154,7 @@ def deciding(chart: Chart) -> Deciding:
         ("margins of the points", " to ".join(map(ratio_text, ends))),
         ("points with a margin below 1", f"{below} of {len(margins)}"),
     )
-    said = ("The margin is ", "breakdown-expected")
+    said = ("points-margins", "breakdown-expected")
     return Deciding("sweep.margin", facts, Gauge(gauge_text(ends[0], facts), ends[0], ends), said=said)
 
 

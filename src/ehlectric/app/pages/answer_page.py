@@ -181,7 +181,8 @@ class AnswerPage(Generic[A]):
         self.view.show(answer)
         named = [one for one in answer.shown if one.key in self.short and one.known]
         texts = [f"{self.short[one.key] or one.name} {one.with_unit}" for one in named]
-        self._strip.show(answer.judged.level, answer.judged.lead, texts, bound=answer.judged.bound)
+        verdict = answer.verdict
+        self._strip.show(verdict.level, verdict.heading, texts, bound=verdict.beside)
 
     def _dim(self, *, dimmed: bool) -> None:
         self.view.dim(dimmed=dimmed)
@@ -274,7 +275,7 @@ class AnswerView(Generic[A]):
         """Show the verdict, the numbers and their notes."""
         deciding = answer.deciding
         notes = notes_of(answer.shown, answer.warnings, deciding.said)
-        self.panel.verdict.show(answer.judged, deciding.said, whole=answer.whole)
+        self.panel.verdict.show(answer.verdict, answer.meaning, deciding.said, whole=answer.whole)
         self.panel.tell(deciding, answer.number(deciding.key), notes)
         for key, box in self.numbers.items():
             box.show(None if key == deciding.key else answer.number(key), notes)

@@ -46,8 +46,8 @@ _OR_SOLVE = "solve the contacts, which computes the duty cycle, too"
 
 _NOT_COMPUTED = "The duty cycle is not computed; its field says why."
 
-# End of sentences about what a later answer has.
-_TO_FOLLOW = "follows."
+# Codes of statements about what a later answer has.
+_TO_FOLLOW = ("range-follows", "probability-follows")
 
 
 class BearingView(AnswerView[BearingAnswer]):
@@ -120,12 +120,12 @@ def without_what_follows(answer: BearingAnswer) -> BearingAnswer:
         pending = one.text == PENDING
         numbers.append(replace(one, text="none", note="not computed") if pending else replace(one, note=note))
     # The range of the margin and the probability of breakdown.
-    reasons = tuple(one for one in answer.judged.reasons if not one.endswith(_TO_FOLLOW))
+    reasons = tuple(one for one in answer.verdict.reasons if one.code not in _TO_FOLLOW)
     return replace(
         answer,
         whole=True,
         shown=tuple(numbers),
-        judged=replace(answer.judged, reasons=reasons),
+        verdict=replace(answer.verdict, reasons=reasons),
         deciding=replace(answer.deciding, facts=()),
     )
 

@@ -17,7 +17,6 @@ from ehlectric.app.answers import (
     Effect,
     Figure,
     InputRow,
-    Judged,
     Note,
     Result,
     Side,
@@ -49,6 +48,7 @@ from ehlectric.app.pages.result_parts import FigureBox, Panel, behind, told
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.verdict import Verdict
 
 # Words of the signs of inputs, for readers who cannot see that a row is marked.
 _SIGNS = {"=": "equal", "≠": "≠ differs", "only A": "only in A", "only B": "only in B"}
@@ -199,11 +199,11 @@ class SideBox:
         self._link.set_visibility(isinstance(answer, Side))
         if isinstance(answer, Exception):
             self._title.text = ""
-            self._panel.verdict.show(Judged("grey", "No answer", str(answer), "", (), ""))
+            self._panel.verdict.show(Verdict("grey", "no-answer"), str(answer))
             self._panel.tell(Deciding(""), None, ())
             return
         self._title.text = answer.title or "no title"
-        self._panel.verdict.show(answer.judged, answer.deciding.said)
+        self._panel.verdict.show(answer.verdict, answer.meaning, answer.deciding.said)
         self._panel.tell(answer.deciding, answer.number, ())
         path = PATHS["bearing" if answer.kind == "bearing" else "contact"]
         self._link.props["href"] = address_of(path, case)

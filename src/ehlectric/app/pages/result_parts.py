@@ -8,9 +8,10 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.answers import Deciding, Figure, Gauge, Judged, Note, Number, PageWarning, Table, counts
+from ehlectric.app.answers import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
 from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.quantities.verdict import Verdict
 
 
 class Panel:
@@ -123,21 +124,23 @@ class VerdictBox:
             self._reasons = ui.html("", sanitize=False)
         say(self._assumed, "")
 
-    def show(self, judged: Judged, said: tuple[str, ...] = (), *, whole: bool = True) -> None:
-        """Show a verdict without the sentences that begin as those ``said`` elsewhere.
+    def show(
+        self, verdict: Verdict, meaning: str = "", said: tuple[str, ...] = (), *, whole: bool = True
+    ) -> None:
+        """Show a verdict, with what it means and without the statements of the codes ``said`` elsewhere.
 
         The place of the sentences that follow with a ``whole`` answer is kept for them.
         """
-        self._box.classes(replace=f"verdict {judged.level}").props(f'data-level="{judged.level}"')
-        self._lead.text, self._meaning.text = judged.lead, judged.meaning
-        say(self._bound, judged.bound)
-        sentences = filter(None, (judged.numbers, *judged.reasons))
-        reasons = tuple(one for one in sentences if not one.startswith(said))
+        self._box.classes(replace=f"verdict {verdict.level}").props(f'data-level="{verdict.level}"')
+        self._lead.text, self._meaning.text = verdict.heading, meaning
+        say(self._bound, verdict.beside)
+        stated = verdict.answer is None or verdict.answer.code in said
+        reasons = (*([] if stated else [verdict.numbers]), *verdict.sentences(said))
         kept = () if whole else self._last[len(reasons) :]
         self._reasons.content = _list(reasons, kept)
         if whole:
             self._last = reasons
-        say(self._assumed, judged.assumptions)
+        say(self._assumed, verdict.assumed)
 
 
 class NumberBox:

@@ -15,7 +15,7 @@ from typing import Any
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import Deciding, Judged, Note, SweepChoices, SweepPlan, SweepView, Variable
+from ehlectric.app.answers import Deciding, Note, SweepChoices, SweepPlan, SweepView, Variable
 from ehlectric.app.calls import (
     SWEEP_CHOICES,
     SWEEP_FILES,
@@ -62,6 +62,7 @@ from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.units import split
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.worker_processes import cores
 
@@ -297,8 +298,8 @@ _FEW = 200
 
 
 # Verdicts of a sweep before its points are solved.
-_NOTHING = Judged("grey", "Nothing is solved yet", "Run fills the map.", "", (), "")
-_RUNNING = Judged("grey", "Points are being solved", "The verdict follows with the last of them.", "", (), "")
+_NOTHING = Verdict("grey", "nothing-solved"), "Run fills the map."
+_RUNNING = Verdict("grey", "solving"), "The verdict follows with the last of them."
 
 
 # Words above a map that is not that of the present inputs.
@@ -378,7 +379,7 @@ class MapPart:
         """Take everything away."""
         self._view = self._ran = self._chosen = None
         self._point.clear()
-        self._panel.verdict.show(_NOTHING)
+        self._panel.verdict.show(*_NOTHING)
         self._panel.tell(Deciding(""), None, ())
         for part in (self._keys, self._points, self._notes.box):
             part.set_visibility(False)
@@ -401,7 +402,8 @@ class MapPart:
             self._chosen = None
         self._draw()
         self._keys.set_visibility(True)
-        self._panel.verdict.show(_RUNNING if running else view.judged, view.deciding.said)
+        judged = _RUNNING if running else (view.verdict, view.meaning)
+        self._panel.verdict.show(*judged, view.deciding.said)
         self._panel.tell(view.deciding, None if running else view.number, ())
         if not running:
             self._notes.show([Note(one) for one in view.warnings])

@@ -19,9 +19,9 @@ from ehlectric.bearing.margin import (
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.run import save
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.discharge.breakdown_rule import ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import rpm_text
+from ehlectric.readable import ratio_text
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

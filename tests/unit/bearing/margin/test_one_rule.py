@@ -10,8 +10,8 @@ from ehlectric import BearingCase, solve_bearing
 from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, bearing_verdict
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import has_chance, uncertainty_of
-from ehlectric.discharge.breakdown_rule import chance_text
 from ehlectric.errors import InputError
+from ehlectric.readable import chance_text
 from ehlectric.report.light import light_of
 from ehlectric.runtime.files import plain
 from ehlectric.tables.bearing_tables import total_rows

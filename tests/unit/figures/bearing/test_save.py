@@ -18,7 +18,6 @@ from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.bearing.speed_curves import critical_speed_of, curves_of, over_speed
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.commands.command_line import app
-from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.figures import bearing_figures as bearing_circuit_plot
 from ehlectric.figures import bearing_figures as bearing_impedance_plot
 from ehlectric.figures import bearing_figures as bearing_pitch_plot
@@ -32,6 +31,7 @@ from ehlectric.figures.bearing_figure_files import (
 )
 from ehlectric.figures.figure_names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from ehlectric.quantities.palette import BLACK, BLUE, RED
+from ehlectric.quantities.verdict import Verdict
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

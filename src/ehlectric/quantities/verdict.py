@@ -1,0 +1,154 @@
+"""Verdict on a result as data: whether the film breaks down, the numbers that decide, and the reasons.
+
+``ehlectric.quantities.verdict_texts`` has the words. No module reads rendered text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ehlectric.quantities.statement import Bound, Fact, Level, Statement
+from ehlectric.quantities.verdict_texts import (
+    LINES,
+    assumed_text,
+    bound_words,
+    capital,
+    first_words,
+    heading,
+    lines_of,
+    statement_text,
+)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Answer to the question whether films break down.
+
+    Attributes
+    ----------
+    level : str
+        "green": no breakdown expected; "yellow": breakdown is possible within what is uncertain; "red":
+        breakdown expected, or surfaces that touch under a voltage; "grey": there is no voltage or no
+        strength to judge by.
+    code : str
+        Code of the first words, such as "breakdown-likely".
+    answer : Statement or None
+        The numbers that decide; None where there are none.
+    at : Statement or None
+        Operating point; None of a contact and of a sweep.
+    facts : tuple of Fact
+        Quantities that decide.
+    reasons : tuple of Statement
+        Why the answer is as it is, and what it does not contain.
+    assumptions : tuple of Statement
+        Clauses on what is assumed.
+    bound : str
+        "upper" where the breakdown voltage is an upper bound, "best" for a best estimate, empty otherwise.
+
+    Examples
+    --------
+    >>> verdict = Verdict("green", "breakdown-excluded", facts=(Fact("bearing.margin", 1.44),))
+    >>> verdict.margin, verdict.lead, verdict.text
+    (1.44, 'No breakdown expected', 'No breakdown expected.')
+    """
+
+    level: Level
+    code: str
+    answer: Statement | None = None
+    at: Statement | None = None
+    facts: tuple[Fact, ...] = ()
+    reasons: tuple[Statement, ...] = ()
+    assumptions: tuple[Statement, ...] = ()
+    bound: Bound = ""
+
+    @property
+    def margin(self) -> float | None:
+        """Breakdown voltage / applied voltage, dimensionless; None where there is none."""
+        return next((fact.value for fact in self._margins()), None)
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Smallest and largest margin that are possible, dimensionless; None where none is stated."""
+        return next((fact.interval for fact in self._margins()), None)
+
+    def _margins(self) -> Iterator[Fact]:
+        return (fact for fact in self.facts if fact.key.endswith("margin"))
+
+    @property
+    def lead(self) -> str:
+        """First words of the answer, as "Breakdown likely"."""
+        return first_words(self.code, self.answer)
+
+    @property
+    def heading(self) -> str:
+        """Heading, which says where the film is an ideal one.
+
+        Examples
+        --------
+        >>> Verdict("green", "breakdown-excluded", bound="upper").heading
+        'No breakdown expected in an ideal film'
+        """
+        return heading(self.code, self.answer, self.level, self.bound)
+
+    @property
+    def beside(self) -> str:
+        """Words beside the heading of a verdict on an upper bound; empty otherwise."""
+        return bound_words(self.bound)
+
+    @property
+    def numbers(self) -> str:
+        """Sentence with the numbers that decide, without the first words; empty where there are none."""
+        return "" if self.answer is None else capital(statement_text(self.answer, self.where))
+
+    @property
+    def where(self) -> str:
+        """Operating point as text; empty without one."""
+        return "" if self.at is None else statement_text(self.at)
+
+    @property
+    def assumed(self) -> str:
+        """Sentence about what is assumed; empty where nothing is."""
+        return assumed_text(self.assumptions, self.bound, self.where)
+
+    def sentences(self, without: tuple[str, ...] = ()) -> tuple[str, ...]:
+        """Sentences of the reasons, without those of some codes."""
+        kept = (one for one in self.reasons if one.code not in without)
+        return tuple(capital(statement_text(one, self.where)) for one in kept)
+
+    def rest(self, reasons: int | None = None) -> str:
+        """Sentences after the first words; ``reasons``, number of reasons, or all of them."""
+        return " ".join(filter(None, (self.numbers, *self.sentences()[:reasons], self.assumed)))
+
+    @property
+    def text(self) -> str:
+        """The whole answer in sentences."""
+        answer = "." if self.answer is None else f": {statement_text(self.answer, self.where)}"
+        return " ".join(filter(None, (f"{self.lead}{answer}", *self.sentences(), self.assumed)))
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """Lines: heading and operating point without a label, then labels with their texts.
+
+        Examples
+        --------
+        >>> reason = Statement.of("warning", code="tunnelling")
+        >>> [label for label, _ in Verdict("yellow", "breakdown-unknown", reasons=(reason,)).lines()]
+        ['', 'but']
+        """
+        yield "", " ".join(filter(None, (self.heading, self.where)))
+        stated = [one for one in (self.answer, *self.reasons) if one is not None]
+        for label in LINES:
+            yield from lines_of(label, stated, self.where)
+        if self.assumptions:
+            assumed = assumed_text(self.assumptions, self.bound, self.where, form="brief")
+            yield "model", assumed
+
+    def as_data(self) -> dict[str, Any]:
+        """Entries of ``summary.json``: text, level, and codes and values of all statements."""
+        stated = (self.answer, *self.reasons, *self.assumptions)
+        reasons = [one.as_data() for one in stated if one is not None]
+        return {"verdict": self.text, "verdict_level": self.level, "verdict_reasons": reasons}
+
+    def __str__(self) -> str:
+        return self.text

@@ -1,0 +1,155 @@
+"""Words of verdicts: first words, headings, sentences and lines, from ``verdict_texts.toml``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
+from string import Formatter
+from typing import Any
+
+from ehlectric.errors import CODES
+from ehlectric.quantities.formats import amount, rpm_text, time_share_text
+from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.statement import Bound, Level, Statement
+from ehlectric.quantities.units import rpm
+from ehlectric.readable import bounds_text, chance_text, mean_text, ratio_text, readable
+
+
+@cache
+def _texts() -> Mapping[str, Any]:
+    return data_file("ehlectric.quantities", "verdict_texts.toml")
+
+
+def _per_cent(digits: int) -> Callable[[float], str]:
+    return lambda share: f"{readable(100.0 * share, digits)} %"
+
+
+def _three_digits(unit: str) -> Callable[[float], str]:
+    return lambda value: amount(float(f"{value:.3g}"), unit)
+
+
+# Ways to write a value, by their names in the texts. A value without one is written as it is.
+_WAYS: Mapping[str, Callable[[Any], str]] = {
+    "number": readable,
+    "number2": lambda value: readable(value, 2),
+    "ratio": ratio_text,
+    "V": lambda value: f"{readable(value)} V",
+    "V2": lambda value: f"{readable(value, 2)} V",
+    "V/µm": lambda value: f"{readable(1e-6 * value)} V/µm",
+    "V/µm2": lambda value: f"{readable(1e-6 * value, 2)} V/µm",
+    "V/µm number": lambda value: readable(1e-6 * value),
+    "A/mm²": lambda value: f"{readable(1e-6 * value)} A/mm²",
+    "rpm": lambda value: f"{rpm_text(value)} rpm",
+    "rpm number": rpm_text,
+    "rpm4": lambda value: f"{readable(rpm(value), 4)} rpm",
+    "°C": lambda value: f"{readable(value - 273.15)} °C",
+    "%": _per_cent(3),
+    "%2": _per_cent(2),
+    "%0": lambda share: f"{100.0 * share:.0f} %",
+    "s": lambda value: amount(value, "s"),
+    "Ω": lambda value: amount(value, "Ω"),
+    "V4": lambda value: amount(value, "V"),
+    "V3": _three_digits("V"),
+    "J3": _three_digits("J"),
+    "time": time_share_text,
+    "chance": lambda pair: chance_text(*pair),
+    "bounds": lambda pair: bounds_text(*pair),
+    "mean": lambda values: mean_text(*values),
+    "meaning": lambda code: CODES[code].meaning,
+    "spots": lambda number: "1 spot" if number == 1 else f"{number} spots",
+    "points": lambda number: "1 more point" if number == 1 else f"{number} more points",
+    "have": lambda number: "has" if number == 1 else "have",
+    "are": lambda number: "is" if number == 1 else "are",
+    "none": lambda number: str(number or "none"),
+    ", ": lambda parts: ", ".join(parts),
+    " and ": lambda parts: " and ".join(parts),
+    "; ": lambda parts: "; ".join(parts),
+}
+
+
+class _Ways(Formatter):
+    """Formats templates, with values in the ways of ``_WAYS``."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if value is None:
+            return ""
+        return _WAYS[format_spec](value) if format_spec else str(value)
+
+
+def _rendered(value: Any, at: str, form: str) -> Any:
+    """Value of a statement, whose statements are text."""
+    if isinstance(value, Statement):
+        return statement_text(value, at, form)
+    if isinstance(value, tuple) and any(isinstance(one, Statement) for one in value):
+        return tuple(_rendered(one, at, form) for one in value)
+    return value
+
+
+def statement_text(statement: Statement, at: str = "", form: str = "text") -> str:
+    """Text of a statement. ``at``, text of the operating point; ``form``, "text" for sentences and "brief"
+    for lines, which is the text for a statement without a brief form.
+
+    Examples
+    --------
+    >>> statement_text(Statement.of("speeds-below", high=144.38))
+    'below about 1380 rpm'
+    """
+    entry = _texts()["statements"][statement.code]
+    template = entry.get(form, entry["text"])
+    values = {name: _rendered(value, at, form) for name, value in statement.values.items()}
+    return _Ways().vformat(template, (), {"at": at, **values})
+
+
+def capital(text: str) -> str:
+    """Text with a capital letter at its beginning."""
+    return f"{text[:1].upper()}{text[1:]}"
+
+
+def first_words(code: str, answer: Statement | None) -> str:
+    """First words of a verdict by its code, which may name values of its answer."""
+    return _Ways().vformat(_texts()["leads"][code]["text"], (), {} if answer is None else answer.values)
+
+
+def heading(code: str, answer: Statement | None, level: Level, bound: Bound) -> str:
+    """Heading of a verdict: its first words or other ones, and whether the film is an ideal one."""
+    words = str(_texts()["leads"][code].get("heading") or first_words(code, answer))
+    return words + _texts()["ideal"][level] if bound == "upper" else words
+
+
+def bound_words(bound: Bound) -> str:
+    """Words beside the heading of a verdict; empty unless it is on an upper bound."""
+    return str(_texts()["beside"].get(bound, ""))
+
+
+def assumed_text(assumptions: Iterable[Statement], bound: Bound, at: str, form: str = "text") -> str:
+    """Clauses on what is assumed, behind the bound: a sentence, or the text of a line; empty without any."""
+    clauses = "; ".join(statement_text(one, at, form) for one in assumptions)
+    if not clauses:
+        return ""
+    text = _texts()["bounds"][bound] + clauses
+    return f"{capital(text)}." if form == "text" else str(text)
+
+
+# Labels of the lines of a verdict in their order, without the one on what is assumed, and whether the
+# statements of each share a line.
+LINES: Mapping[str, bool] = data_file("ehlectric.quantities", "verdict_texts.toml")["lines"]
+
+
+def lines_of(label: str, statements: Iterable[Statement], at: str) -> Iterator[tuple[str, str]]:
+    """Lines with a label: one that its statements share, or one for each."""
+    texts = [text for one in statements for name, text in _labelled(one, at) if name == label and text]
+    if LINES[label] and texts:
+        yield label, "; ".join(text.rstrip(".") for text in texts)
+    else:
+        yield from ((label, capital(text)) for text in texts)
+
+
+def _labelled(statement: Statement, at: str) -> Iterator[tuple[str, str]]:
+    """Labels and texts of a statement; one without lines is a sentence under its default label."""
+    entry = _texts()["statements"][statement.code]
+    if "lines" not in entry:
+        yield entry.get("line", "but"), statement_text(statement, at, "brief")
+        return
+    values = {name: _rendered(value, at, "brief") for name, value in statement.values.items()}
+    for label, template in entry["lines"].items():
+        yield label, _Ways().vformat(template, (), {"at": at, **values})
