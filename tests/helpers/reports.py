@@ -8,8 +8,17 @@ from tempfile import NamedTemporaryFile
 import pytest
 from matplotlib.figure import Figure
 
-from ehlectric.report.light import Light
-from ehlectric.report.report_content import Link, Picture, Report, Section, Table, Text, WarningLine, Warnings
+from ehlectric.report.report_content import (
+    Light,
+    Link,
+    Picture,
+    Report,
+    Section,
+    Table,
+    Text,
+    WarningLine,
+    Warnings,
+)
 
 needs_pdftotext = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs pdftotext (poppler)")
 

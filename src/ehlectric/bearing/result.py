@@ -287,11 +287,8 @@ class BearingResult(Shown):
         frame.attrs["descriptions"] = {str(name): ELEMENT_KEYS[str(name)].meaning for name in frame}
         return frame
 
-    def _headline(self) -> str:
-        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line, with bounds.
-
-        The verdict is left out: it takes seconds, and a line must not depend on what was asked before.
-        """
+    def key_numbers(self) -> tuple[str | None, ...]:
+        """Designation, speed, capacitance, voltages and state, as texts."""
         voltage, shaft = self.breaks()["first_break"], self.shaft_voltage
         capacitance = amount(self.capacitance(), "F")
         if capacitance_is_bound(self.solution):
@@ -299,8 +296,7 @@ class BearingResult(Shown):
         breaks = None if voltage is None else f"{readable(voltage, 4)} V"
         if breaks and (self.case.bearing.bounding or "partial-film" in {one.code for one in self.warnings}):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
-        return headline(
-            self.case.title,
+        return (
             self.case.bearing.name or self.case.bearing.kind,
             f"{readable(rpm(self.case.bearing.inner_speed), 4)} rpm",
             f"capacitance {capacitance}",
@@ -308,6 +304,13 @@ class BearingResult(Shown):
             None if shaft is None else f"shaft voltage {readable(shaft, 4)} V",
             "converged" if self.converged else "NOT CONVERGED",
         )
+
+    def _headline(self) -> str:
+        """Title, speed, capacitance, first breakdown voltage and shaft voltage on one line, with bounds.
+
+        The verdict is left out: it takes seconds, and a line must not depend on what was asked before.
+        """
+        return headline(self.case.title, *self.key_numbers())
 
 
 def contact_units() -> dict[str, str]:

@@ -63,8 +63,8 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         frame.attrs["units"] = {name: unit for name, (_, unit) in columns.items()}
         return frame
 
-    def _headline(self) -> str:
-        """Title, minimum film, maximum pressure and maximum field on one line."""
+    def key_numbers(self) -> tuple[str | None, ...]:
+        """Geometry, films, pressure, field and state, as texts."""
         film, touching = self.film, self.spots
         error = pressure_error_text(film.max_pressure_error)
         doubt = f" ({error})" if error else ""
@@ -75,15 +75,16 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
             # Minimum film and maximum field are those of the boundary film.
             least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"
             strongest = f"mean film {amount(film.mean_thickness, 'm')}"
-        return headline(
-            self.case.title,
+        return (
             f"{self.conditions.geometry} contact",
             least,
             f"maximum pressure {amount(film.max_pressure, 'Pa')}{doubt}",
             strongest,
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
-            verdict=self.verdict,
         )
+
+    def _headline(self) -> str:
+        return headline(self.case.title, *self.key_numbers(), verdict=self.verdict)
 
     def formulas(self) -> Mapping[str, Thickness]:
         """Film thickness from each published formula [m], keyed by the name of the formula."""

@@ -163,16 +163,17 @@ class DriveResult(Shown):
         duties = (self.duty, *self.remedy_duties)
         return dataset_of(self.solution, self.remedies, duties, self.seconds, self.version)
 
-    def _headline(self) -> str:
+    def key_numbers(self) -> tuple[str | None, ...]:
+        """Rates of both bearings and state, as texts."""
         found = drive_summary(self.solution)
-        return headline(
-            self.case.title,
-            *(
-                f"{name} {readable(found[end]['events_per_second'])} discharges/s"
-                for end, name in NAMES_OF_ENDS.items()
-            ),
-            "converged" if self.converged else "NOT CONVERGED",
+        rates = (
+            f"{name} {readable(found[end]['events_per_second'])} discharges/s"
+            for end, name in NAMES_OF_ENDS.items()
         )
+        return *rates, "converged" if self.converged else "NOT CONVERGED"
+
+    def _headline(self) -> str:
+        return headline(self.case.title, *self.key_numbers())
 
 
 @dataclass(frozen=True)

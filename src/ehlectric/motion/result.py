@@ -65,16 +65,18 @@ class MotionResult(Shown, MotionRun):
         frame.attrs["units"] = {name: self.dataset[name].attrs.get("units", "") for name in names}
         return frame
 
-    def _headline(self) -> str:
-        """Title, time steps, minimum film and maximum field on one line."""
+    def key_numbers(self) -> tuple[str | None, ...]:
+        """Time steps, minimum film, maximum field and state, as texts."""
         steps = self.dataset.sizes["step"] - 1
         strongest = amount(float(np.max(self.values("max_strength"))), "V/m")
         field = MOTION_BOOK[self.case.contact.geometry]["field.max_strength"]
-        return headline(
-            self.case.title,
+        return (
             f"{self.case.contact.geometry} contact with moving roughness",
             f"{steps} time steps to {amount(float(self.values('time')[-1]), 's')}",
             f"minimum film {amount(float(np.min(self.values('minimum_thickness'))), 'm')}",
             f"maximum field {field.with_sign(strongest)}",
             "complete" if self.complete else "NOT COMPLETE",
         )
+
+    def _headline(self) -> str:
+        return headline(self.case.title, *self.key_numbers())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from textwrap import shorten
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -72,10 +71,8 @@ def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:
 
 
 def lead_of(result: Any) -> str:
-    """Main numbers of a result: its representation without the name of its class, title and verdict."""
-    line = repr(result)[1:-1].partition(" ")[2]
-    title = shorten(getattr(result, "title", "") or result.case.title, 60)
-    line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
+    """Main numbers of a result as a sentence."""
+    line = ", ".join(filter(None, result.key_numbers()))
     if isinstance(result, BearingResult) and result.case.bearing.base:
         # The name of a bearing keeps its letters.
         line = f"Bearing {line}"

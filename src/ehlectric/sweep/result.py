@@ -306,17 +306,18 @@ class SweepResults(Shown, SweepPoints):
         frame.attrs["units"] = {key: unit for key, unit in units.items() if unit is not None}
         return frame
 
-    def _headline(self) -> str:
-        """Title, number of points, varied keys and status on one line."""
+    def key_numbers(self) -> tuple[str | None, ...]:
+        """Number of points, varied keys and states, as texts."""
         counts = self.summary()
         others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]
-        return headline(
-            str(counts["title"]),
+        return (
             f"{self.design} of {len(self.points)} points over {', '.join(map(self._name, self.varied))}",
             f"{counts['solved']} solved",
             *(text for text in others if not text.startswith("0 ")),
-            verdict=self.verdict,
         )
+
+    def _headline(self) -> str:
+        return headline(str(self.summary()["title"]), *self.key_numbers(), verdict=self.verdict)
 
     def _name(self, key: str) -> str:
         return label_of(key, self.case).name

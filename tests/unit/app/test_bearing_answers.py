@@ -21,19 +21,16 @@ from ehlectric.app.compute.bearing_answers import (
     answer_over_speed,
     bearing_case,
     differences,
-    judged,
     quick_answer,
     shown_numbers,
     solve_contacts,
     whole_quick_answer,
 )
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.discharge.breakdown_rule import PROBABILITY_FOLLOWS
 from ehlectric.errors import CODES, InputError, ResultWarning
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.units import rpm
-from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
@@ -94,11 +91,14 @@ def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
     assert (whole.text, whole.level) == (summary["verdict"], summary["margin"]["level"])
     assert whole.margin == summary["margin"]
     assert whole.numbers == summary["bearing"]
-    parts = whole.judged
-    assert parts.level == whole.level
-    lead, _, film = parts.lead.partition(" even in ")
-    assert ("ideal film" in film, parts.bound) == (True, "upper bound")
-    sentences = [f"{lead}: ", parts.numbers, *parts.reasons, parts.assumptions]
+    verdict = whole.verdict
+    assert verdict.level == whole.level == summary["verdict_level"]
+    assert [one["code"] for one in summary["verdict_reasons"]] == [
+        one.code for one in (verdict.answer, *verdict.reasons, *verdict.assumptions)
+    ]
+    lead, _, film = verdict.heading.partition(" even in ")
+    assert ("ideal film" in film, verdict.beside) == (True, "upper bound")
+    sentences = [f"{lead}: ", verdict.numbers, *verdict.sentences(), verdict.assumed]
     assert "".join(sentences).replace(" ", "").lower() == whole.text.replace(" ", "").lower()
 
 
@@ -126,8 +126,8 @@ def test_the_best_estimate_has_no_bounds(quick):
     """Films of the example with heat in the inlet: thinner than the isothermal ones, and no upper bounds."""
     best = quick_answer(tomllib.loads(example_text("bearing_6208")))
     assert {number.bound for number in best.shown} == {""}
-    assert (best.judged.bound, best.judged.assumptions[:14]) == ("", "Best estimate:")
-    assert "ideal" not in best.judged.lead
+    assert (best.verdict.beside, best.verdict.assumed[:14]) == ("", "Best estimate:")
+    assert "ideal" not in best.verdict.heading
     assert best.numbers["inlet_shear_factor"] == best.numbers["film_factor"]
     # The smooth film breaks down in proportion to its thickness, and the rough one under its highest summits.
     rough = 1.0 - 2.0 / best.numbers["lambda_ratio"]
@@ -179,7 +179,7 @@ def test_with_ranges_the_verdict_at_once_is_not_green():
 def test_the_voltage_that_ceramic_elements_must_insulate_decides():
     """Nine of 5 pF each beside 20 pF and 1 nF, at 300 V; without their capacitance a bound."""
     given = quick_answer(inputs(element_material="silicon-nitride", element_capacitance="5 pF"))
-    assert (given.level, given.judged.lead) == ("green", "No discharge expected")
+    assert (given.level, given.verdict.heading) == ("green", "No discharge expected")
     assert given.deciding.key == "bearing.element_voltage"
     assert given.number("bearing.element_voltage").with_unit == f"{300.0 * 20.0 / 1110.0:.3g} V"
     bound = quick_answer(inputs(element_material="silicon-nitride"))
@@ -353,8 +353,8 @@ def test_only_the_verdict_says_how_likely_a_breakdown_is():
         (likely, "yellow", "likely"),
         (whole_quick_answer(weak), "red", "expected"),
     ):
-        assert (answer.level, word in answer.judged.lead) == (level, True)
-        assert word in answer.judged.meaning
+        assert (answer.level, word in answer.verdict.heading) == (level, True)
+        assert word in answer.meaning
         (told,) = (
             one for one in answer.number("bearing.margin").warnings if one.code == "breakdown-expected"
         )
@@ -422,11 +422,6 @@ def test_states_over_speed_are_those_of_the_scaled_lambda_ratio(summary):
     assert [row[-1] for row in speed_rows(over)] == ["full film", "full film"]
 
 
-def test_a_verdict_without_a_colon_keeps_its_words():
-    found = judged(Verdict("grey", "No verdict: the numbers must not be used. The film is thin."))
-    assert (found.lead, found.reasons) == ("No verdict", ("The film is thin.",))
-
-
 @pytest.mark.slow
 def test_solved_contacts_are_the_result_of_the_command(tmp_path):
     # Line contacts of rollers are solved faster than those of balls.
@@ -456,8 +451,9 @@ def test_the_margin_decides_with_its_interval(quick, whole, summary):
     low, high = map(ratio_text, gauge.interval)
     assert whole.deciding.facts[0][1] == f"{low} to {high}"
     assert f"{low} to {high}" in gauge.label
-    said = [one for one in whole.judged.reasons if one.startswith(whole.deciding.said)]
-    assert [f"{low} to {high}" in one for one in said] == [True]
+    left = whole.verdict.sentences(whole.deciding.said)
+    assert sum(f"{low} to {high}" in one for one in whole.verdict.sentences()) == 1
+    assert not any(f"{low} to {high}" in one for one in left)
     assert whole.deciding.figure in whole.figures
 
 
@@ -478,6 +474,6 @@ def test_curves_come_before_the_probability():
     assert (whole.over_speed, whole.whole) == (True, True)
     assert before.figures.keys() == whole.figures.keys() > {"breakdown", "capacitance"}
     assert before.effects.rows == whole.effects.rows
-    assert PROBABILITY_FOLLOWS in before.judged.reasons
-    assert not any("probability of breakdown is" in one for one in before.judged.reasons)
-    assert any("probability of breakdown is" in one for one in whole.judged.reasons)
+    assert "probability-follows" in [one.code for one in before.verdict.reasons]
+    assert not any("probability of breakdown is" in one for one in before.verdict.sentences())
+    assert any("probability of breakdown is" in one for one in whole.verdict.sentences())

@@ -10,7 +10,7 @@ import pytest
 from ehlectric import BearingCase, solve
 from ehlectric.app.answers import Effect, Film, Result, effects, in_both, input_rows, only_in
 from ehlectric.app.charts import compare_charts as figures
-from ehlectric.app.compute.bearing_answers import judged
+from ehlectric.app.compute.bearing_answers import meaning_of
 from ehlectric.app.compute.compare_answers import side, whole_side
 from ehlectric.app.compute.contact_answers import by_formula, contact_case
 from ehlectric.app.page_inputs import Inputs
@@ -57,7 +57,7 @@ def test_results_are_those_of_the_package(both, solved):
         assert found[name].value == summary[key]
         assert found[name].main
     whole = whole_side(FAST.table)
-    assert whole.judged == judged(solved.verdict)
+    assert (whole.verdict, whole.meaning) == (solved.verdict, meaning_of(solved.verdict))
     assert whole.number.key == whole.deciding.key == "bearing.margin"
     assert float(whole.number.text) == pytest.approx(summary["margin"], rel=1e-3)
     assert {told.text for told in whole.warnings} == {warning.text for warning in solved.warnings}
@@ -156,7 +156,7 @@ def test_contacts_are_compared_by_formula():
     assert found["minimum film (Pan-Hamrock)"].change == pytest.approx(100.0 * (2.0**0.694 - 1.0), rel=1e-3)
     alone = by_formula(contact_case(case.table))
     both = side(case.table)
-    assert (both.judged, both.deciding) == (alone.judged, alone.deciding)
+    assert (both.verdict, both.deciding) == (alone.verdict, alone.deciding)
     assert both.number.text == alone.number(alone.deciding.key).text
     broken = {row.name: row for row in both.results}["breakdown voltage by formula"]
     assert broken.main

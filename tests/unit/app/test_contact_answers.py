@@ -25,7 +25,6 @@ from ehlectric.app.pages.frame import contact_start
 from ehlectric.contact.solver import solve
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.units import to_si
-from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import read_case, run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
@@ -66,8 +65,7 @@ def solved_at_once(table, folder):
 
 def words(answer):
     """All sentences of a verdict."""
-    judged = answer.judged
-    return " ".join([judged.lead, judged.meaning, judged.numbers, *judged.reasons, judged.assumptions])
+    return " ".join([answer.verdict.heading, answer.meaning, answer.verdict.rest()])
 
 
 @pytest.mark.slow
@@ -91,7 +89,7 @@ def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
 def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
     # examples/discharge.toml: margin 1.03, which 40 % of film and 20 % of strength take across 1.
     answer = check_contact(table_of("discharge"), str(tmp_path))
-    assert answer.judged.level == "yellow"
+    assert answer.verdict.level == "yellow"
     assert "By formula" in words(answer)
     # 40 % of the film and 20 % of the strength, either way.
     margin = float(number(answer, answer.deciding.key).text)
@@ -100,9 +98,9 @@ def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
     strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
     # Far above 1; a film by formula is an upper bound of a real one, and the light says so.
     answer = check_contact(strong, str(tmp_path))
-    assert (answer.judged.level, "ideal film" in answer.judged.lead) == ("green", True)
+    assert (answer.verdict.level, "ideal film" in answer.verdict.heading) == ("green", True)
     weak = table_of("discharge", discharge={"dielectric_strength": "3 V/um"})
-    assert check_contact(weak, str(tmp_path)).judged.level == "red"
+    assert check_contact(weak, str(tmp_path)).verdict.level == "red"
 
 
 @pytest.mark.slow
@@ -150,17 +148,15 @@ def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(
     assert number(view, "discharge.breakdown_voltage").bound == "≤"
     solve_contact(strong, str(tmp_path), str(tmp_path / "result"), silent)
     verdict = load(tmp_path / "result").verdict
-    light = light_of(verdict.level, verdict.text)
-    judged = view.judged
-    assert (judged.level, judged.bound, judged.lead) == ("green", "upper bound", light.words)
-    assert "ideal film" in judged.lead
-    assert f"{judged.numbers} {judged.assumptions}" == light.rest
+    assert view.verdict == verdict
+    assert (verdict.level, verdict.beside) == ("green", "upper bound")
+    assert "ideal film" in verdict.heading
 
 
 def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
     answer = check_contact(table_of("discharge"), str(tmp_path))
     assert number(answer, "breakdown_by_formula.breakdown_voltage").bound == "≤"
-    assert "Upper bound" in answer.judged.assumptions
+    assert "Upper bound" in answer.verdict.assumed
 
 
 @pytest.mark.parametrize(
@@ -176,7 +172,7 @@ def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
 def test_missing_verdict_by_formula_says_why(discharge, told, tmp_path):
     table = table_of("ball_contact") | ({} if discharge is None else {"discharge": discharge})
     answer = check_contact(table, str(tmp_path))
-    assert (answer.judged.level, told in words(answer)) == ("grey", True)
+    assert (answer.verdict.level, told in words(answer)) == ("grey", True)
 
 
 def test_contact_without_a_strength_is_told_to_give_one(tmp_path):
@@ -196,7 +192,7 @@ def solved_coarsely(tmp_path):
 
 def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     view = solved_coarsely(tmp_path)
-    assert (view.judged.level, "must not be used" in words(view)) == ("grey", True)
+    assert (view.verdict.level, "must not be used" in words(view)) == ("grey", True)
     # The dry contact knows nothing of the film.
     shown = [one for one in view.shown if not one.key.startswith("hertz.")]
     assert len(shown) == 7
@@ -229,7 +225,7 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
         inputs = contact_start(geometry)
     view = solved_at_once(dict(inputs.table), str(tmp_path))
     assert [one.code for one in view.warnings if one.severity != "note"] == []
-    assert view.judged.level != "grey"
+    assert view.verdict.level != "grey"
 
 
 def touching_case(geometry, **tables):
@@ -352,7 +348,7 @@ def test_film_that_did_not_converge_has_no_numbers():
     result = solve(case)
     bad = replace(result, film=replace(result.film, status="stalled"))
     view = answer_of(bad)
-    assert (view.converged, view.judged.level, view.shown, view.cuts) == (False, "grey", (), {})
+    assert (view.converged, view.verdict.level, view.shown, view.cuts) == (False, "grey", (), {})
     assert "do not use" in words(view).lower()
     assert view.lines[0].alarm
 

@@ -191,12 +191,12 @@ def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
         summary[other]["events_per_second"], rel=5e-3
     )
     assert number(interval) == pytest.approx(summary[worse]["events_per_second_low"], rel=5e-3)
-    assert (answer.deciding.key, answer.deciding.said) == (rate.key, (answer.judged.numbers,))
+    assert (answer.deciding.key, answer.deciding.said) == (rate.key, ("rates",))
     assert number(answer.number("end.peak_voltage").text) == pytest.approx(one["peak_voltage"], rel=5e-3)
     assert number(answer.number("end.energy_mean").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
-    assert answer.judged.level == "red"
-    assert f"{readable(one['events_per_second'])} a second" in answer.judged.numbers
-    assert "is an input that is seldom measured" in answer.judged.assumptions
+    assert answer.verdict.level == "red"
+    assert f"{readable(one['events_per_second'])} a second" in answer.verdict.numbers
+    assert "is an input that is seldom measured" in answer.verdict.assumed
     parts = [done for done, of, _ in told if of]
     assert parts == sorted(parts)
     assert parts[-1] == 100
@@ -258,9 +258,9 @@ def test_without_discharges_there_are_no_distributions(tmp_path):
     calm = SHORT.changed({"source.dc_link": "20 V", "remedies": None} | isothermal)
     answer = simulate(dict(calm.table), tmp_path, tmp_path / "out", lambda *_: None)
     heads = ("No discharge expected in an ideal film", "Discharges possible even in an ideal film")
-    assert answer.judged.lead in heads
-    assert "None in 2 ms" in answer.judged.numbers
-    assert answer.judged.bound == "upper bound"
+    assert answer.verdict.heading in heads
+    assert "None in 2 ms" in answer.verdict.numbers
+    assert answer.verdict.beside == "upper bound"
     assert list(answer.figures) == ["voltages", "histogram", "spectrum"]
     assert not answer.number("end.energy_mean").known
 
@@ -334,7 +334,7 @@ def test_ceramic_elements_have_their_voltage_in_the_drive_and_no_card_without_a_
     number = answer.number(answer.deciding.key)
     assert (number.text, number.bound) == (f"{280.0 * 50.0 / (550.0 + 2.0 * 45.0):.3g}", "")
     assert all(one.known for one in answer.shown)
-    assert "No current" in answer.judged.meaning
+    assert "No current" in answer.meaning
 
 
 def test_voltages_of_ceramic_elements_without_their_capacitance_are_lower_bounds():

@@ -8,7 +8,7 @@ from ehlectric.app.compute import sweep_answers
 from ehlectric.app.page_inputs import Inputs, Range, case_of_link, with_ranges
 from ehlectric.app.pages.frame import DRIVE
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.report.drive_report import swept_verdict
+from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.store import read_sweep
 
@@ -81,8 +81,8 @@ def test_every_offered_result_has_a_value(folder):
 def test_the_verdict_is_that_of_the_report(folder):
     view = sweep_answers.seen(folder, "drive.events_per_second", TABLE)
     verdict = swept_verdict(read_sweep(folder))
-    assert view.judged.level == verdict.level
-    assert verdict.text.startswith(view.judged.lead)
+    assert view.verdict.level == verdict.level
+    assert verdict.text.startswith(view.verdict.heading)
     assert view.number is None
 
 

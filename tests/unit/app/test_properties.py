@@ -30,7 +30,7 @@ OWN = {
     "one.key",
     "shown.name",
     "level",
-    "judged.level",
+    "verdict.level",
     "answer.contacts",
     "str(answer.whole).lower()",
     "str(answer.solved).lower()",

@@ -38,7 +38,7 @@ def now():
 @each("name", BEARING_REMEDIES)
 def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
     found = whole(name)
-    assert found["Verdict"][0] == now.judged.lead
+    assert found["Verdict"][0] == now.verdict.heading
     assert found["Margin"][0] == now.number("bearing.margin").text
     facts = dict(now.deciding.facts)
     if "Margin in 90 of 100 cases" in found:
@@ -53,7 +53,7 @@ def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
 ])  # fmt: skip
 def test_the_other_column_is_the_answer_about_the_changed_bearing(name, changes):
     other, found = whole_quick_answer(BEARING.changed(changes).table), whole(name)
-    assert found["Verdict"][1] == other.judged.lead
+    assert found["Verdict"][1] == other.verdict.heading
     assert found["Shaft voltage"][1] == other.number("bearing.shaft_voltage").with_unit
     numbers = {"Margin": "bearing.margin", "Voltage on a ceramic element": "bearing.element_voltage"}
     for label, key in numbers.items():

@@ -1,19 +1,22 @@
-"""Verdicts on the terminal: in colour there, and one plain line for everybody else."""
+"""Verdicts on the terminal: in colour there, and plain lines, which do not wrap, for everybody else."""
 
 from rich.console import Console
 
 from ehlectric.commands.terminal import print_verdict
+from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.tables.bearing_tables import input_range
 from tests.helpers.each import each
 
-TEXT = "No breakdown expected: " + "words " * 30 + "end."
+# A verdict whose one line is longer than a terminal is wide.
+REASON = Statement.of("neglected", reason="words " * 30 + "end")
+TEXT = "No breakdown expected\n  but          Words " + "words " * 29 + "end.\n"
 
 
 @each("level", ["green", "yellow", "red", "grey"])
-def test_a_file_gets_one_line_without_colours(capsys, level):
-    print_verdict(Verdict(level, TEXT))
-    assert capsys.readouterr().out == TEXT + "\n"
+def test_a_file_gets_lines_without_colours(capsys, level):
+    print_verdict(Verdict(level, "breakdown-excluded", reasons=(REASON,)))
+    assert capsys.readouterr().out == TEXT
 
 
 @each(("level", "code"), [("green", "32"), ("yellow", "33"), ("red", "31"), ("grey", "1")])
@@ -26,10 +29,11 @@ def test_a_terminal_gets_the_colour_of_the_level(monkeypatch, level, code):
             "rich.console.Console",
             lambda **options: Console(**options, force_terminal=True, color_system="standard", _environ={}),
         )
-        print_verdict(Verdict(level, TEXT))
-    (out,) = said
-    assert code in out.partition("m")[0].partition("[")[2].split(";")
-    assert "end." in out
+        print_verdict(Verdict(level, "breakdown-excluded", reasons=(REASON,)))
+    heading, lines = said
+    assert code in heading.partition("m")[0].partition("[")[2].split(";")
+    assert "end." in lines
+    assert lines.count("\n") > 2
 
 
 def test_nothing_is_printed_without_a_verdict(capsys):

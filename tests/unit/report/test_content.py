@@ -11,10 +11,11 @@ from ehlectric.errors import InputError
 from ehlectric.figures import figure_names
 from ehlectric.figures.figure_names import in_formats
 from ehlectric.quantities.rows import Row
+from ehlectric.quantities.statement import Statement
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.report.background import inputs_of, material_sources, source_section, worded
 from ehlectric.report.build import report_of
-from ehlectric.report.light import Light, light_of
-from ehlectric.report.report_content import Numbers, Picture, Table, Text, Warnings
+from ehlectric.report.report_content import Light, Numbers, Picture, Table, Text, Warnings
 from ehlectric.report.report_facts import caption_of, row_tables
 from ehlectric.report.report_texts import (
     LIMITS,
@@ -112,46 +113,42 @@ def test_the_light_has_the_level_of_the_verdict_and_never_hides_an_upper_bound(r
     assert "ideal film" in light.words
 
 
+def swept(level, code, word, below, known):
+    counts = {"word": word, "below": below, "known": known, "low": 0.5, "high": 2.0}
+    return Verdict(level, code, Statement.of("points-margins", **counts))
+
+
 @each(
-    "level, text, words, bound",
+    "verdict, words, bound",
     [
-        ("green", "No breakdown expected: margin 9.", "No breakdown expected", ""),
+        (Verdict("green", "breakdown-excluded"), "No breakdown expected", ""),
         (
-            "green",
-            "No breakdown expected: margin 9. Upper bound: smooth film.",
+            Verdict("green", "breakdown-excluded", bound="upper"),
             "No breakdown expected in an ideal film",
             "upper bound",
         ),
         (
-            "yellow",
-            "Breakdown likely: margin 0.9. Upper bound: smooth film.",
+            Verdict("yellow", "breakdown-likely", bound="upper"),
             "Breakdown likely even in an ideal film",
             "upper bound",
         ),
         (
-            "grey",
-            "No verdict: first breakdown at 5 V. Upper bound: smooth film.",
+            Verdict("grey", "none", bound="upper"),
             "No verdict; the breakdown voltage is an upper bound",
             "upper bound",
         ),
-        # Sweeps.
-        (
-            "yellow",
-            "Breakdown is expected at 4 of 8 points: margin 1.",
-            "Breakdown expected at some points",
-            "",
-        ),
-        ("yellow", "Breakdown is likely at 5 of 6 points: margin 1.", "Breakdown likely at some points", ""),
-        ("yellow", "Breakdown is expected at none of 8 points: margin 2.", "Breakdown possible", ""),
-        ("red", "Breakdown is expected at 8 of 8 points: margin 0.5.", "Breakdown expected", ""),
-        ("green", "Breakdown is expected at none of 9 points: margin 2.", "No breakdown expected", ""),
+        (swept("yellow", "points-some", "expected", 4, 8), "Breakdown expected at some points", ""),
+        (swept("yellow", "points-some-likely", "likely", 5, 6), "Breakdown likely at some points", ""),
+        (swept("yellow", "points-none-possible", "expected", 0, 8), "Breakdown possible", ""),
+        (swept("red", "points-all", "expected", 8, 8), "Breakdown expected", ""),
+        (swept("green", "points-none", "expected", 0, 9), "No breakdown expected", ""),
         # A shaft voltage that is an upper bound makes the margin a lower one.
-        ("red", "Breakdown expected: margin 0.5. Its voltage is an upper bound.", "Breakdown expected", ""),
+        (Verdict("red", "breakdown-expected", bound="best"), "Breakdown expected", ""),
     ],
 )
-def test_the_heading_of_a_light_is_that_of_its_verdict(level, text, words, bound):
-    light = light_of(level, text)
-    assert (light.level, light.words, light.bound) == (level, words, bound)
+def test_the_heading_of_a_light_is_the_heading_of_its_verdict(verdict, words, bound):
+    light = Light.of(verdict, reasons=1)
+    assert (light.level, light.words, light.bound) == (verdict.level, words, bound)
 
 
 def test_bounds_are_marked_and_other_numbers_are_not():

@@ -20,9 +20,8 @@ from ehlectric.readable import ratio_text
 from ehlectric.report.background import named
 from ehlectric.report.build import report_of
 from ehlectric.report.first_page import life_texts
-from ehlectric.report.light import Light
 from ehlectric.report.pdf import first_page, pdf_of
-from ehlectric.report.report_content import Numbers, Picture, Table, Text
+from ehlectric.report.report_content import Light, Numbers, Picture, Table, Text
 from ehlectric.report.written_report import html_of
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.bearing_tables import input_range

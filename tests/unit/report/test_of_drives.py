@@ -17,11 +17,9 @@ from ehlectric.report.drive_report import (
     deciding_blocks,
     drive_part,
     event_blocks,
-    swept_verdict,
 )
-from ehlectric.report.light import Light, light_of
 from ehlectric.report.pdf import pdf_of
-from ehlectric.report.report_content import Picture, Table, Text
+from ehlectric.report.report_content import Light, Picture, Table, Text
 from ehlectric.report.report_facts import density_tables
 from ehlectric.report.report_texts import (
     DRIVE_LIMITS,
@@ -31,6 +29,7 @@ from ehlectric.report.report_texts import (
     references_of,
 )
 from ehlectric.report.written_report import html_of
+from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from tests.helpers.drives import drive_with_remedy, small_drive
 from tests.helpers.places import ROOT
 from tests.helpers.readable import number_in
@@ -351,7 +350,7 @@ def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
 def test_verdict_on_a_sweep_from_its_points(swept):
     results, _ = swept
     red = swept_verdict(results)
-    assert light_of(red.level, red.text).words.startswith("Discharges")
+    assert red.heading.startswith("Discharges")
     point = results.points[0]
     ring = solve_drive(small_drive(**{"circuit.grounding_ring_resistance": 1e-3}), workers=1).summary()
     quiet = json.loads(json.dumps(ring))
@@ -366,7 +365,7 @@ def test_verdict_on_a_sweep_from_its_points(swept):
     assert "expected at 1 of 2 points" in judged(quiet, point.summary).text
     lost = judged(quiet, None)
     assert (lost.level, "1 more point is not solved" in lost.text) == ("yellow", True)
-    assert light_of("green", judged(quiet).text).words == "No discharge at any point"
+    assert judged(quiet).heading == "No discharge at any point"
 
 
 def test_other_cases_have_no_key_that_a_drive_replaces(drive):

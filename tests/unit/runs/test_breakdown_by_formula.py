@@ -32,4 +32,4 @@ def test_an_oil_that_pressure_does_not_thicken_has_none(make, keys):
     oil = {"base": "paper", "viscosity_law": "constant"}
     case = make(**keys, lubricant=oil, discharge=STRENGTH)
     assert "breakdown_by_formula" not in check(case).summary
-    assert by_formula(case).judged.level == "grey"
+    assert by_formula(case).verdict.level == "grey"

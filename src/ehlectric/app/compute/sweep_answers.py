@@ -126,6 +126,7 @@ def meaning_of(verdict: Verdict) -> str:
 
     Examples
     --------
+    >>> from ehlectric.quantities.statement import Statement
     >>> counts = Statement.of("points-margins", word="likely", below=3, known=8, low=0.5, high=2.0)
     >>> meaning_of(Verdict("yellow", "points-some-likely", counts))
     'Breakdown is likely at 3 of 8 points.'

@@ -7,13 +7,13 @@ import re
 import pytest
 
 from ehlectric import load
+from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.input_changes import OF_TABLE
 from ehlectric.bearing.margin import (
     Effect,
     MarginAnalysis,
     QuickMargins,
     SpeedRange,
-    bearing_verdict,
     speed_range,
 )
 from ehlectric.bearing.result import solve_bearing

@@ -7,6 +7,7 @@ from ehlectric import BearingCase, solve_bearing
 from ehlectric.app.compute.bearing_answers import deciding, whole_quick_answer
 from ehlectric.bearing.input_changes import changes_of
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
+from ehlectric.quantities.verdict import Verdict
 from ehlectric.report.report_facts import part_of
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.each import each
@@ -115,7 +116,7 @@ def test_verdict_table_and_page_state_the_bounds(result):
 )
 def test_the_level_follows_the_bounds(broken, whole, failed, level, lead):
     chance = Chance.of(np.repeat([0.5, 2.0], [broken, whole]), failed)
-    assert (chance.level, chance.lead) == (level, lead)
+    assert (chance.level, Verdict(chance.level, chance.code).lead) == (level, lead)
     low, high = chance.bounds
     assert (low, high) == pytest.approx((broken / 100.0, (broken + failed) / 100.0))
 

@@ -7,12 +7,12 @@ import re
 import pytest
 
 from ehlectric import BearingCase, solve_bearing
-from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, bearing_verdict
+from ehlectric.bearing.bearing_verdict import bearing_verdict
+from ehlectric.bearing.margin import MarginAnalysis, QuickMargins
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import has_chance, uncertainty_of
 from ehlectric.errors import InputError
 from ehlectric.readable import chance_text
-from ehlectric.report.light import light_of
 from ehlectric.runtime.files import plain
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.places import EXAMPLES
@@ -101,7 +101,7 @@ def check(table, samples=64):
     rows = {row.key: row for row in total_rows(summary) if row.key}
     check_texts(verdict, rows.values(), summary)
     check_regime(verdict, rows.get("bearing.regime"), summary)
-    assert light_of(verdict.level, verdict.text).words.startswith(verdict.lead)
+    assert verdict.heading.startswith(verdict.lead)
     if chance is None:
         assert verdict.level in ("grey", "green", "yellow")
         return True

@@ -163,7 +163,7 @@ def test_the_chance_at_once_is_near_the_whole_one(usual):
     assert at_once.probability == pytest.approx(whole.probability, abs=0.06)
     assert at_once.median == pytest.approx(whole.median, rel=0.03)
     assert whole.low <= at_once.low < at_once.high <= whole.high
-    assert "follows" in at_once.sentence
+    assert [one.code for one in at_once.statements()] == ["probability-follows"]
 
 
 @pytest.mark.slow

@@ -4,7 +4,8 @@ import dataclasses
 
 import pytest
 
-from ehlectric.bearing.margin import MarginAnalysis, SpeedRange, bearing_verdict
+from ehlectric.bearing.bearing_verdict import bearing_verdict
+from ehlectric.bearing.margin import MarginAnalysis, SpeedRange
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio

@@ -15,7 +15,6 @@ from ehlectric.figures.contact_findings import finding
 from ehlectric.figures.result_figures import figure, figure_names
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import CONTACT_KEYS
-from ehlectric.report.light import light_of
 from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import LINE, POINT, solved
@@ -204,7 +203,7 @@ def test_verdict_speaks_of_the_spots():
     assert f"The contact is {found.electrical.behaviour}" in verdict.text
     # The heading of the traffic light says the same.
     lead = {"resistive": "The spots conduct", "mixed": "Discharges expected"}[found.electrical.behaviour]
-    assert light_of(verdict.level, verdict.text).words == lead
+    assert verdict.heading == lead
     rows = {row.key: row for row in result_rows(result)}
     assert "discharge.breakdown_voltage" not in rows
     assert rows["asperities.breakdown_5"].value == found.electrical.breakdown_5
