@@ -242,7 +242,7 @@ def whole_summary(
         "title": solution.case.title,
         "converged": solution.converged,
         **texts_and_codes(warnings),
-        "verdict": verdict.text,
+        **verdict.as_data(),
         "level": verdict.level,
         "inputs": solution.case.all_inputs(),
         **tables,

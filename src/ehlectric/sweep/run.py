@@ -141,7 +141,7 @@ def run(
     failure = None if "solved" in summary else f"none of {len(results.points)} points was solved"
     verdict = sweep_verdict(results)
     if verdict is not None:
-        summary["verdict"] = verdict.text
+        summary |= verdict.as_data()
     return RunOutcome(results, summary, files, tuple(sweep_warnings(results)), failure)
 
 
