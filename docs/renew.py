@@ -121,9 +121,9 @@ def renewed(page: str, printed: Mapping[str, str]) -> str:
 def _block(block: str, printed: str) -> str:
     """Block with the rows that it has, and its verdict, as the output has them."""
     lines, known, at = block.splitlines(), _rows(printed), 0
-    first = next((k for k, line in enumerate(lines) if re.match(r"\w+.*: ", line)), len(lines))
+    rows, verdict = _split(lines)
     made = []
-    for line in lines[:first]:
+    for line in rows:
         row = _ROW.fullmatch(line)
         label = row[2] if row else line.strip()
         # A label that stands in several tables is that of the table whose heading came last.
@@ -133,10 +133,23 @@ def _block(block: str, printed: str) -> str:
         if row is None:
             at = place
         made.append(line[: row.end(3)] + known[place][1] if row else line)
-    if first < len(lines):
-        verdict, width = printed.strip().splitlines()[-1], max(map(len, lines[first:]))
-        made += [verdict] if first == len(lines) - 1 else textwrap.wrap(verdict, width)
+    if verdict:
+        _, new = _split(printed.rstrip().splitlines())
+        width = max(_WIDTH, *map(len, rows), 0)
+        made += [part for line in new for part in textwrap.wrap(line, width, subsequent_indent=_INDENT)]
     return "".join(f"{line}\n" for line in made)
+
+
+# Width of the lines of a verdict, and the indent of what follows their first lines, below the texts.
+_WIDTH, _INDENT = 100, " " * 15
+
+
+def _split(lines: list[str]) -> tuple[list[str], list[str]]:
+    """Lines of a table, and of the verdict at its end: a heading, and labels with two spaces before them."""
+    for place in reversed(range(len(lines) - 1)):
+        if lines[place][:1].strip() and re.match(r"  \w", lines[place + 1]):
+            return lines[:place], lines[place:]
+    return lines, []
 
 
 def _rows(printed: str) -> list[tuple[str, str]]:
