@@ -125,11 +125,13 @@ PRINTED = """
    critical speed       7470 rpm
  other voltages
    shaft voltage        5 V
-Breakdown likely: below about 7470 rpm (margin 0.57).
+Breakdown likely
+  voltages     shaft 4.1 V, margin 0.57
+  speed        below about 7470 rpm
 """
 
 
-PAGE = """It is <!--one: critical speed-->{speed}<!--/-->, margin <!--one: (margin-->{margin}<!--/-->.
+PAGE = """It is <!--one: critical speed-->{speed}<!--/-->, margin <!--one: V, margin-->{margin}<!--/-->.
 
 <!--one-->
 
@@ -137,7 +139,9 @@ PAGE = """It is <!--one: critical speed-->{speed}<!--/-->, margin <!--one: (marg
    shaft voltage     {volts}
  other voltages
    shaft voltage     {others}
-Breakdown likely: below about {speed} (margin {margin}).
+Breakdown likely
+  voltages     {shaft}margin {margin}
+  speed        below about {speed}
 ```
 
 <!--two-->
@@ -149,9 +153,11 @@ Breakdown likely: below about {speed} (margin {margin}).
 
 
 def test_blocks_and_numbers_of_a_page_are_those_of_the_output():
-    page = PAGE.format(speed="7430 rpm", margin="0.5", volts="4 V, by", others="4 V")
+    page = PAGE.format(speed="7430 rpm", margin="0.5", volts="4 V, by", others="4 V", shaft="")
     assert runs_of(page) == {"one", "two"}
-    expected = PAGE.format(speed="7470 rpm", margin="0.57", volts="4.1 V, by the divider", others="5 V")
+    expected = PAGE.format(
+        speed="7470 rpm", margin="0.57", volts="4.1 V, by the divider", others="5 V", shaft="shaft 4.1 V, "
+    )
     assert renewed(page, {"one": PRINTED}) == expected
     with pytest.raises(LookupError, match="unknown"):
         renewed("<!--one: unknown-->4 V<!--/-->", {"one": PRINTED})

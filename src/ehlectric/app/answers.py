@@ -259,7 +259,7 @@ class SweepView:
 
     counts: Mapping[str, int]  # number of points by state
     verdict: Verdict
-    meaning: str  # what the verdict means, in plain words; empty where its heading says so
+    meaning: str  # what the verdict means, in plain words; empty where its heading states it
     deciding: Deciding
     number: Number | None  # lowest margin; None where no point has one
     chart: Chart  # what the map shows

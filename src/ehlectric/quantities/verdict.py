@@ -93,8 +93,8 @@ class Verdict:
         return heading(self.code, self.answer, self.level, self.bound)
 
     @property
-    def beside(self) -> str:
-        """Words beside the heading of a verdict on an upper bound; empty otherwise."""
+    def bound_note(self) -> str:
+        """Words after the heading of a verdict on an upper bound; empty otherwise."""
         return bound_words(self.bound)
 
     @property

@@ -117,8 +117,8 @@ def heading(code: str, answer: Statement | None, level: Level, bound: Bound) -> 
 
 
 def bound_words(bound: Bound) -> str:
-    """Words beside the heading of a verdict; empty unless it is on an upper bound."""
-    return str(_texts()["beside"].get(bound, ""))
+    """Words after the heading of a verdict; empty unless it is on an upper bound."""
+    return str(_texts()["after_heading"].get(bound, ""))
 
 
 def assumed_text(assumptions: Iterable[Statement], bound: Bound, at: str, form: str = "text") -> str:

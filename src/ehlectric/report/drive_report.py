@@ -186,7 +186,7 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
 def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
     """Heading of the verdict on a drive."""
     verdict = drive_verdict(result.case, summary, result.warnings)
-    bound = verdict.beside
+    bound = verdict.bound_note
     return f"{verdict.heading} ({bound})" if bound else verdict.heading
 
 

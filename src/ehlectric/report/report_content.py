@@ -118,7 +118,7 @@ class Light:
     # Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
     words: str
     text: str  # sentences after the heading
-    bound: str = ""  # "upper bound" for a verdict on one, beside the heading; empty otherwise
+    bound: str = ""  # "upper bound" for a verdict on one, after the heading; empty otherwise
 
     @classmethod
     def of(cls, verdict: Verdict, reasons: int) -> Light:
@@ -130,7 +130,7 @@ class Light:
         'No breakdown expected in an ideal film'
         """
         text = with_units_kept(verdict.rest(reasons))
-        return cls(verdict.level, verdict.heading, text, verdict.beside)
+        return cls(verdict.level, verdict.heading, text, verdict.bound_note)
 
 
 Block: TypeAlias = Text | Table | Picture | Warnings | Light | Numbers

@@ -97,7 +97,7 @@ def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
         one.code for one in (verdict.answer, *verdict.reasons, *verdict.assumptions)
     ]
     lead, _, film = verdict.heading.partition(" even in ")
-    assert ("ideal film" in film, verdict.beside) == (True, "upper bound")
+    assert ("ideal film" in film, verdict.bound_note) == (True, "upper bound")
     sentences = [f"{lead}: ", verdict.numbers, *verdict.sentences(), verdict.assumed]
     assert "".join(sentences).replace(" ", "").lower() == whole.text.replace(" ", "").lower()
 
@@ -126,7 +126,7 @@ def test_the_best_estimate_has_no_bounds(quick):
     """Films of the example with heat in the inlet: thinner than the isothermal ones, and no upper bounds."""
     best = quick_answer(tomllib.loads(example_text("bearing_6208")))
     assert {number.bound for number in best.shown} == {""}
-    assert (best.verdict.beside, best.verdict.assumed[:14]) == ("", "Best estimate:")
+    assert (best.verdict.bound_note, best.verdict.assumed[:14]) == ("", "Best estimate:")
     assert "ideal" not in best.verdict.heading
     assert best.numbers["inlet_shear_factor"] == best.numbers["film_factor"]
     # The smooth film breaks down in proportion to its thickness, and the rough one under its highest summits.

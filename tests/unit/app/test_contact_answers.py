@@ -149,7 +149,7 @@ def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(
     solve_contact(strong, str(tmp_path), str(tmp_path / "result"), silent)
     verdict = load(tmp_path / "result").verdict
     assert view.verdict == verdict
-    assert (verdict.level, verdict.beside) == ("green", "upper bound")
+    assert (verdict.level, verdict.bound_note) == ("green", "upper bound")
     assert "ideal film" in verdict.heading
 
 

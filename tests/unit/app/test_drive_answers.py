@@ -260,7 +260,7 @@ def test_without_discharges_there_are_no_distributions(tmp_path):
     heads = ("No discharge expected in an ideal film", "Discharges possible even in an ideal film")
     assert answer.verdict.heading in heads
     assert "None in 2 ms" in answer.verdict.numbers
-    assert answer.verdict.beside == "upper bound"
+    assert answer.verdict.bound_note == "upper bound"
     assert list(answer.figures) == ["voltages", "histogram", "spectrum"]
     assert not answer.number("end.energy_mean").known
 

@@ -226,7 +226,7 @@ def deciding_by_formula(case: Case, verdict: Verdict) -> str:
     return f"film_formulas.{BREAKDOWN_FORMULAS[case.contact.geometry]}.minimum_thickness"
 
 
-# Codes of statements and of a warning that say no more than the margin beside its voltages.
+# Codes of statements and of a warning that say no more than the margin with its voltages.
 _SAID = ("contact-voltages", "formula-voltages", "breakdown-expected")
 
 

@@ -182,7 +182,7 @@ class AnswerPage(Generic[A]):
         named = [one for one in answer.shown if one.key in self.short and one.known]
         texts = [f"{self.short[one.key] or one.name} {one.with_unit}" for one in named]
         verdict = answer.verdict
-        self._strip.show(verdict.level, verdict.heading, texts, bound=verdict.beside)
+        self._strip.show(verdict.level, verdict.heading, texts, bound=verdict.bound_note)
 
     def _dim(self, *, dimmed: bool) -> None:
         self.view.dim(dimmed=dimmed)

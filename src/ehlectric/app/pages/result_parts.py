@@ -133,7 +133,7 @@ class VerdictBox:
         """
         self._box.classes(replace=f"verdict {verdict.level}").props(f'data-level="{verdict.level}"')
         self._lead.text, self._meaning.text = verdict.heading, meaning
-        say(self._bound, verdict.beside)
+        say(self._bound, verdict.bound_note)
         stated = verdict.answer is None or verdict.answer.code in said
         reasons = (*([] if stated else [verdict.numbers]), *verdict.sentences(said))
         kept = () if whole else self._last[len(reasons) :]
