@@ -307,7 +307,10 @@ _OF_RESULTS = ("status", "warnings", "warning_codes", "title")
 def _codes(table: Mapping[str, Any]) -> set[str]:
     codes = table["warning_codes"]
     names = codes.split("; ") if isinstance(codes, str) else codes
-    return {name for name in names if name and not name.startswith(("duty", "columns", "probability"))}
+    texts = table["warnings"] if isinstance(table["warnings"], list) else [""] * len(names)
+    # The rating life of a duty cycle has the code of a rating life.
+    of_points = [name for name, text in zip(names, texts, strict=True) if "duty cycle" not in text]
+    return {name for name in of_points if name and not name.startswith(("duty", "columns", "probability"))}
 
 
 def _alike(first: Any, second: Any) -> bool:
