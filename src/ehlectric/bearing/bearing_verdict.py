@@ -362,7 +362,10 @@ def _assumptions(solution: BearingSolution) -> tuple[Statement, ...]:
     case = solution.case
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = strength_clause(case.discharge, stated.get("discharge.dielectric_strength"))
-    return (_films(solution), clause, *equal_bearings(case))
+    rough: tuple[Statement, ...] = ()
+    if not {"bearing.composite_rq", "bearing.composite_ra"} & stated.keys():
+        rough = (Statement.of("exact-roughness", rq=case.bearing.composite_rq),)
+    return (_films(solution), clause, *rough, *equal_bearings(case))
 
 
 def _films(solution: BearingSolution) -> Statement:

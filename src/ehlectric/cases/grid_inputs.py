@@ -40,6 +40,12 @@ class Electric(Table, book="electric"):
         """Voltage between the surfaces [V], above 0."""
         return abs(self.potential_2 - self.potential_1)
 
+    @property
+    def default(self) -> bool:
+        """Whether both potentials are the defaults."""
+        fields = type(self).model_fields
+        return all(getattr(self, name) == fields[name].default for name in ("potential_1", "potential_2"))
+
 
 # Largest polynomial degree across the film: it resolves waves down to a fortieth of the film thickness.
 MOST_DEGREE = 40

@@ -32,6 +32,7 @@ def film(
     load: str | None = None,
     speed: str | None = None,
     composite_rq: str | None = None,
+    composite_ra: str | None = None,
     as_json: bool = False,
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
@@ -42,7 +43,7 @@ def film(
     given = {
         "m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed,
         "radius": radius, "radius_across": radius_across, "modulus": modulus,
-        "composite_rq": composite_rq,
+        "composite_rq": composite_rq, "composite_ra": composite_ra,
     }  # fmt: skip
     with user_errors():
         from ehlectric.runs.lookups import film_of, film_summary

@@ -187,6 +187,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             field_error=self.field.strength_error,
             flooded=self.conditions.film_factor == 1.0 and self.film.starvation is None,
             isothermal=self.film.temperature is None,
+            default_voltage=self.case.electric.default,
         )
 
     @read_only_property

@@ -37,7 +37,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "status": film.status,
         **texts_and_codes(solution.warnings),
         **({} if solution.verdict is None else solution.verdict.as_data()),
-        **_known_before(solution.case, conditions),
+        **_on_solved_domain(_known_before(solution.case, conditions), solution),
         "film": _film(solution) | kind.film_summary(solution),
         "field": _field(solution),
         "film_formulas": {name: vars(thickness) for name, thickness in formulas_of(conditions).items()},
@@ -91,6 +91,22 @@ def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "max_strength_error": field.strength_error,
         "degree": field.s.size - 1,
     }
+
+
+# Digits of the ends of a domain, which are chosen with fewer; positions of nodes are rounded.
+_DIGITS_OF_ENDS = 9
+
+
+def _on_solved_domain(tables: dict[str, Any], solution: Solution[Any, Any, Any]) -> dict[str, Any]:
+    """Tables with the domain on which the film was solved, where the solver chose it."""
+    if not solution.case.grid.default_domain:
+        return tables
+    film, (along, *across) = solution.film, solution.conditions.semi_axes
+    ends = {"inlet": film.x[0] / along, "outlet": film.x[-1] / along}
+    if across:
+        ends["side"] = film.y[-1] / across[0]
+    solved = {name: float(f"{end:.{_DIGITS_OF_ENDS}g}") for name, end in ends.items()}
+    return {**tables, "inputs": {**tables["inputs"], "grid": {**tables["inputs"]["grid"], **solved}}}
 
 
 def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:

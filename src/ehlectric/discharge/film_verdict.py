@@ -85,8 +85,9 @@ def contact_verdict(
     flooded: bool,
     isothermal: bool = True,
     field_error: float | None = None,
+    default_voltage: bool = False,
 ) -> Verdict:
-    """Verdict on a solved contact.
+    """Verdict on a solved contact, which states that a ``default_voltage`` was not given.
 
     ``error`` and ``field_error`` are the estimated relative errors of the film and of the largest field
     strength, None where they are not known. The verdict is grey without a dielectric strength, or where the
@@ -124,7 +125,11 @@ def contact_verdict(
         Statement.of("contact-voltages", voltage=voltage, breakdown=at, margin=margin, **spread),
         facts=(Fact("discharge.breakdown_voltage", at), Fact("discharge.margin", margin, interval)),
         reasons=tuple(doubts),
-        assumptions=(*ideal_films(flooded=flooded, isothermal=isothermal), strength_clause(discharge)),
+        assumptions=(
+            *ideal_films(flooded=flooded, isothermal=isothermal),
+            strength_clause(discharge),
+            *((Statement.of("default-voltage", voltage=voltage),) if default_voltage else ()),
+        ),
         bound="upper" if flooded else "",
     )
 

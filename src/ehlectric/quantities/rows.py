@@ -47,6 +47,10 @@ class Row:
     bound: Bound = field(default="", kw_only=True)
     key: str = field(default="", kw_only=True)  # dotted key of the quantity; empty for a row that shows none
 
+    def __repr__(self) -> str:
+        """Name and text as a table shows them; ``value`` is in SI units, and ``unit`` is not."""
+        return f"<Row {self.name}: {self.text}>"
+
     def __post_init__(self) -> None:
         if isinstance(self.value, int | float) and self.unit not in UNITS:
             raise ValueError(f"{self.unit!r} is no unit of a row; expected one of {', '.join(UNITS)}")

@@ -48,6 +48,7 @@ _WAYS: Mapping[str, Callable[[Any], str]] = {
     "%0": lambda share: f"{100.0 * share:.0f} %",
     "s": lambda value: amount(value, "s"),
     "Ω": lambda value: amount(value, "Ω"),
+    "µm": lambda value: f"{readable(1e6 * value)} µm",
     "V4": lambda value: amount(value, "V"),
     "V3": _three_digits("V"),
     "J3": _three_digits("J"),

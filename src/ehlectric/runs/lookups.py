@@ -127,6 +127,7 @@ def film(
     load: Value | None = None,
     speed: Value | None = None,
     composite_rq: Value | None = None,
+    composite_ra: Value | None = None,
 ) -> dict[str, Any]:
     """Interpolate the films of a smooth contact in the atlas of solved films, as ``ehlectric film`` does.
 
@@ -152,6 +153,8 @@ def film(
         Entrainment speed, mean speed of both surfaces [m/s].
     composite_rq : number, optional
         Composite root-mean-square roughness of both surfaces [m], with an oil.
+    composite_ra : number, optional
+        Composite mean roughness Ra [m] instead of ``composite_rq``: Rq = 1.2533 Ra, of Gaussian heights.
 
     Returns
     -------
@@ -181,7 +184,7 @@ def film(
     given = {
         "m": m, "l": l, "k": k, "oil": oil, "temperature": temperature, "load": load, "speed": speed,
         "radius": radius, "radius_across": radius_across, "modulus": modulus,
-        "composite_rq": composite_rq,
+        "composite_rq": composite_rq, "composite_ra": composite_ra,
     }  # fmt: skip
     return film_summary(film_of(given))
 
@@ -255,11 +258,23 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
         else:
             contact = LineContact(values["radius"], *common)
         found = contact_film(contact, at)
-    ratio = None
-    if "composite_rq" in given:
-        rq = _number("composite_rq", given, "m", options=options)
-        ratio = float(found.minimum_thickness) / rq
+    rq = _rq(given, options=options)
+    ratio = None if rq is None else float(found.minimum_thickness) / rq
     return LookedUp(found.groups, found.film, found, float(contact.moes_l), ratio)
+
+
+def _rq(given: Mapping[str, Any], *, options: bool) -> float | None:
+    """Composite Rq [m], given or from Ra; None without either. Raises InputError for both."""
+    from ehlectric.cases.mean_heights import rq_of
+
+    names = [name for name in ("composite_rq", "composite_ra") if name in given]
+    if not names:
+        return None
+    rq, *others = (_named(name, options=options) for name in names)
+    if others:
+        raise InputError(rq, got=f"{rq} and {others[0]} together", takes="one of them")
+    height = _number(names[0], given, "m", options=options)
+    return height if names[0] == "composite_rq" else float(rq_of(height, None))
 
 
 @contextmanager

@@ -67,7 +67,8 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
         )
     book = openpyxl.Workbook(write_only=True)
     tables = result.summary()
-    summary = flat(tables)
+    # The verdict is in sentences; the codes of its statements are for programs.
+    summary = flat({key: value for key, value in tables.items() if key != "verdict_reasons"})
     inputs = {key: value for key, value in summary.items() if key.startswith("inputs.")}
     if not inputs:
         inputs = flat({"inputs": case.plain_tables()})

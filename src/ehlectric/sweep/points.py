@@ -133,7 +133,7 @@ class SweepPoints(Values):
         """
         columns: dict[str, list[Any]] = {}
         for place, point in enumerate(self.points):
-            for key, value in flat(point.summary).items() if point.solved and point.summary else ():
+            for key, value in _numbered(point).items():
                 if key not in columns:
                     columns[key] = [None] * len(self.points)
                 columns[key][place] = value
@@ -154,6 +154,12 @@ class SweepPoints(Values):
     def doubtful(self) -> Mask:
         """Mask of the points that are solved, but have a severe warning, shape (points,)."""
         return np.array([point.doubtful for point in self.points], dtype=bool)
+
+
+def _numbered(point: Point) -> dict[str, Any]:
+    """Values of the summary of a solved point, without the statements of its verdict."""
+    summary = point.summary if point.solved and point.summary else {}
+    return flat({key: value for key, value in summary.items() if key != "verdict_reasons"})
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.rows import value_at
+from ehlectric.runtime.values import is_number
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
@@ -15,6 +17,10 @@ from ehlectric.version import __version__
 _WIDE = 0.1
 
 
+# Difference of two inlets in semi-axes up to which two domains are one: rounding.
+_SAME_INLET = 1e-6
+
+
 def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
     """Kinds of warnings and notes that solved points have, and warnings about points of other versions."""
     solved = [point for point in results.points if point.solved]
@@ -22,6 +28,14 @@ def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
     yield from _kinds(solved)
     if doubtful:
         yield ResultWarning.of("points-not-usable", doubtful=doubtful, solved=len(solved))
+    inlets = [
+        inlet
+        for point in solved
+        if is_number(inlet := value_at(point.summary or {}, "inputs.grid.inlet"))
+        and value_at(point.summary or {}, "discharge.capacitance") is not None
+    ]
+    if inlets and "grid.inlet" not in results.varied and max(inlets) - min(inlets) > _SAME_INLET:
+        yield ResultWarning.of("domains-differ", nearest=max(inlets), farthest=min(inlets))
     others = Counter(point.version for point in results.points if point.version not in ("", __version__))
     for version, count in others.items():
         yield ResultWarning.of("points-of-another-version", count=count, version=version, current=__version__)

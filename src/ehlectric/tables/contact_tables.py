@@ -322,7 +322,19 @@ def _zone_place(summary: Summary) -> str | None:
 def _beyond(summary: Summary) -> str:
     found = summary["discharge"]
     beyond = 100.0 * found["capacitance_beyond"] / found["capacitance"]
-    return f", a domain twice as large would add {readable(beyond, 2)} % if full of oil"
+    return (
+        f", over {_domain(summary)}; a domain twice as large in every direction would add "
+        f"{readable(beyond, 2)} % if full of oil"
+    )
+
+
+def _domain(summary: Summary) -> str:
+    """Domain of the film, from its inlet to its outlet and to its sides."""
+    grid = summary["inputs"]["grid"]
+    along = f"{readable(grid['inlet'])} to {readable(grid['outlet'])}".replace("-", "−")
+    if _geometry(summary) == "line":
+        return f"x = {along} half-widths"
+    return f"x = {along} and y = ±{readable(grid['side'])} semi-axes"
 
 
 def _by_outlet(summary: Summary) -> Any:

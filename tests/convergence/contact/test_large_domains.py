@@ -2,7 +2,8 @@
 
 import pytest
 
-from ehlectric import Case, load, save, solve
+from ehlectric import Case, load, run_sweep, save, solve
+from ehlectric.sweep.warnings import sweep_warnings
 
 OIL = {"base": "paper", "ambient_pressure": 0.0}
 BODIES = {"reduced_radius": "10 mm", "reduced_modulus": "226 GPa"}
@@ -130,3 +131,39 @@ def test_a_film_on_a_larger_domain_survives_the_disk(tmp_path):
         assert far(back.film) == far(result.film) < -10.0
         assert back.summary() == result.summary()
         assert back.case == case
+
+
+def test_the_summary_has_the_domain_of_the_film(tmp_path):
+    """The ends of the grid on which the film was solved, also after loading; given ends stay as given."""
+    result = solve(line(3e3, 2.0))
+    ends = [float(result.film.x[k]) / result.conditions.half_width for k in (0, -1)]
+    assert ends[0] < -4.5
+    save(result, tmp_path)
+    for summary in (result.summary(), load(tmp_path).summary()):
+        grid = summary["inputs"]["grid"]
+        assert [grid["inlet"], grid["outlet"]] == pytest.approx(ends, rel=1e-8)
+    given = solve(line(3e5, 4.0, inlet=-5.3, outlet=2.0, nodes=401)).summary()["inputs"]["grid"]
+    assert (given["inlet"], given["outlet"]) == (-5.3, 2.0)
+
+
+@pytest.mark.slow
+def test_the_summary_of_a_ball_has_the_sides_of_the_domain():
+    result = solve(ball(2.0, 2.0))
+    grid, film = result.summary()["inputs"]["grid"], result.film
+    assert grid["side"] > 3.0
+    assert grid["side"] == pytest.approx(film.y[-1] / result.conditions.semi_axes[1], rel=1e-8)
+
+
+@pytest.mark.slow
+def test_a_sweep_over_domains_of_several_sizes_has_a_note(tmp_path):
+    """Light points have larger domains, and the capacitance of the whole film grows with the domain."""
+    case = line(3e5, 4.0).replace({"discharge": {"dielectric_strength": "15 V/um"}})
+    vary = {"contact.load_per_length": [3e3, 3e5]}
+    results = run_sweep({"case": case.to_dict(), "vary": vary}, tmp_path / "own", workers=1)
+    assert [one.code for one in sweep_warnings(results)].count("domains-differ") == 1
+    inlets = results.numbers["inputs.grid.inlet"]
+    assert inlets[0] < inlets[1] < -4.0
+    assert not any(key.startswith("verdict") for key in results.numbers)
+    same = case.replace({"grid.inlet": -6.0, "grid.outlet": 2.0})
+    results = run_sweep({"case": same.to_dict(), "vary": vary}, tmp_path / "same", workers=1)
+    assert "domains-differ" not in [one.code for one in sweep_warnings(results)]

@@ -155,3 +155,18 @@ def test_a_film_that_is_no_solution_has_no_verdict():
     assert not result.converged
     assert result.verdict.level == "grey"
     assert "breakdown-expected" not in {warning.code for warning in result.warnings}
+
+
+def test_a_voltage_that_is_not_given_is_stated():
+    """The default potentials are -1 and 1 V, so that 2 V lie across the film."""
+    tables = {
+        "contact": {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 4.0}
+        | {"max_hertz_pressure": "1 GPa"},
+        "lubricant": {"base": "paper"},
+        "discharge": {"dielectric_strength": "15 V/um"},
+        "grid": {"nodes": 257},
+    }
+    verdict = solve(Case.from_dict(tables)).verdict
+    assert "2 V between the surfaces is the default" in verdict.text
+    given = solve(Case.from_dict(tables | {"electric": {"potential_2": "3 V"}})).verdict
+    assert "default-voltage" not in [one.code for one in given.assumptions]

@@ -119,6 +119,10 @@ def test_lambda_is_the_minimum_film_divided_by_the_composite_rq():
     assert "lambda_ratio" not in ehlectric.film(**OIL, **LINE)
     with pytest.raises(InputError, match=r"^composite_rq: "):
         ehlectric.film(**OIL, **LINE, composite_rq="0 um")
+    of_ra = ehlectric.film(**OIL, **LINE, composite_ra="0.1 um")["lambda_ratio"]
+    assert of_ra == pytest.approx(found["lambda_ratio"] / math.sqrt(math.pi / 2.0), rel=1e-12)
+    with pytest.raises(InputError, match=r"^composite_rq: got composite_rq and composite_ra together"):
+        ehlectric.film(**OIL, **LINE, composite_rq="0.1 um", composite_ra="0.1 um")
     contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20.0}
     contact |= {"reduced_modulus": 226e9, "entrainment_speed": 2.0}
     tables = {"contact": contact, "lubricant": "paper", "meter": {"fill": "oil", "ra": "50 nm"}}
