@@ -47,6 +47,9 @@ def regime_clause(duty: BearingDuty) -> Statement:
     """Clause about a bearing: its regime, and how long contacts short it."""
     if duty.insulated:
         return Statement.of("regime-insulated", share=duty.touching_time_share)
+    if duty.regime == "intermittent" and duty.contact_time_share <= CAPACITIVE:
+        # No voltage is computed, so that the bearing is not called capacitive.
+        return Statement.of("regime-opening", share=duty.contact_time_share)
     return Statement.of("regime", regime=duty.regime, share=duty.contact_time_share)
 
 

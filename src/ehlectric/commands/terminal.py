@@ -263,7 +263,12 @@ def print_verdict(verdict: Verdict | None) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    (_, heading), *lines = verdict.lines()
+    (_, heading), *stated = verdict.lines()
+    # Lines with the label of the line before have none.
+    before = ("", *(label for label, _ in stated))
+    lines = [
+        ("" if label == last else label, text) for last, (label, text) in zip(before, stated, strict=False)
+    ]
     if not Console().is_terminal:
         for line in (heading, *(f"  {label:{_LABEL}}{text}" for label, text in lines)):
             say(line)
