@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -93,8 +94,8 @@ def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     }
 
 
-# Digits of the ends of a domain, which are chosen with fewer; positions of nodes are rounded.
-_DIGITS_OF_ENDS = 9
+# Digits of the ends of a domain, which are chosen with fewer, and relative rounding of positions of nodes.
+_DIGITS_OF_ENDS, _ROUNDING = 9, 1e-9
 
 
 def _on_solved_domain(tables: dict[str, Any], solution: Solution[Any, Any, Any]) -> dict[str, Any]:
@@ -105,8 +106,13 @@ def _on_solved_domain(tables: dict[str, Any], solution: Solution[Any, Any, Any])
     ends = {"inlet": film.x[0] / along, "outlet": film.x[-1] / along}
     if across:
         ends["side"] = film.y[-1] / across[0]
-    solved = {name: float(f"{end:.{_DIGITS_OF_ENDS}g}") for name, end in ends.items()}
-    return {**tables, "inputs": {**tables["inputs"], "grid": {**tables["inputs"]["grid"], **solved}}}
+    grid = tables["inputs"]["grid"]
+    solved = {
+        name: float(f"{end:.{_DIGITS_OF_ENDS}g}")
+        for name, end in ends.items()
+        if not math.isclose(end, grid[name], rel_tol=_ROUNDING)
+    }
+    return {**tables, "inputs": {**tables["inputs"], "grid": {**grid, **solved}}}
 
 
 def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:

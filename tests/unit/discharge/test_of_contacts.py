@@ -308,7 +308,9 @@ def test_rows_of_the_table(solved):
     )  # 8.854 pF/m 2.4
     constant = rows(result_rows(solved("point", LAWS["constant"])))
     assert ", at 15 V/µm" in constant["discharge.breakdown_voltage"][1]
-    assert constant["discharge.capacitance"][1].startswith("pF, a domain twice as large would add")
+    assert constant["discharge.capacitance"][1].startswith(
+        "pF, over x = −4.5 to 1.5 and y = ±3 semi-axes; a domain"
+    )
     assert constant["discharge.capacitance_sides"][1] == "pF"
     assert "discharge.relaxation_time" not in constant
     assert "discharge.discharge_energy" not in constant
