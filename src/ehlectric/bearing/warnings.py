@@ -45,7 +45,7 @@ from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.bearing_kinds import KINDS_OF_BEARINGS, has_rollers
 from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
 from ehlectric.cases.coating_inputs import Coating
-from ehlectric.cases.library.designations import parts_of
+from ehlectric.cases.library.designations import parts_of, seals_of
 from ehlectric.cases.library.estimated_bearings import WITHOUT_KNOWN
 from ehlectric.cases.library.printed_ratings import printed_ratings
 from ehlectric.cases.oil_inputs import OilTemperature
@@ -213,6 +213,7 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     yield from class_flags(bearing)
     yield from _geometry_flags(bearing)
     yield from _maker_flags(bearing)
+    yield from _seal_flags(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
         low, high = (1e6 * oil.at_40() * (1.0 + part) for part in (-GRADE_WIDTH, GRADE_WIDTH))
@@ -268,6 +269,13 @@ def _maker_flags(bearing: Bearing) -> Iterator[Flag]:
         catalogue=printed.maker,
         maker=maker,
     )
+
+
+def _seal_flags(bearing: Bearing) -> Iterator[Flag]:
+    """Note of a bearing with two seals or shields, greased for life, whose film is fully flooded."""
+    seals = seals_of(bearing.designation) if bearing.designation else ""
+    closed = seals.startswith("two") and isinstance(bearing.supply, str) and bearing.supply == "flooded"
+    yield Flag.of(closed, "sealed-flooded", name=bearing.designation, seals=seals)
 
 
 def _index_of(oil: OilTemperature) -> str:

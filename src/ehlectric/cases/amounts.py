@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import numbers
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
@@ -40,6 +41,11 @@ def scalar(entry: object) -> object:
     if not units.is_pint(entry) and getattr(entry, "ndim", None) == 0 and hasattr(entry, "item"):
         return entry.item()
     return entry
+
+
+def _is_bare(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    return re.fullmatch(r"[-+]?[0-9]+(\.[0-9]*)?", text.strip()) is not None
 
 
 def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], Any]:
@@ -101,7 +107,10 @@ class Amount(Bounds):
                 raise ValueError("")
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
-            raise InputError(got=f"{shown(entry)}{why}", takes=self.takes) from None
+            takes = self.takes
+            if isinstance(item, str) and self.unit == "K" and not self.difference and _is_bare(item):
+                takes = f"a temperature with its unit, as '{item.strip()} °C'"
+            raise InputError(got=f"{shown(entry)}{why}", takes=takes) from None
         return value
 
     def _check_bare(self, entry: object, *, written: bool) -> None:

@@ -273,3 +273,27 @@ def test_a_file_with_a_designation_alone_is_shown_as_its_bearing():
     )
     assert (opened.value("bearing.base"), opened.value("bearing.designation")) == (TYPED, TYPED)
     assert kept(BearingCase.from_written(opened.table)) == ("6208", TYPED, "C3")
+
+
+@each(
+    ("base", "keys", "noted"),
+    [
+        ("SKF 6208-2RS1/C3", {}, True),
+        ("6309-2Z", {}, True),
+        ("NSK 6208ZZ", {}, True),
+        ("6208-RS1", {}, False),
+        ("6208/C3", {}, False),
+        ("6208-2Z", {"supply": "grease"}, False),
+    ],
+)
+def test_a_bearing_greased_for_life_with_flooded_films_has_a_note(base, keys, noted):
+    """One seal leaves a side open to oil; with a supply of grease the film is starved already."""
+    result = solve(case_of(base, **keys).replace({"contacts": "formula"}))
+    assert ("sealed-flooded" in [one.code for one in result.warnings]) == noted
+
+
+def test_a_temperature_in_quotes_without_a_unit_is_told_the_unit():
+    """The same advice as for a bare number."""
+    for value in ("85", 85):
+        with pytest.raises(InputError, match=r"expected a temperature with its unit, as '85 °C'"):
+            case_of("6208", temperature=value)

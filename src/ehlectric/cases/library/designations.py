@@ -144,6 +144,18 @@ def parts_of(text: str) -> Parts:
     return Parts(tuple(prefixes), head, stems, words, makers[0] if makers else "")
 
 
+def seals_of(text: str) -> str:
+    """Seals or shields of a designation in words; empty without a suffix for them.
+
+    Examples
+    --------
+    >>> seals_of("SKF 6208-2RS1/C3"), seals_of("6309-2Z"), seals_of("NU 208 ECP")
+    ('two rubbing seals (SKF)', 'two shields', '')
+    """
+    found = (one for word in parts_of(text).rest for one in parted(word)[0])
+    return next((one.meaning for one in found if one.group == "seal"), "")
+
+
 def _group_of(word: str) -> str:
     """Group of a word of makers or for a bearing behind a number; empty for another word."""
     return next((one.group for one in _prefixes() if one.pattern.fullmatch(word)), "")
