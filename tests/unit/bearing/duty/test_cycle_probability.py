@@ -59,8 +59,9 @@ def test_the_verdict_has_one_sentence_on_the_cycle(tenth, tmp_path):
     duty = result.summary()["duty"]
     probability, share = (100.0 * duty[key] for key in ("breakdown_probability", "breakdown_share"))
     assert " at the operating point of " in result.verdict.text
-    assert result.verdict.text.endswith(
-        f" Over the duty cycle the mean probability of breakdown is {probability:.2g} %; "
+    *_, sentence = result.verdict.sentences()
+    assert sentence == (
+        f"Over the duty cycle the mean probability of breakdown is {probability:.2g} %; "
         f"the margin is below 1, or surfaces touch, {share:.2g} % of the time."
     )
     save(result, tmp_path / "saved")
