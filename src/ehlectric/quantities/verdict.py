@@ -11,7 +11,6 @@ from typing import Any
 
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict_texts import (
-    LINES,
     assumed_text,
     bound_words,
     capital,
@@ -138,11 +137,9 @@ class Verdict:
         """
         yield "", " ".join(filter(None, (self.heading, self.where)))
         stated = [one for one in (self.answer, *self.reasons) if one is not None]
-        for label in LINES:
-            yield from lines_of(label, stated, self.where)
+        yield from lines_of(stated, self.where)
         if self.assumptions:
-            assumed = assumed_text(self.assumptions, self.bound, self.where, form="brief")
-            yield "model", assumed
+            yield "model", assumed_text(self.assumptions, self.bound, self.where, form="brief")
 
     def as_data(self) -> dict[str, Any]:
         """Entries of ``summary.json``: text, level, and codes and values of all statements."""

@@ -131,18 +131,17 @@ def assumed_text(assumptions: Iterable[Statement], bound: Bound, at: str, form: 
     return f"{capital(text)}." if form == "text" else str(text)
 
 
-# Labels of the lines of a verdict in their order, without the one on what is assumed, and whether the
-# statements of each share a line.
-LINES: Mapping[str, bool] = data_file("ehlectric.quantities", "verdict_texts.toml")["lines"]
-
-
-def lines_of(label: str, statements: Iterable[Statement], at: str) -> Iterator[tuple[str, str]]:
-    """Lines with a label: one that its statements share, or one for each."""
-    texts = [text for one in statements for name, text in _labelled(one, at) if name == label and text]
-    if LINES[label] and texts:
-        yield label, "; ".join(text.rstrip(".") for text in texts)
-    else:
-        yield from ((label, capital(text)) for text in texts)
+def lines_of(statements: Iterable[Statement], at: str) -> Iterator[tuple[str, str]]:
+    """Labels and texts of lines in the order of their labels: a line that the statements of a label share, or
+    one for each.
+    """
+    labelled = [pair for one in statements for pair in _labelled(one, at)]
+    for label, shared in _texts()["lines"].items():
+        texts = [text for name, text in labelled if name == label and text]
+        if shared and texts:
+            yield label, "; ".join(text.rstrip(".") for text in texts)
+        else:
+            yield from ((label, capital(text)) for text in texts)
 
 
 def _labelled(statement: Statement, at: str) -> Iterator[tuple[str, str]]:
