@@ -23,6 +23,7 @@ from ehlectric.cases.bearing_inputs import (
     base_of,
     check_heat,
     class_of,
+    is_of_another_class,
     typed_base,
 )
 from ehlectric.cases.case_oil import Lubricant, viscosity_follows
@@ -512,7 +513,8 @@ class BearingCase(CaseFile, book="bearing_file"):
         named = with_name_keys(_flat_changes(tables) | dict(changes or {}), BearingCase)
         changes = _with_named_class(_with_class(_with_typed_base(named)))
         table = open_tables(self)
-        if "bearing.base" in changes or _is_of_another_class(self.bearing.designation, changes):
+        clearance = changes.get("bearing.clearance_class")
+        if "bearing.base" in changes or is_of_another_class(self.bearing.designation, clearance):
             table["bearing"].pop("designation", None)
         if "lubricant.base" in changes:
             table["lubricant"] = {}
@@ -586,12 +588,6 @@ def _with_typed_base(changes: dict[str, Any]) -> dict[str, Any]:
         return changes
     rest = {key: value for key, value in changes.items() if key != "bearing.designation"}
     return rest | {"bearing.base": typed}
-
-
-def _is_of_another_class(designation: str | None, changes: Mapping[str, Any]) -> bool:
-    """Whether new values contain a class of clearance that contradicts a designation."""
-    named, new = class_of(designation), changes.get("bearing.clearance_class")
-    return None not in (named, new) and named != new
 
 
 def _with_named_class(changes: dict[str, Any]) -> dict[str, Any]:

@@ -283,6 +283,18 @@ def _with_normal_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
     return {**table, "clearance_class": NORMAL_CLASS}
 
 
+def is_of_another_class(designation: Any, clearance_class: Any) -> bool:
+    """Whether a class of clearance contradicts the class in a designation.
+
+    Examples
+    --------
+    >>> is_of_another_class("6208-2Z/C3", "C4"), is_of_another_class("6208-2Z", "C4")
+    (True, False)
+    """
+    named = class_of(designation)
+    return None not in (named, clearance_class) and named != clearance_class
+
+
 def class_of(base: Any) -> ClearanceClass | None:
     """Class of clearance that a designation names; None without one, and for a name of the library.
 

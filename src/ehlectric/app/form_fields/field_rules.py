@@ -15,6 +15,7 @@ from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.bearing_inputs import is_of_another_class
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
 from ehlectric.quantities.alternatives import (
@@ -229,7 +230,8 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     new = {key for key, value in given.items() if value is not None}
     if "lubricant.base" in new:
         yield from _within(inputs, "lubricant")
-    if "bearing.base" in given or _of_another_class(inputs, given):
+    typed, clearance = inputs.value("bearing.designation"), given.get("bearing.clearance_class")
+    if "bearing.base" in given or is_of_another_class(typed, clearance):
         yield "bearing.designation"
     if "bearing.base" in new:
         names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
@@ -245,13 +247,6 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
         yield from (key for key in _within(inputs, "grid") if key.partition(".")[2] not in GRID_OF_ANY)
     for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
         yield from _of_other_rows(rows, new)
-
-
-def _of_another_class(inputs: Inputs, given: Mapping[str, Any]) -> bool:
-    """Whether new values contain a class of clearance that contradicts the designation."""
-    typed, new = inputs.value("bearing.designation"), given.get("bearing.clearance_class")
-    named = designated(str(typed)).get("clearance_class") if typed is not None else None
-    return None not in (named, new) and named != new
 
 
 def _of_other_rows(rows: Rows, new: set[str]) -> Iterable[str]:
