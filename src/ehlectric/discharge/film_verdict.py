@@ -63,10 +63,9 @@ def doubts_of(warnings: Iterable[ResultWarning]) -> list[Statement]:
     return [Statement.of("warning", code=code) for code in DOUBTS if code in codes]
 
 
-def no_verdict(answer: Statement, margin: float | None = None, *, code: str = "none") -> Verdict:
+def no_verdict(answer: Statement, *, code: str = "none") -> Verdict:
     """Verdict that states why there is none."""
-    facts = () if margin is None else (Fact("bearing.margin", margin),)
-    return Verdict("grey", code, answer, facts=facts)
+    return Verdict("grey", code, answer)
 
 
 def unusable(warnings: Iterable[ResultWarning]) -> Verdict | None:

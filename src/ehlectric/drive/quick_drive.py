@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from ehlectric.bearing.quick_contacts import quick_case
@@ -16,7 +15,7 @@ from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.statement import Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 
-# Code of a verdict that the divider alone cannot give.
+# Code of a verdict that the divider cannot give.
 _UNSIMULATED = "none-without-simulation"
 
 
@@ -60,9 +59,10 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
         breakdown=about["breakdown_voltage"],
         margin=margin,
     )
+    facts = (Fact(f"{end}.voltage_at_peak", about["voltage_at_peak"]), Fact(f"{end}.margin", margin))
     if circuit.grounding_ring_resistance is not None:
-        refused = no_verdict(numbers, margin, code=_UNSIMULATED)
-        return replace(refused, reasons=(Statement.of("ring-leads-away"),))
+        led_away = (Statement.of("ring-leads-away"),)
+        return Verdict("grey", _UNSIMULATED, numbers, facts=facts, reasons=led_away)
     level = _level(about, case)
     scatter = level == "yellow" and margin >= 1.0 and about["weibull_shape"]
     doubts = [Statement.of("thresholds-scatter")] if scatter else []
@@ -72,7 +72,6 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
         doubts.append(Statement.of("asperities-close-at-peak", share=touching))
     if doubts and level == "green":
         level = "yellow"
-    facts = (Fact(f"{end}.voltage_at_peak", about["voltage_at_peak"]), Fact(f"{end}.margin", margin))
     return Verdict(level, CODES_OF_LEVELS[level], numbers, facts=facts, reasons=tuple(doubts))
 
 
