@@ -642,8 +642,6 @@ class BearingAnswer(PageAnswer):
 
     contacts: Contacts  # "atlas", "formula" or "solved"
     converged: bool  # whether the films of all contacts converged
-    level: str  # level of the verdict; "grey" without one
-    text: str
     numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
     # Whether it has what takes half a second: critical speeds, effects of inputs and curves over the speed.
     over_speed: bool

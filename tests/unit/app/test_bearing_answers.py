@@ -88,18 +88,18 @@ def test_a_case_by_formula_keeps_its_choice():
 
 @pytest.mark.slow
 def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
-    assert (whole.text, whole.level) == (summary["verdict"], summary["margin"]["level"])
+    assert (whole.verdict.text, whole.verdict.level) == (summary["verdict"], summary["margin"]["level"])
     assert whole.margin == summary["margin"]
     assert whole.numbers == summary["bearing"]
     verdict = whole.verdict
-    assert verdict.level == whole.level == summary["verdict_level"]
+    assert verdict.level == whole.verdict.level == summary["verdict_level"]
     assert [one["code"] for one in summary["verdict_reasons"]] == [
         one.code for one in (verdict.answer, *verdict.reasons, *verdict.assumptions)
     ]
     lead, _, film = verdict.heading.partition(" even in ")
     assert ("ideal film" in film, verdict.bound_note) == (True, "upper bound")
     sentences = [f"{lead}: ", verdict.numbers, *verdict.sentences(), verdict.assumed]
-    assert "".join(sentences).replace(" ", "").lower() == whole.text.replace(" ", "").lower()
+    assert "".join(sentences).replace(" ", "").lower() == whole.verdict.text.replace(" ", "").lower()
 
 
 @pytest.mark.slow
@@ -160,7 +160,7 @@ def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
 
 @pytest.mark.slow
 def test_without_ranges_the_verdict_at_once_has_the_level_of_the_whole_one(quick, whole):
-    assert quick.level == whole.level == "yellow"
+    assert quick.verdict.level == whole.verdict.level == "yellow"
 
 
 @pytest.mark.slow
@@ -168,18 +168,18 @@ def test_with_ranges_the_verdict_at_once_is_not_green():
     strong = {"discharge": {"dielectric_strength": "40 V/um"}}
     table = inputs() | strong | {"ranges": {"bearing.radial_load": ["1700 N", "1900 N"]}}
     quick, whole = quick_answer(table), whole_quick_answer(table)
-    assert quick.level == "yellow"
-    assert "follows" in quick.text
+    assert quick.verdict.level == "yellow"
+    assert "follows" in quick.verdict.text
     assert "follows" in quick.number("bearing.margin").note
     # The narrow range changes nothing: a bearing with this strength is green without it.
-    assert (whole.level, "follows" in whole.text) == ("green", False)
+    assert (whole.verdict.level, "follows" in whole.verdict.text) == ("green", False)
     assert "within the stated ranges" in whole.number("bearing.margin").note
 
 
 def test_the_voltage_that_ceramic_elements_must_insulate_decides():
     """Nine of 5 pF each beside 20 pF and 1 nF, at 300 V; without their capacitance a bound."""
     given = quick_answer(inputs(element_material="silicon-nitride", element_capacitance="5 pF"))
-    assert (given.level, given.verdict.heading) == ("green", "No discharge expected")
+    assert (given.verdict.level, given.verdict.heading) == ("green", "No discharge expected")
     assert given.deciding.key == "bearing.element_voltage"
     assert given.number("bearing.element_voltage").with_unit == f"{300.0 * 20.0 / 1110.0:.3g} V"
     bound = quick_answer(inputs(element_material="silicon-nitride"))
@@ -200,7 +200,7 @@ def test_no_card_of_ceramic_elements_is_none(motor):
 
 def test_touching_surfaces_have_no_voltage_and_no_green():
     quick = quick_answer(inputs(inner_speed="60 rpm"))
-    assert quick.level == "red"
+    assert quick.verdict.level == "red"
     first = quick.number("bearing.first_break")
     assert not first.known
     codes = [told.code for told in first.warnings]
@@ -263,7 +263,7 @@ def test_no_figures_of_films_that_are_not_converged(monkeypatch):
     monkeypatch.setattr(BearingSolution, "converged", False)
     result = solve_bearing(bearing_case(inputs(), "atlas"), workers=1)
     answer = answer_of(result, whole=False)
-    assert (answer.level, answer.figures) == ("grey", {})
+    assert (answer.verdict.level, answer.figures) == ("grey", {})
 
 
 @pytest.mark.slow
@@ -353,7 +353,7 @@ def test_only_the_verdict_says_how_likely_a_breakdown_is():
         (likely, "yellow", "likely"),
         (whole_quick_answer(weak), "red", "expected"),
     ):
-        assert (answer.level, word in answer.verdict.heading) == (level, True)
+        assert (answer.verdict.level, word in answer.verdict.heading) == (level, True)
         assert word in answer.meaning
         (told,) = (
             one for one in answer.number("bearing.margin").warnings if one.code == "breakdown-expected"
@@ -430,7 +430,7 @@ def test_solved_contacts_are_the_result_of_the_command(tmp_path):
     answer = solve_contacts(table, tmp_path, tmp_path / "solved", lambda *one: told.append(one))
     summary = json.loads((tmp_path / "solved" / "summary.json").read_text(encoding="utf-8"))
     assert (answer.contacts, answer.whole, answer.numbers) == ("solved", True, summary["bearing"])
-    assert (answer.text, answer.margin) == (summary["verdict"], summary["margin"])
+    assert (answer.verdict.text, answer.margin) == (summary["verdict"], summary["margin"])
     contacts = [one for one in told if one[2] == "contacts"]
     assert contacts[0][0] == 0
     assert contacts[-1][0] == contacts[-1][1] > 4

@@ -384,8 +384,6 @@ def answer_of(
         whole=whole and probable,
         over_speed=whole,
         converged=result.converged,
-        level=verdict.level,
-        text=verdict.text,
         verdict=verdict,
         meaning=meaning_of(verdict),
         how=_how(result),

@@ -94,7 +94,7 @@ def test_verdict_table_and_page_state_the_bounds(result):
     assert facts.gauge.interval is None
     assert facts.gauge.value == summary["bearing"]["margin"]
     answer = whole_quick_answer(CASE)
-    assert answer.text == verdict.text
+    assert answer.verdict.text == verdict.text
     assert "probability-bounded" in {warning.code for warning in answer.warnings}
     assert "probability-bounded" in {
         warning.code for warning in part_of(result, summary, kind="", command="", numbers=()).warnings
