@@ -24,7 +24,7 @@ from ehlectric.quantities.units import printed
 from ehlectric.runs.solve import AnyResult
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.axis_labels import label_of, result_keys
-from ehlectric.sweep.points import flat
+from ehlectric.sweep.points import flat, flat_summary
 from ehlectric.sweep.result import SweepResults
 
 if TYPE_CHECKING:
@@ -67,8 +67,7 @@ def workbook(result: AnyResult | SweepResults) -> bytes:
         )
     book = openpyxl.Workbook(write_only=True)
     tables = result.summary()
-    # The verdict is in sentences; the codes of its statements are for programs.
-    summary = flat({key: value for key, value in tables.items() if key != "verdict_reasons"})
+    summary = flat_summary(tables)
     inputs = {key: value for key, value in summary.items() if key.startswith("inputs.")}
     if not inputs:
         inputs = flat({"inputs": case.plain_tables()})

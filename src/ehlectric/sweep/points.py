@@ -133,7 +133,7 @@ class SweepPoints(Values):
         """
         columns: dict[str, list[Any]] = {}
         for place, point in enumerate(self.points):
-            for key, value in _numbered(point).items():
+            for key, value in flat_summary(point.summary).items() if point.solved and point.summary else ():
                 if key not in columns:
                     columns[key] = [None] * len(self.points)
                 columns[key][place] = value
@@ -156,9 +156,10 @@ class SweepPoints(Values):
         return np.array([point.doubtful for point in self.points], dtype=bool)
 
 
-def _numbered(point: Point) -> dict[str, Any]:
-    """Values of the summary of a solved point, without the statements of its verdict."""
-    summary = point.summary if point.solved and point.summary else {}
+def flat_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a summary by dotted key, without the statements of its verdict, which are for programs: each
+    value in them would be a column or a row of its own.
+    """
     return flat({key: value for key, value in summary.items() if key != "verdict_reasons"})
 
 
