@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import numbers
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
@@ -41,11 +40,6 @@ def scalar(entry: object) -> object:
     if not units.is_pint(entry) and getattr(entry, "ndim", None) == 0 and hasattr(entry, "item"):
         return entry.item()
     return entry
-
-
-def _is_bare(text: str) -> bool:
-    """Whether a text is a number without a unit."""
-    return re.fullmatch(r"[-+]?[0-9]+(\.[0-9]*)?", text.strip()) is not None
 
 
 def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], Any]:
@@ -108,8 +102,9 @@ class Amount(Bounds):
         except ValueError as error:
             why = f" ({error})" if str(error) else ""
             takes = self.takes
-            if isinstance(item, str) and self.unit == "K" and not self.difference and _is_bare(item):
-                takes = f"a temperature with its unit, as '{item.strip()} °C'"
+            parts = units.split(item) if isinstance(item, str) else None
+            if self.unit == "K" and not self.difference and parts is not None and not parts[1]:
+                takes = f"a temperature with its unit, as '{str(item).strip()} °C'"
             raise InputError(got=f"{shown(entry)}{why}", takes=takes) from None
         return value
 

@@ -30,6 +30,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     numbers, texts and lists; None if a value has no meaning, never NaN.
     """
     kind, film, conditions = KINDS[solution.conditions.geometry], solution.film, solution.conditions
+    verdict = solution.verdict
     summary: dict[str, Any] = {
         "schema": SCHEMA,
         "version": solution.version,
@@ -37,7 +38,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "converged": solution.converged,
         "status": film.status,
         **texts_and_codes(solution.warnings),
-        **({} if solution.verdict is None else solution.verdict.as_data()),
+        **({} if verdict is None else verdict.as_data()),
         **_on_solved_domain(_known_before(solution.case, conditions), solution),
         "film": _film(solution) | kind.film_summary(solution),
         "field": _field(solution),

@@ -15,7 +15,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.quantities.statement import Level, Statement
-from ehlectric.readable import bounds_text, chance_text
+from ehlectric.quantities.verdict_texts import statement_text
 
 # Probabilities of breakdown below which it is not expected, below which it is possible, and above which it is
 # expected; between the last two it is likely. The first one also is that at which a voltage of a Weibull law
@@ -174,9 +174,7 @@ class Chance:
     @property
     def text(self) -> str:
         """Probability as text: with its sampling error, or between its bounds."""
-        if self.failed:
-            return bounds_text(*self.bounds)
-        return chance_text(self.probability, self.error)
+        return statement_text(self.stated)
 
     @property
     def stated(self) -> Statement:

@@ -317,7 +317,7 @@ class SweepResults(Shown, SweepPoints):
         )
 
     def _headline(self) -> str:
-        return headline(str(self.summary()["title"]), *self.key_numbers(), verdict=self.verdict)
+        return headline(self.title or self.case.title, *self.key_numbers(), verdict=self.verdict)
 
     def _name(self, key: str) -> str:
         return label_of(key, self.case).name
