@@ -34,6 +34,17 @@ def designated(text: str) -> dict[str, str]:
     return _read(text)[0]
 
 
+def contradicts(designation: str, clearance_class: str) -> bool:
+    """Whether the class of clearance in a designation is another class; false for an unknown designation.
+
+    Examples
+    --------
+    >>> contradicts("6314-C3", "C4"), contradicts("6314-C3", "C3"), contradicts("6x14-C3", "C4")
+    (True, False, False)
+    """
+    return designated(designation).get("clearance_class", clearance_class) != clearance_class
+
+
 @cache
 def _read(text: str) -> tuple[dict[str, str], dict[str, Any]]:
     """Name and class of the bearing with a designation, and its table; empty where there is none."""

@@ -10,12 +10,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-from ehlectric.app.catalogue import bearing, coating, designated
+from ehlectric.app.catalogue import bearing, coating, contradicts, designated
 from ehlectric.app.form_fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
 from ehlectric.app.form_fields.field import Field, Group, first_of_kind, fitted_to_kind, form_data, kind_of
 from ehlectric.app.form_fields.field_defaults import at_end, bearing_at, end_and_key
 from ehlectric.app.page_inputs import Inputs
-from ehlectric.cases.bearing_inputs import is_of_another_class
 from ehlectric.cases.defaults import DEFAULT_FILM, FILM_FACTORS
 from ehlectric.quantities import alternatives
 from ehlectric.quantities.alternatives import (
@@ -231,7 +230,7 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     if "lubricant.base" in new:
         yield from _within(inputs, "lubricant")
     typed, clearance = inputs.value("bearing.designation"), given.get("bearing.clearance_class")
-    if "bearing.base" in given or is_of_another_class(typed, clearance):
+    if "bearing.base" in given or (typed and clearance and contradicts(str(typed), str(clearance))):
         yield "bearing.designation"
     if "bearing.base" in new:
         names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
