@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check coverage format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel paper clean
+.PHONY: help install run app browser test slow thorough lint check coverage format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel changes paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -32,6 +32,7 @@ help:
 	@echo "make bench-release  record the times of this release in benchmarks/releases; compare them by make bench-compare"
 	@echo "make packages  build wheel and source distribution, and try them in a new environment"
 	@echo "make wheel   build the wheel alone, and try it"
+	@echo "make changes print the changelog of the next release from its fragments"
 	@echo "make paper   build the PDF of the paper on the software; takes pandoc from the registry"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
@@ -132,6 +133,7 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python tools/lint_house.py
 
 check: lint test
 
@@ -211,6 +213,10 @@ wheel: $(VENV)/.dev
 	rm -rf dist
 	$(BIN)/python -m hatchling build --target wheel --directory dist
 	packaging/try.sh dist $(PYTHON)
+
+# The section of the next release as towncrier will write it; it writes no file.
+changes: $(VENV)/.dev
+	$(BIN)/towncrier build --draft --version unreleased
 
 clean:
 	rm -rf $(VENV) build dist results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage
