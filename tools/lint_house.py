@@ -52,7 +52,17 @@ def fragments_of_the_changelog(root: Path) -> Iterator[Fault]:
             yield Fault(place, 1, "an entry begins without a bullet; towncrier writes it")
 
 
-RULES = (fragments_of_the_changelog,)
+def actions_of_the_workflows(root: Path) -> Iterator[Fault]:
+    """Yield actions that are not pinned by the hash of a commit, with the version as a comment."""
+    pinned = re.compile(r"uses: [\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+")
+    for file in sorted((root / ".github/workflows").glob("*.yml")):
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+            if "uses: " in line and not pinned.search(line):
+                message = "pin the action by the hash of its commit, and add the version: @HASH # v1.2.3"
+                yield Fault(file.relative_to(root), number, message)
+
+
+RULES = (fragments_of_the_changelog, actions_of_the_workflows)
 
 
 def faults(root: Path = ROOT) -> list[Fault]:
