@@ -34,10 +34,10 @@ from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_
 from ehlectric.cases.library.library_oils import Grade, Source
 from ehlectric.cases.oil_inputs import LAWS
 from ehlectric.commands.command_line import app as commands
-from ehlectric.errors import CODES
 from ehlectric.formulas import load_ratings as ratings
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.units import printed
 from ehlectric.sweep import sweep_inputs
 

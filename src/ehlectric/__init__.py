@@ -23,11 +23,12 @@ if TYPE_CHECKING:
     from ehlectric.drive.drive_netlist import write_drive_netlist
     from ehlectric.drive.netlist_files import write_netlist
     from ehlectric.drive.result import DriveResult, solve_drive
-    from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
+    from ehlectric.errors import ConvergenceError, InputError, LostError
     from ehlectric.figures.result_figures import figure, figure_names, save_figures
     from ehlectric.motion.result import MotionResult
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
+    from ehlectric.quantities.result_warnings import ResultWarning
     from ehlectric.quantities.verdict import Verdict
     from ehlectric.report.written_report import write_report
     from ehlectric.runs.example_files import example
@@ -138,8 +139,8 @@ _HOMES = {
     "Laws": "lubricant.python_laws",
     "FilmFactors": "cases.film_factors",
     "Solved": "runs.solve",
-    "Verdict": "discharge.film_verdict",
-    "ResultWarning": "errors",
+    "Verdict": "quantities.verdict",
+    "ResultWarning": "quantities.result_warnings",
     "InputError": "errors",
     "ConvergenceError": "errors",
     "LostError": "errors",

@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 
 from ehlectric import read_sweep
-from ehlectric.errors import CODES
+from ehlectric.quantities.result_warnings import CODES
 from tests.cli.conftest import CASE
 from tests.cli.test_reproduce import children, gone
 from tests.helpers.commands import Begun

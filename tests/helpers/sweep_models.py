@@ -8,7 +8,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from ehlectric import Case
-from ehlectric.errors import ResultWarning, texts_and_codes
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.sweep.points import Point, Range
 from ehlectric.sweep.result import SweepResults
 

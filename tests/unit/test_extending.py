@@ -7,7 +7,7 @@ import shutil
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, errors, load, save, solve
+from ehlectric import Case, InputError, load, save, solve
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearing_case import BearingCase
@@ -15,13 +15,14 @@ from ehlectric.cases.changes import flattened
 from ehlectric.contact import solver
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import CentralThickness, Formula
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import PERMITTIVITY_LAWS
 from ehlectric.lubricant.law import Law, Parameter
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from ehlectric.quantities import result_warnings
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runs.meaning import check
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
@@ -296,9 +297,13 @@ def test_the_map_names_files_and_tests_that_are_there():
 
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
     """A code and its text in the lists, and a generator that gives it: the summary carries it."""
-    texts = {**errors._texts(), "fast": "the surfaces move at {speed:g} m/s"}
-    monkeypatch.setattr(errors, "CODES", {**errors.CODES, "fast": errors.Cause("The contact is fast.")})
-    monkeypatch.setattr(errors, "_texts", lambda: texts)
+    texts = {**result_warnings._texts(), "fast": "the surfaces move at {speed:g} m/s"}
+    monkeypatch.setattr(
+        result_warnings,
+        "CODES",
+        {**result_warnings.CODES, "fast": result_warnings.Cause("The contact is fast.")},
+    )
+    monkeypatch.setattr(result_warnings, "_texts", lambda: texts)
     before = solver.case_warnings
 
     def case_warnings(setup, conditions):

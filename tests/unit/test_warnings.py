@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 import ehlectric
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from tests.helpers.places import ROOT
 
 SOURCE = Path(ehlectric.__file__).parent
 # The codes themselves.
-OF_ALL = {SOURCE / "errors.py"}
+OF_ALL = {SOURCE / "quantities" / "result_warnings.py"}
 # Codes that only files of later versions give.
 FOREIGN = {"not-usable", "unclassified"}
 

@@ -20,7 +20,7 @@ from ehlectric.readable import readable
 class PageWarning:
     """Warning of a result."""
 
-    # code, severity and text: as of ``ehlectric.errors.ResultWarning``
+    # code, severity and text: as of ``ehlectric.quantities.result_warnings.ResultWarning``
     code: str
     severity: str
     text: str

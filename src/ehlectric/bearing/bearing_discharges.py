@@ -32,8 +32,8 @@ from ehlectric.discharge.discharge_laws import (
     stored_energy,
     volume_of_pit,
 )
-from ehlectric.errors import Flag
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import Flag
 from ehlectric.readable import readable
 
 

@@ -53,7 +53,7 @@ from ehlectric.discharge.film_verdict import (
     unusable,
     weibull_part,
 )
-from ehlectric.errors import raised
+from ehlectric.quantities.result_warnings import raised
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict
 

@@ -17,7 +17,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.life import LOWEST_RATIO
 from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of, rated_loads
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored import number
 

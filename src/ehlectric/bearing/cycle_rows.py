@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.errors import ResultWarning, texts_and_codes
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.files import Content, column_head, csv_of
 from ehlectric.runtime.result_names import DUTY

@@ -39,9 +39,10 @@ from ehlectric.cases.defaults import QUICK
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE, void_rows
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.units import RPM
 from ehlectric.readable import ratio_text, readable

@@ -32,7 +32,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import hot_oil, reached_rise
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import ConvergenceError, Flag, InputError
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.hot_oil import Body, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import OilSupply
@@ -48,6 +48,7 @@ from ehlectric.formulas.inlet_supply import (
 )
 from ehlectric.lubricant.heat_laws import ASSUMED_CONDUCTIVITY, USUAL_CONDUCTIVITY
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.result_warnings import Flag
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import LOGGER

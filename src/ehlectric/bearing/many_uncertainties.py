@@ -23,7 +23,8 @@ from ehlectric.bearing.uncertainty import (
     spread_of_result,
     without_spread,
 )
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 
 # Distribution of a point; None where it has no probability of breakdown, and the error where it has no margin

@@ -31,8 +31,9 @@ from ehlectric.cases.film_factors import (
 )
 from ehlectric.cases.measurements import MeasuredCapacitance, Measurement, capacitance_of
 from ehlectric.discharge.film_capacitance import LEAST_RATIO
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import value_at
 from ehlectric.readable import readable
 from ehlectric.runtime.progress import Progress, silent

@@ -13,7 +13,8 @@ from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing,
 from ehlectric.cases import library
 from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
 from ehlectric.cases.library.bearing_catalogue import clearance_range
-from ehlectric.errors import Flag, InputError
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import Flag
 from ehlectric.quantities.units import to_si
 from ehlectric.readable import readable
 

@@ -33,12 +33,13 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS
 from ehlectric.contact.problems import Setup
 from ehlectric.contact.warnings import case_warnings
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_films import contact_film
 from ehlectric.formulas.film_line import LineContact, martin, pan_hamrock
 from ehlectric.formulas.film_point import PointContact, brewe_hamrock_taylor, chittenden
 from ehlectric.formulas.hertz import line_gap
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Factors by which films from formulas, and margins with them, may be off either way. Balls have the formula
 # of Chittenden, Dowson, Dunn and Taylor: solved films of bearings are within 30 % of it. Rollers have that

@@ -38,7 +38,6 @@ from ehlectric.bearing.loads.life import (
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
 from ehlectric.cases.bearing_inputs import Bearing, Life
 from ehlectric.cases.library.printed_ratings import PrintedRatings, printed_ratings
-from ehlectric.errors import Flag
 from ehlectric.formulas.load_ratings import (
     RATED_GROOVES,
     THRUST_GROOVE,
@@ -52,6 +51,7 @@ from ehlectric.formulas.load_ratings import (
     thrust_roller_dynamic_rating,
     thrust_roller_static_rating,
 )
+from ehlectric.quantities.result_warnings import Flag
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.values import is_number
 

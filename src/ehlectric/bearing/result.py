@@ -27,8 +27,9 @@ from ehlectric.bearing.uncertainty import (
 )
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import InputError, ResultWarning, shown, texts_and_codes
+from ehlectric.errors import InputError, shown
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
 from ehlectric.quantities.verdict import Verdict

@@ -36,13 +36,14 @@ from ehlectric.contact.conditions import (
 )
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.solver import solve_contact
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_groups import Ellipse
 from ehlectric.formulas.film_line import moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz import DryContact, dry_contact, line_half_width, line_max_pressure
 from ehlectric.formulas.monotone_cubic import MonotoneCubic, end_slope, inner_slope
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values, read_only_property

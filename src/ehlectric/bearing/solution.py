@@ -17,7 +17,7 @@ from ehlectric.bearing.quick_contacts import formula_factor, outside_atlas
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values, read_only_property

@@ -34,7 +34,7 @@ from ehlectric.bearing.solution import (
     touching_ratio,
 )
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 

@@ -22,7 +22,7 @@ from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import ResultWarning, texts_and_codes
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.file_rules import (
     VALUES,
     Rule,

@@ -46,7 +46,7 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.discharge.discharge_laws import conductivity_of, known
-from ehlectric.errors import texts_and_codes
+from ehlectric.quantities.result_warnings import texts_and_codes
 from ehlectric.runtime.files import plain
 
 SCHEMA = "ehlectric.bearing/1"

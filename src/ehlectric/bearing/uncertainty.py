@@ -20,8 +20,9 @@ from ehlectric.bearing.solving import NOT_IN_FILMS
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import read_only_property

@@ -54,9 +54,9 @@ from ehlectric.contact.warnings import PERMANENT
 from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
 from ehlectric.discharge.film_verdict import breakdown_flag
-from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 

@@ -32,7 +32,7 @@ from ehlectric.cases.oil_inputs import (
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
-from ehlectric.errors import InputError, ResultWarning, shown, within
+from ehlectric.errors import InputError, shown, within
 from ehlectric.lubricant.data_sheet import Estimate
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
@@ -41,6 +41,7 @@ from ehlectric.lubricant.law import Law, is_many, over_points, required, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
 from ehlectric.lubricant.over_temperature import density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Difference of temperatures over which the slope of the viscosity is taken [K].
 _STEP = 1e-3

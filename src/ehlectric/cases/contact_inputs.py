@@ -15,8 +15,9 @@ from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, ResultWarning, raised
+from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
+from ehlectric.quantities.result_warnings import ResultWarning, raised
 
 
 def radius_doubt(key: str, radius: float) -> Iterator[ResultWarning]:

@@ -14,8 +14,8 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.measurements import Measurement, void_rows
 from ehlectric.cases.oil_inputs import Properties
-from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.quantity import Keys, Quantity, data_file
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.readable import readable
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, plain
 from ehlectric.runtime.result_names import MEASURED, MEASURED_ROWS

@@ -19,7 +19,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
-from ehlectric.errors import InputError, ResultWarning, printable, short, shown
+from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import (
     doubt_of_column,
@@ -29,6 +29,7 @@ from ehlectric.quantities.grouped_digits import (
     value_of,
 )
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.runtime.delimited import fields, is_void, record_at, records, separator_of
 from ehlectric.runtime.reading import read_bytes

@@ -19,10 +19,11 @@ from ehlectric.cases.amounts import Amount
 from ehlectric.cases.case_oil import CELSIUS, KnownOil, NamedOil, kelvin_of, known_oil, named_oil
 from ehlectric.cases.library.library_oils import KINDS, Source
 from ehlectric.cases.oil_inputs import ALPHA, LAWS, SHEET_VISCOSITY, Properties, of_base_oil
-from ehlectric.errors import InputError, ResultWarning, within
+from ehlectric.errors import InputError, within
 from ehlectric.lubricant.data_sheet import BASE_OILS
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Publication of the relation between coefficient, exponent and viscosity.
 ROELANDS = (

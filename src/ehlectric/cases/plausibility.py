@@ -14,9 +14,9 @@ import numpy as np
 
 from ehlectric.arrays import Mask, Numbers
 from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
-from ehlectric.errors import Flag
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import Flag
 from ehlectric.readable import readable
 
 _CELSIUS = 273.15
@@ -112,7 +112,7 @@ def unusual(key: str, value: Numbers | None) -> Iterator[Flag]:
 
     Examples
     --------
-    >>> from ehlectric.errors import raised
+    >>> from ehlectric.quantities.result_warnings import raised
     >>> print(*raised(unusual("speed", 3000.0)))
     the entrainment speed is 3000 m/s, above the 300 m/s of machines: is it in m/s, and no rotational speed?
     """
@@ -167,7 +167,7 @@ def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[Flag]:
 
     Examples
     --------
-    >>> from ehlectric.errors import raised
+    >>> from ehlectric.quantities.result_warnings import raised
     >>> [flag.code for flag in raised(unusual_machine({"motor.winding_rotor_capacitance": 40e-9}))]
     ['machine-unusual']
     """
@@ -219,7 +219,7 @@ def modulus_of_steel(modulus: float) -> Iterator[Flag]:
 
     Examples
     --------
-    >>> from ehlectric.errors import raised
+    >>> from ehlectric.quantities.result_warnings import raised
     >>> [flag.situation for flag in modulus_of_steel(115.4e9) if flag.where]
     ['half']
     """

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.figures.figure_names import (
     ALL_FIGURES,
     BEARING_FIGURE_FILES,
@@ -17,6 +17,7 @@ from ehlectric.figures.figure_names import (
     in_formats,
     map_files,
 )
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import prepare
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.undrawn import Drawn, kept_going

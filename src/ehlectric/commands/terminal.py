@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning, printable
+from ehlectric.errors import ConvergenceError, InputError, LostError, printable
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, Remaining, silent

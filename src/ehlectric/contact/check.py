@@ -25,12 +25,13 @@ from ehlectric.contact.problems import Setup, check_tolerance, domain_of, height
 from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, shown
 from ehlectric.film.far_field import MOST_OUTSIDE
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.python_laws import Laws, Recorder, SampledLaws
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface

@@ -12,12 +12,13 @@ from ehlectric.cases.case_oil import CELSIUS, Lubricant
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.film.hot_oil import Body, HeatedFilm, HotOil, Physics, Thermal
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import UNBOUNDED, Rheology
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import OwnLaws, SampledLaws
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
 # Keys of the temperatures of the oil in the inlet and of both bodies.

@@ -27,7 +27,6 @@ from ehlectric.contact.warnings import (
     line_result_warnings,
     point_result_warnings,
 )
-from ehlectric.errors import ResultWarning
 from ehlectric.field.line_field import Field, solve_field
 from ehlectric.field.point_field import PointField, solve_point_field
 from ehlectric.field.poisson import FieldProblem
@@ -37,6 +36,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import Formula, LineContact
 from ehlectric.formulas.film_point import PointContact
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
 

@@ -12,13 +12,14 @@ import numpy as np
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import InputError, ResultWarning, within
+from ehlectric.errors import InputError, within
 from ehlectric.film.film_error import MINIMUM_ORDER, expected_error, expected_nodes
 from ehlectric.film.film_solver import UNKNOWN
 from ehlectric.film.heated_solution import is_too_fine
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem, OnGrid
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
 # How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose

@@ -24,11 +24,11 @@ from ehlectric.contact.touching import (
 )
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.film_verdict import contact_verdict
-from ehlectric.errors import ResultWarning
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import contact_zones
 from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Shown, Values, read_only_property

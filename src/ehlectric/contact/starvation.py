@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from ehlectric.cases.case import Case
 from ehlectric.cases.film_inputs import Inlet
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import ResultWarning
 from ehlectric.film.film_solver import Starvation
 from ehlectric.film.isothermal_film import Film, PointFilm, lost_film
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
 # Part of the flooded central film above which the layer of oil has no effect, and relative difference of the

@@ -28,7 +28,6 @@ from ehlectric.discharge.breakdown_rule import POSSIBLE, TOUCHING_EXPECTED
 from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.discharge.film_verdict import unusable
-from ehlectric.errors import ResultWarning
 from ehlectric.field.zones import areas, areas_by_zone
 from ehlectric.film.flow import flow
 from ehlectric.film.isothermal_film import Film, PointFilm
@@ -38,6 +37,7 @@ from ehlectric.formulas.asperities import cluster_resistance, film_resistance, g
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import formatted, readable

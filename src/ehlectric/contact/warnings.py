@@ -19,7 +19,6 @@ from ehlectric.cases.plausibility import PLAUSIBLE, extreme, oil_doubts, rq_flag
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of, unconverged_heat
 from ehlectric.contact.problems import Setup
-from ehlectric.errors import Flag, ResultWarning, raised
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
@@ -28,6 +27,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
 from ehlectric.readable import readable
 
 # Hertz pressure at which bearing steel deforms permanently in line and in point contacts (ISO 76) [Pa].

@@ -15,8 +15,8 @@ from ehlectric.discharge.breakdown_rule import (
     strength_interval,
 )
 from ehlectric.discharge.film_breakdown import Breakdown
-from ehlectric.errors import Flag, ResultWarning
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import Flag, ResultWarning
 from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text

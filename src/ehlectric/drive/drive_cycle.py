@@ -39,10 +39,11 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_drive import quick_drive
-from ehlectric.errors import InputError, ResultWarning, within
+from ehlectric.errors import InputError, within
 from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.stored import number, stored

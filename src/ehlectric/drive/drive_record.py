@@ -14,7 +14,7 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.stored import stored
 
 # Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy

@@ -19,8 +19,8 @@ from ehlectric.discharge.discharge_laws import beside_limits
 from ehlectric.discharge.film_verdict import DOUBTS, no_verdict, strength_clause, unusable
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
-from ehlectric.errors import ResultWarning
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.statement import Bound, Fact, Level, Statement
 from ehlectric.quantities.verdict import Verdict

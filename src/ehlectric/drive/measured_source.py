@@ -9,7 +9,8 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray
 from ehlectric.cases.drive_inputs import Source
 from ehlectric.drive.waveform_file import Waveform, edge_warnings, read_waveform, repeat_warnings
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Low-pass filter: up to _PASS of the new sampling rate voltages keep their amplitude, above the half of it
 # they are suppressed. With the attenuation [dB], the width of this transition gives the half length of the

@@ -28,9 +28,10 @@ from ehlectric.bearing.solution import (
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.defaults import HOW
-from ehlectric.errors import InputError, ResultWarning, printable, shown
+from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__

@@ -18,8 +18,9 @@ from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
 from ehlectric.drive.warnings import drive_warnings
-from ehlectric.errors import ResultWarning, within
+from ehlectric.errors import within
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable

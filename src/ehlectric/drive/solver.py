@@ -22,8 +22,9 @@ from ehlectric.drive.motor_circuit import Modes, capacitive_divider, modes_of, s
 from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.drive.waveform_file import Waveform
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import LIMITS
 from ehlectric.readable import readable
 from ehlectric.runtime.files import plain

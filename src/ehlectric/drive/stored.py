@@ -20,8 +20,8 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
 from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record
-from ehlectric.errors import TEXTS, texts_and_codes
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import TEXTS, texts_and_codes
 from ehlectric.runtime.file_rules import (
     Rule,
     UnfitError,

@@ -28,8 +28,8 @@ from ehlectric.drive.drive_record import (
 )
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.inverter import edge_rate
-from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, beside_li
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
-from ehlectric.errors import ResultWarning, raised
 from ehlectric.quantities.formats import amount, rpm_text
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning, raised
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

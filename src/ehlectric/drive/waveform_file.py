@@ -23,9 +23,10 @@ from typing import Any, TextIO
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.errors import InputError, ResultWarning, printable, short, shown
+from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
 from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, ungrouped, value_of
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.readable import readable
 from ehlectric.runtime import delimited

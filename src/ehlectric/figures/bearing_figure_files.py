@@ -29,7 +29,6 @@ from ehlectric.bearing.speed_curves import (
     value_of,
 )
 from ehlectric.cases.defaults import HOW, OF_CONTACTS
-from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing_figures import (
     LEAST_VARIATION,
     breakdown_over_pitch,
@@ -67,6 +66,7 @@ from ehlectric.figures.style import (
     titled,
 )
 from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import ratio_text, readable
 

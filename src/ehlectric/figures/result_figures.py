@@ -18,7 +18,7 @@ from ehlectric.cases.film_factors import FilmFactors
 from ehlectric.cases.table import nearest
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.drive.result import DriveResult
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, shown
 from ehlectric.figures import bearing_figure_files as bearing
 from ehlectric.figures import contact_figure_files as contact
 from ehlectric.figures import drive_figures as drive
@@ -38,6 +38,7 @@ from ehlectric.figures.style import save_each
 from ehlectric.figures.style import style as styled
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
 from ehlectric.runtime.undrawn import Drawn
 from ehlectric.sweep.axis_labels import label_of

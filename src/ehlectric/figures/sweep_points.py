@@ -24,10 +24,10 @@ from scipy.special import ndtr, ndtri
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
 from ehlectric.cases.defaults import HOW
-from ehlectric.errors import CODES
 from ehlectric.figures.style import figure_of, name_over, outlined
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import Label, label_of
 from ehlectric.sweep.result import SweepResults

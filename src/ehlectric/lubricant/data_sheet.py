@@ -13,7 +13,8 @@ from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 
 from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Viscosity grades of ISO 3448. The middle of a grade is its number in mm^2/s at 40 degC, except for the four
 # thinnest, and its range is 10 % of the middle to either side.

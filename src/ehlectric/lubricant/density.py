@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers
-from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import Law, parameters_of, required
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
 # no contact compresses a liquid to its half.

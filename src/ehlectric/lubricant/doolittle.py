@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.lubricant.density import LEAST_VOLUME, TaitState, tait, tait_pressure
 from ehlectric.lubricant.law import (
     GLASS_VISCOSITY,
@@ -21,6 +21,7 @@ from ehlectric.lubricant.law import (
     required,
     within,
 )
+from ehlectric.quantities.result_warnings import ResultWarning
 
 _NAME = "viscosity_law 'doolittle'"
 

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.lubricant.density import TaitState, tait
 from ehlectric.lubricant.law import Law, parameters_of, required
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Largest pressure [Pa] and temperature [K] of the measurements behind the laws of Larsson et al.
 LARSSON_PRESSURE, LARSSON_TEMPERATURE = 1.1e9, 380.15

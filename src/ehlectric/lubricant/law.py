@@ -35,8 +35,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import Bounds, Quantity, data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 
 
 class PressureLaw(Protocol):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.lubricant.law import (
     LARGEST_EXPONENT,
     Law,
@@ -18,6 +18,7 @@ from ehlectric.lubricant.law import (
     parameters_of,
     required,
 )
+from ehlectric.quantities.result_warnings import ResultWarning
 
 _NAME = "viscosity_law 'modulus'"
 

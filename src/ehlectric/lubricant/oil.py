@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers, as_float
-from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import PressureLaw, is_many
 from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # What the laws of an oil describe, in the order of files.
 LAW_NAMES = (

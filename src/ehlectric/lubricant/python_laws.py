@@ -17,8 +17,9 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning, short
+from ehlectric.errors import InputError, short
 from ehlectric.lubricant.oil import BoundLaw, Oil
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Property as a function of pressure [Pa] and temperature [K].
 Function: TypeAlias = Callable[[Array, float], ArrayLike]

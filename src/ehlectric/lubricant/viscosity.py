@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.doolittle import DOOLITTLE
 from ehlectric.lubricant.law import Derivation, Law, PressureLaw, parameter
 from ehlectric.lubricant.modulus import MODULUS
 from ehlectric.lubricant.yasutomi import YASUTOMI
+from ehlectric.quantities.result_warnings import ResultWarning
 
 # Constant of Roelands' law in ln(eta0) + 9.67, with the viscosity eta0 at zero pressure in Pa s.
 ROELANDS_CONSTANT = 9.67

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask, Numbers
-from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import Law, glass_warnings, parameters_of, within
+from ehlectric.quantities.result_warnings import ResultWarning
 
 _NAME = "viscosity_law 'yasutomi'"
 

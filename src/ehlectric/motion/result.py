@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import ResultWarning, warnings_of
 from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.runtime.values import Shown, headline
 

@@ -12,7 +12,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ConvergenceError, warnings_of
+from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import History
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.moving_contact import TransientContact
@@ -22,6 +22,7 @@ from ehlectric.motion.stored import SCHEMA, Maps, TimeStep
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import motion_warnings
+from ehlectric.quantities.result_warnings import warnings_of
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from ehlectric.runtime.hdf5_soundness import seal

@@ -12,10 +12,10 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
 from ehlectric.contact.touching import about_share, changed_share, unknown_share
 from ehlectric.contact.warnings import case_warnings
-from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.motion_touching import TouchHistory
 from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave, surface_warnings
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.

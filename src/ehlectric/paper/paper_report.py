@@ -11,13 +11,13 @@ from itertools import pairwise
 import numpy as np
 from jinja2 import Environment, StrictUndefined
 
-from ehlectric.errors import ResultWarning
 from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.paper_contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, of_paper
 from ehlectric.paper.paper_figures import FIGURES
 from ehlectric.paper.paper_tables import AMPLITUDE, BY_SMOOTH, OWN, WITHIN, PaperTable
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.version import __version__
 
 # Criteria by which the three conclusions hold. Conclusion 1: in every placement of the profile, E_max differs

@@ -7,9 +7,9 @@ from functools import cache
 from string import Formatter
 from typing import Any
 
-from ehlectric.errors import CODES
 from ehlectric.quantities.formats import amount, rpm_text, time_share_text
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.statement import Bound, Level, Statement
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import bounds_text, chance_text, mean_text, ratio_text, readable

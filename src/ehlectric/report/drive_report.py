@@ -15,12 +15,13 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
-from ehlectric.errors import CODES, printable
+from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends

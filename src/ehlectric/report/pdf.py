@@ -35,9 +35,10 @@ from reportlab.platypus import (
     XPreformatted,
 )
 
-from ehlectric.errors import SEVERITY_WORDS, short
+from ehlectric.errors import short
 from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.report.pdf_letters import FOLDER, marked, runs_of
 from ehlectric.report.report_content import (
     Cell,

@@ -11,9 +11,9 @@ from typing import Literal, TypeAlias
 
 from matplotlib.figure import Figure
 
-from ehlectric.errors import ResultWarning, Severity
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.style import style as figure_style
+from ehlectric.quantities.result_warnings import ResultWarning, Severity
 from ehlectric.quantities.statement import Level
 from ehlectric.quantities.verdict import Verdict
 

@@ -11,10 +11,11 @@ from matplotlib.figure import Figure
 
 from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
-from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
+from ehlectric.errors import InputError, printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.figures.result_figures import default_figure, figure, figure_names
 from ehlectric.quantities.quantity import unbroken
+from ehlectric.quantities.result_warnings import CODES, ResultWarning, Severity
 from ehlectric.quantities.rows import Row, value_at
 from ehlectric.readable import readable
 from ehlectric.report.background import worded

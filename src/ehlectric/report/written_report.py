@@ -11,7 +11,8 @@ from types import ModuleType
 
 from jinja2 import Environment, StrictUndefined
 
-from ehlectric.errors import SEVERITY_WORDS, InputError, shown
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.report.report_content import Link, Named, Picture, Report, best_image
 from ehlectric.runtime.files import refuse_special, write
 

@@ -12,7 +12,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runs.file_kinds import FileKind, kind_of_file
 from ehlectric.runs.result_folders import files_of_results, protect
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in

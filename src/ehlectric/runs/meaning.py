@@ -19,7 +19,8 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import HOW, QUICK
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.readable import readable

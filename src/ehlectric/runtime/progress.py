@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
-from ehlectric.errors import InputError, ResultWarning, printable, shown
+from ehlectric.errors import InputError, printable, shown
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.undrawn import Undrawn
 
 # Called with the number of parts done, the number of all parts, and a text that says what is being done.

@@ -17,7 +17,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.errors import CODES_OF_TEXTS, TEXTS, ResultWarning, texts_and_codes, warnings_of
+from ehlectric.quantities.result_warnings import (
+    CODES_OF_TEXTS,
+    TEXTS,
+    ResultWarning,
+    texts_and_codes,
+    warnings_of,
+)
 from ehlectric.runtime.file_rules import (
     VALUES,
     Rule,

@@ -9,7 +9,8 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 
-from ehlectric.errors import InputError, ResultWarning, WriteError, printable
+from ehlectric.errors import InputError, WriteError, printable
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 
 

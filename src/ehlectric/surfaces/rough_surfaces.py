@@ -19,7 +19,8 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES, Roughness
-from ehlectric.errors import InputError, ResultWarning, within
+from ehlectric.errors import InputError, within
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces import generated_maps as map_generators
 from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.generated_profiles import Domain, turned

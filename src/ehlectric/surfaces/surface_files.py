@@ -29,8 +29,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError, ResultWarning, shown, within
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, value_of
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.quantities.units import known_factor, length_unit, to_si
 from ehlectric.runtime.delimited import fields, is_void

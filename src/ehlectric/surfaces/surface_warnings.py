@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ehlectric.cases.roughness_inputs import Roughness
-from ehlectric.errors import ResultWarning
 from ehlectric.formulas.asperities import LEAST_BANDWIDTH, SpectralMoments, map_moments, profile_moments
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, statistics
 from ehlectric.surfaces.profiles import LEAST_POINTS, Profile

@@ -20,7 +20,7 @@ from ehlectric.bearing.uncertainty import SEED
 from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.table import by_table
-from ehlectric.errors import CODES, CODES_OF_TEXTS, TEXTS
+from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, TEXTS
 from ehlectric.runtime.files import now
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.worker_processes import Crew

@@ -33,16 +33,10 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.contact.check import portable
 from ehlectric.contact.solver import solve
 from ehlectric.drive.quick_drive import quick_drive
-from ehlectric.errors import (
-    ConvergenceError,
-    InputError,
-    LostError,
-    MemoryLimitError,
-    shown,
-    texts_and_codes,
-)
+from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.result_warnings import texts_and_codes
 from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.reading import regular

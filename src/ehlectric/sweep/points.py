@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Mask
 from ehlectric.cases.drive_case import SweptCase
-from ehlectric.errors import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
+from ehlectric.quantities.result_warnings import CODES, CODES_OF_TEXTS, ResultWarning, warnings_of
 from ehlectric.runtime.values import Values, is_number, read_only_property
 
 # Codes of warnings with which numbers may be used.

@@ -22,17 +22,15 @@ from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, kind_of
 from ehlectric.cases.table import number_of
 from ehlectric.contact.stored import case_with_stored_laws
-from ehlectric.errors import (
+from ehlectric.errors import DamagedError, InputError, WriteError
+from ehlectric.lubricant.python_laws import SampledLaws, is_laws
+from ehlectric.quantities.result_warnings import (
     CODES_OF_TEXTS,
     TEXTS,
-    DamagedError,
-    InputError,
     ResultWarning,
-    WriteError,
     texts_and_codes,
     warnings_of,
 )
-from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.runtime.file_rules import (
     LARGEST,
     UnfitError,

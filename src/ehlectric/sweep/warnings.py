@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.points import Point

@@ -15,10 +15,11 @@ from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.film_factors import FilmFactors
 from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
-from ehlectric.errors import ResultWarning, printable
+from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
 from ehlectric.quantities.palette import LIGHTS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
 from ehlectric.readable import readable
 from ehlectric.runtime.values import is_number

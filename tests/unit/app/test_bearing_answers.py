@@ -27,8 +27,9 @@ from ehlectric.app.compute.bearing_answers import (
     whole_quick_answer,
 )
 from ehlectric.bearing.result import solve_bearing
-from ehlectric.errors import CODES, InputError, ResultWarning
+from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import ratio_text

@@ -23,7 +23,8 @@ from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import contact_start
 from ehlectric.contact.solver import solve
-from ehlectric.errors import CODES, InputError
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.units import to_si
 from ehlectric.runs.by_kind import read_case, run_contact
 from ehlectric.runs.meaning import check

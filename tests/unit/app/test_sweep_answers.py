@@ -16,7 +16,8 @@ from ehlectric.app.pages.frame import SWEEP, start
 from ehlectric.app.work import Limits, Work
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
-from ehlectric.errors import CODES, InputError
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.runs.by_kind import read_sweep_file, run_sweep
 from ehlectric.sweep.engine import case_key, solve_point
 from ehlectric.sweep.store import read_sweep

@@ -19,8 +19,8 @@ from ehlectric.bearing.result import check_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve, without_regime
 from ehlectric.bearing.solution import ring_state
 from ehlectric.contact.conditions import resolve_point
-from ehlectric.errors import ResultWarning
 from ehlectric.formulas.hertz import dry_contact
+from ehlectric.quantities.result_warnings import ResultWarning
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,

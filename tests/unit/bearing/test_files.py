@@ -13,7 +13,7 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.run import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, save
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.result_names import DUTY
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 

@@ -9,7 +9,7 @@ from ehlectric import evaluate
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.warnings import _most_speed, input_flags, library_viscosity
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import raised
+from ehlectric.quantities.result_warnings import raised
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

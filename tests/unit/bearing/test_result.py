@@ -13,7 +13,8 @@ from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of, with_values
 

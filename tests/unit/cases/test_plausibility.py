@@ -8,9 +8,9 @@ from ehlectric.cases.plausibility import PLAUSIBLE, modulus_of_steel, unusual, u
 from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.warnings import case_warnings
 from ehlectric.drive.warnings import machine_warnings
-from ehlectric.errors import raised
 from ehlectric.formulas.capacitances import Machine, machine_capacitances
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
+from ehlectric.quantities.result_warnings import raised
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

@@ -7,7 +7,7 @@ import pytest
 from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.film_breakdown import MOST_OF_LIQUIDS, field_flags, strength_flags
-from ehlectric.errors import raised
+from ehlectric.quantities.result_warnings import raised
 from tests.helpers.each import each
 
 LINE = {

@@ -8,7 +8,7 @@ from ehlectric import Case, solve
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.film_breakdown import Breakdown
 from ehlectric.discharge.film_verdict import contact_verdict, weibull_part
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import ratio_text
 from tests.helpers.each import each
 

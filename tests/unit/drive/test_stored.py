@@ -11,8 +11,8 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.drive.solver import prepare
 from ehlectric.drive.stored import check, parts_of
 from ehlectric.drive.summary import checked_summary
-from ehlectric.errors import ResultWarning
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.tables.drive_tables import drive_rows
 from tests.helpers.drives import drive_with_remedy

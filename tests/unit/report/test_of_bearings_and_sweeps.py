@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric import BearingCase, save, solve
 from ehlectric.cases.case import Case
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.report.build import report_of
 from ehlectric.report.pdf import _parted
 from ehlectric.report.report_content import Picture, Table, Text

@@ -17,9 +17,10 @@ from rich.console import Console
 
 from ehlectric.cases.case import Case
 from ehlectric.commands.terminal import echo_files, say, warn
-from ehlectric.errors import InputError, ResultWarning, printable, short, shown, unseen
+from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.figures.figure_names import literal
 from ehlectric.figures.style import name_over, save_figure
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import Row
 from ehlectric.runtime.files import _FORMULA, csv_of, csv_text, write
 from ehlectric.runtime.progress import log_warnings

@@ -9,7 +9,7 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.errors import CODES, ResultWarning, texts_and_codes, warnings_of
+from ehlectric.quantities.result_warnings import CODES, ResultWarning, texts_and_codes, warnings_of
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.stored import (
     Part,

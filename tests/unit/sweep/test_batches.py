@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import read_sweep
-from ehlectric.errors import CODES
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.runtime.worker_processes import Crew, processes, this_process
 from ehlectric.sweep.batches import Batch, batches_of, run_batches, seconds_of, solve_batch
 from ehlectric.sweep.engine import plan, solve_point

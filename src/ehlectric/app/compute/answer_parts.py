@@ -15,9 +15,10 @@ from typing import Any
 from ehlectric.app.answers import SEVERITIES, Line, Number, PageWarning
 from ehlectric.app.session import own_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
-from ehlectric.errors import CODES, InputError, ResultWarning, shown
+from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from ehlectric.quantities.rows import Row, row_of
 from ehlectric.readable import ratio_text
 from ehlectric.runs.file_kinds import FileKind, kind_of_tables

@@ -24,8 +24,9 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN, code_of, doubted, level_of
 from ehlectric.discharge.film_verdict import doubts_of, ideal_films, no_verdict
-from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.quantity import data_file
+from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.sheets import (
     BREAKDOWN_FORMULAS,
     CHECK_CARDS,

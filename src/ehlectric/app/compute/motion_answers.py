@@ -14,9 +14,10 @@ from ehlectric.app.answers import MotionAnswer
 from ehlectric.app.charts.motion_charts import history, instants, least_films, movie, texts, units
 from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
 from ehlectric.cases.case import Case
-from ehlectric.errors import InputError, warnings_of
+from ehlectric.errors import InputError
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import read_motion
+from ehlectric.quantities.result_warnings import warnings_of
 from ehlectric.runs.by_kind import run_motion
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.result_names import MOTION

@@ -42,11 +42,12 @@ from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
-from ehlectric.errors import CODES, InputError
+from ehlectric.errors import InputError
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.sheets import SWEEPS, at_ends
 from ehlectric.quantities.units import in_unit, rpm, si_unit, split

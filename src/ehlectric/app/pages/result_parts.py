@@ -10,7 +10,7 @@ from nicegui import ui
 
 from ehlectric.app.answers import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
-from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.quantities.verdict import Verdict
 
 

@@ -8,7 +8,7 @@ from ehlectric import InputError
 from ehlectric.bearing.mounted_clearance import class_flags, fit_flags, mounted_clearance
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import raised
+from ehlectric.quantities.result_warnings import raised
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

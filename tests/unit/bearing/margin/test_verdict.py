@@ -11,7 +11,7 @@ from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import ResultWarning
+from ehlectric.quantities.result_warnings import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.places import EXAMPLES
 

@@ -12,8 +12,9 @@ from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.errors import InputError, raised
+from ehlectric.errors import InputError
 from ehlectric.formulas.inlet_supply import replenishment_factor
+from ehlectric.quantities.result_warnings import raised
 from ehlectric.tables.bearing_tables import film_factor_note
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each

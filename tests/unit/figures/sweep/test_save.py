@@ -11,7 +11,6 @@ from matplotlib.patches import Patch
 from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
-from ehlectric.errors import CODES, ResultWarning, texts_and_codes
 from ehlectric.figures.style import levels_of, round_numbers, style
 from ehlectric.figures.sweep_figures import (
     distribution,
@@ -24,6 +23,7 @@ from ehlectric.figures.sweep_figures import (
 from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_points import LESS_ACCURATE
+from ehlectric.quantities.result_warnings import CODES, ResultWarning, texts_and_codes
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from tests.helpers.each import each
