@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import sqlite3
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import asdict
 from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Self, get_args
+from typing import Any, get_args
 
 from ehlectric.cases.amounts import INFINITE, Amount, finite_or_text
 from ehlectric.cases.case import Case
@@ -22,7 +20,7 @@ from ehlectric.cases.drive_case import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, kind_of
 from ehlectric.cases.table import number_of
 from ehlectric.contact.stored import case_with_stored_laws
-from ehlectric.errors import DamagedError, InputError, WriteError
+from ehlectric.errors import InputError
 from ehlectric.lubricant.python_laws import SampledLaws, is_laws
 from ehlectric.quantities.result_warnings import (
     CODES_OF_TEXTS,
@@ -39,13 +37,10 @@ from ehlectric.runtime.file_rules import (
     is_number,
     is_table,
     is_text,
-    refusing,
 )
-from ehlectric.runtime.files import ADVICE, now, refuse_special
-from ehlectric.runtime.folders import locked
-from ehlectric.runtime.reading import regular
+from ehlectric.runtime.files import now
+from ehlectric.runtime.journal import Journal, JournalForm, reading
 from ehlectric.runtime.result_names import SWEEP
-from ehlectric.runtime.sizes import check_size
 from ehlectric.sweep import sweep_inputs as sweep_design
 from ehlectric.sweep.engine import Outcome, Planned
 from ehlectric.sweep.points import Point, Range, Spacing, Status
@@ -62,7 +57,7 @@ _COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 # Table of the checksums of outcomes, which earlier versions do not have.
-SEALS = "seals"
+_SEALS = "seals"
 
 _DESIGNS = ("grid", "paired", "sobol")
 
@@ -80,26 +75,6 @@ _DEEPEST = 20
 _TOGETHER = 1000
 
 _COLUMNS_OF_POINTS = "number, inputs, refused, status, reason, seconds, version, summary"
-
-
-def check_tables(file: sqlite3.Connection) -> None:
-    """Check the structure of a database and its tables, in an open transaction. Raises UnfitError where pages
-    or indices of the file are damaged, or a table is missing or is no table of a sweep; sqlite3.Error where
-    the file cannot be read.
-    """
-    entries = file.execute("SELECT type, name FROM sqlite_master").fetchall()
-    if any(kind in ("view", "trigger") for kind, _ in entries):
-        raise UnfitError("it has a view or a trigger, which no sweep has")
-    for table, columns in _COLUMNS.items():
-        if ("table", table) not in entries:
-            raise UnfitError(f"the table {table} is missing")
-        present = {row[1] for row in file.execute(f"PRAGMA table_info({table})")}
-        for column in columns:
-            if column not in present:
-                raise UnfitError(f"{column} of the table {table} is missing")
-    (found,) = file.execute("PRAGMA integrity_check(1)").fetchone()
-    if found != "ok":
-        raise UnfitError("its pages do not fit together")
 
 
 def _check(name: str, *, right: bool) -> None:
@@ -123,10 +98,12 @@ def check_seals(file: sqlite3.Connection) -> None:
     """Check that outcomes are those that were written; those of earlier versions have no checksum. Raises
     UnfitError where an outcome has changed.
     """
-    if not file.execute("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", (SEALS,)).fetchone():
+    if not file.execute(
+        "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", (_SEALS,)
+    ).fetchone():
         return
     columns = ", ".join(_COLUMNS["results"])
-    for seal, *row in file.execute(f"SELECT seal, {columns} FROM results JOIN {SEALS} USING (key)"):
+    for seal, *row in file.execute(f"SELECT seal, {columns} FROM results JOIN {_SEALS} USING (key)"):
         if seal_of_row(row) != seal:
             raise UnfitError(f"the outcome {str(row[0])[:12]} is not as it was written")
 
@@ -406,38 +383,6 @@ def _has_warnings(summary: Mapping[str, Any]) -> bool:
 
 NAME = SWEEP
 
-# File that is locked while the database is open for writing; it is removed afterwards.
-LOCK = ".ehlectric-sweep.lock"
-
-# SQLite's application id marks the file as a sweep of ehlectric: its bytes are the letters "ehle". The
-# version is that of the tables in the file.
-_APPLICATION = 0x65686C65
-_VERSION = 1
-
-# Error codes of SQLite for a full disk and for a write that fails, as at a limit of the size of files.
-_FULL = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_FSYNC)
-# Error codes of SQLite that say nothing of the content of a file, but that it is locked, or of its disk.
-_UNUSABLE = (
-    sqlite3.SQLITE_PERM,
-    sqlite3.SQLITE_ABORT,
-    sqlite3.SQLITE_BUSY,
-    sqlite3.SQLITE_LOCKED,
-    sqlite3.SQLITE_READONLY,
-    sqlite3.SQLITE_INTERRUPT,
-    sqlite3.SQLITE_IOERR,
-    sqlite3.SQLITE_FULL,
-    sqlite3.SQLITE_CANTOPEN,
-    sqlite3.SQLITE_PROTOCOL,
-    sqlite3.SQLITE_AUTH,
-    sqlite3.SQLITE_NOLFS,
-)
-
-# Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory
-# that its results take to this size.
-_LARGEST, _COPIES = 8_000_000_000, 3.0
-
-# Longest time that a reader and the writer wait for each other [s].
-_PATIENCE = 60.0
 _TABLES = """
 CREATE TABLE IF NOT EXISTS sweep (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS points (
@@ -450,44 +395,23 @@ CREATE TABLE IF NOT EXISTS results (
 CREATE TABLE IF NOT EXISTS seals (key TEXT PRIMARY KEY, seal INTEGER NOT NULL);
 """
 
+# The application id is the letters "ehle".
+_FORM = JournalForm("sweep", application=0x65686C65, version=1, tables=_TABLES, columns=_COLUMNS)
+
 # SQL condition for an outcome that is final. A failed point is tried again if its process was killed or
 # ran out of memory, or if another version of ehlectric failed.
 _DONE = f"(results.status <> 'failed' OR (NOT results.again AND results.version = '{__version__}'))"
 
 
-class Store:
+class Store(Journal):
     """File of a sweep, opened by the single process that writes it; a context manager.
-
-    Every ``write`` is a synchronous transaction in SQLite's rollback journal. What it has written survives a
-    crash of the machine, and a reader needs no second file. (A write-ahead log would be faster, but does not
-    work on network file systems.)
 
     Raises InputError by every method, if the file cannot be used, is not a sweep, or is written by another
     process.
     """
 
     def __init__(self, folder: Path) -> None:
-        self._path = folder / NAME
-        refuse_special(self._path)
-        with ExitStack() as stack:
-            stack.enter_context(locked(folder, LOCK))
-            stack.callback(_remove_empty, self._path)
-            with _one_line_errors(self._path):
-                self._file = _opened(self._path, "rwc")
-                stack.callback(self._file.close)
-                _check_stored(self._path, self._file)
-                self._file.execute("PRAGMA journal_mode = TRUNCATE")
-                self._file.execute("PRAGMA synchronous = FULL")
-            self._held = stack.pop_all()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        with suppress(sqlite3.Error):
-            # Deletes the empty journal file.
-            self._file.execute("PRAGMA journal_mode = DELETE")
-        self._held.close()
+        super().__init__(folder / NAME, _FORM, _check_stored)
 
     def begin(self, sweep: Sweep, planned: Iterable[Planned]) -> None:
         """Replace the stored input and points by those of a sweep; stored outcomes are kept."""
@@ -507,23 +431,19 @@ class Store:
         rows = (
             (one.number, json.dumps(_written_inputs(one.inputs)), one.key, one.refused) for one in planned
         )
-        with self._transaction():
-            for statement in _TABLES.split(";"):
-                self._file.execute(statement)
-            self._file.execute(f"PRAGMA application_id = {_APPLICATION}")
-            self._file.execute(f"PRAGMA user_version = {_VERSION}")
-            self._file.execute("DELETE FROM sweep")
-            self._file.execute("DELETE FROM points")
-            self._file.executemany(
+        with self.transaction(create=True) as file:
+            file.execute("DELETE FROM sweep")
+            file.execute("DELETE FROM points")
+            file.executemany(
                 "INSERT INTO sweep VALUES (?, ?)",
                 [(name, json.dumps(value)) for name, value in settings.items()],
             )
-            self._file.executemany("INSERT INTO points VALUES (?, ?, ?, ?)", rows)
+            file.executemany("INSERT INTO points VALUES (?, ?, ?, ?)", rows)
 
     def open_points(self) -> list[tuple[str, dict[str, Any]]]:
         """Keys and inputs of the points that are still to be solved, each case once."""
-        with _one_line_errors(self._path):
-            rows = self._file.execute(
+        with self.one_line_errors():
+            rows = self.file.execute(
                 "SELECT points.key, inputs, min(number) FROM points LEFT JOIN results USING (key) "
                 f"WHERE points.key IS NOT NULL AND (results.key IS NULL OR NOT {_DONE}) "
                 "GROUP BY points.key ORDER BY min(number)"
@@ -532,8 +452,8 @@ class Store:
 
     def counts(self) -> dict[str, int]:
         """Number of points by status; points that are to be tried again count as "open"."""
-        with _one_line_errors(self._path):
-            rows = self._file.execute(
+        with self.one_line_errors():
+            rows = self.file.execute(
                 "SELECT CASE WHEN points.key IS NULL THEN 'failed' "
                 f"WHEN results.key IS NULL OR NOT {_DONE} THEN 'open' ELSE results.status END AS status, "
                 "count(*) FROM points LEFT JOIN results USING (key) GROUP BY 1"
@@ -554,23 +474,10 @@ class Store:
             )
             for key, outcome in rows
         ]  # fmt: skip
-        with self._transaction():
-            self._file.executemany("INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?, ?, ?, ?, ?)", values)
+        with self.transaction() as file:
+            file.executemany("INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?, ?, ?, ?, ?)", values)
             seals = [(row[0], seal_of_row(row)) for row in values]
-            self._file.executemany(f"INSERT OR REPLACE INTO {SEALS} VALUES (?, ?)", seals)
-
-    @contextmanager
-    def _transaction(self) -> Iterator[None]:
-        """Commit what is written in the context, or roll it back if an exception is raised."""
-        with _one_line_errors(self._path):
-            self._file.execute("BEGIN IMMEDIATE")
-            try:
-                yield
-                self._file.execute("COMMIT")
-            except BaseException:
-                if self._file.in_transaction:
-                    self._file.execute("ROLLBACK")
-                raise
+            file.executemany(f"INSERT OR REPLACE INTO {_SEALS} VALUES (?, ?)", seals)
 
 
 def read_sweep(folder: str | Path) -> SweepResults:
@@ -593,21 +500,15 @@ def read_sweep(folder: str | Path) -> SweepResults:
     DamagedError
         If its file is damaged.
     """
-    path = Path(folder) / NAME
-    with regular(path) as opened:
-        check_size(path, os.fstat(opened.fileno()).st_size, _LARGEST, copies=_COPIES)
-    with _reading(path) as file:
-        check_tables(file)
-        results = results_of(file)
-        check_seals(file)
-    return results
+    with reading(Path(folder) / NAME, _FORM, check_seals) as file:
+        return results_of(file)
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
     """Number of points of a sweep that have been tried and saved, and number of all its points. Raises
     InputError if the file cannot be used, or is not a sweep.
     """
-    with _reading(Path(folder) / NAME) as file:
+    with reading(Path(folder) / NAME, _FORM) as file:
         saved, points = file.execute(
             "SELECT count(CASE WHEN points.key IS NULL OR results.key IS NOT NULL THEN 1 END), count(*) "
             "FROM points LEFT JOIN results USING (key)"
@@ -615,64 +516,7 @@ def saved_points(folder: str | Path) -> tuple[int, int]:
     return saved, points
 
 
-@contextmanager
-def _reading(path: Path) -> Iterator[sqlite3.Connection]:
-    """Context with a connection that reads in a transaction; all its errors are one line."""
-    with _one_line_errors(path), closing(_opened(path, "rw")) as file:
-        file.execute("BEGIN")
-        with refusing(path):
-            yield file
-
-
-def _check_stored(path: Path, file: sqlite3.Connection) -> None:
-    """Check what an open file has stored before points are added to it; a new file has nothing yet."""
-    (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
-    with refusing(path):
-        if tables:
-            check_tables(file)
-            check_results(file)
-            check_seals(file)
-
-
-def _opened(path: Path, mode: str) -> sqlite3.Connection:
-    """Connection to a file, which must be empty or the file of a sweep."""
-    file = sqlite3.connect(
-        f"{path.absolute().as_uri()}?mode={mode}", uri=True, timeout=_PATIENCE, isolation_level=None
-    )
-    try:
-        (application,) = file.execute("PRAGMA application_id").fetchone()
-        (version,) = file.execute("PRAGMA user_version").fetchone()
-        (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
-        known = application == _APPLICATION and 1 <= version <= _VERSION
-        if not known and (tables or mode != "rwc"):
-            later = application == _APPLICATION and version > _VERSION
-            raise InputError(path, f"is {'of a later version' if later else 'not a sweep'} of ehlectric")
-    except BaseException:
-        file.close()
-        raise
-    return file
-
-
-def _remove_empty(path: Path) -> None:
-    """Remove a file to which nothing was written, as on a full disk."""
-    if path.is_file() and not path.stat().st_size:
-        path.unlink()
-
-
-@contextmanager
-def _one_line_errors(path: Path) -> Iterator[None]:
-    """Context manager in which errors of SQLite become an InputError of one line."""
-    try:
-        yield
-    except sqlite3.Error as error:
-        full = getattr(error, "sqlite_errorcode", 0)
-        if full in _FULL:
-            raise WriteError(path, f"cannot be written to, {error}{ADVICE}") from None
-        code = full & 0xFF
-        if code in _UNUSABLE:
-            raise InputError(path, f"cannot be used, {error}") from None
-        if code == sqlite3.SQLITE_NOTADB:
-            raise InputError(path, "is not a sweep of ehlectric") from None
-        raise DamagedError.of(path, f"SQLite says: {error}") from None
-    except UnicodeDecodeError:  # of the text of an error that quotes damaged bytes
-        raise DamagedError.of(path, "SQLite cannot read its tables") from None
+def _check_stored(file: sqlite3.Connection) -> None:
+    """Check the outcomes of a file before points are added to it."""
+    check_results(file)
+    check_seals(file)

@@ -237,7 +237,7 @@ def test_errors_of_sqlite_that_are_no_text(databases, tmp_path):
 
 
 def test_a_locked_database_is_said(databases, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlectric.sweep.store._PATIENCE", 0.0)
+    monkeypatch.setattr("ehlectric.runtime.journal._PATIENCE", 0.0)
     path = tmp_path / NAME
     path.write_bytes(databases["grid"])
     with closing(sqlite3.connect(path, isolation_level=None)) as other:
