@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.impedance import impedance_of, shaft_capacitance
+from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lambda_text, lubrication
 from ehlectric.bearing.speed_curves import (
@@ -346,6 +347,33 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
     """
     panels = {name: panels_of(result) for name, (panels_of, _) in FIGURES.items()}
     return {name: draws for name, draws in panels.items() if draws}
+
+
+def default_name(result: BearingResult) -> str:
+    """Name of the most informative figure of a bearing: breakdown over speed, else the loads."""
+    return "breakdown_over_speed.png" if _breaks(result) else next(iter(bearing_figures_of(result)))
+
+
+def names_over_speed(result: BearingResult) -> list[str]:
+    """Names of the figures of a bearing over speed, as far as its quick contacts have them."""
+    case, _ = quick_case(result.case)
+    if case is None:
+        return []
+    breaks = case.discharge.has_strength and not result.solution.conditions.ceramic
+    return [name for name in SPEED_FIGURES if breaks or not name.startswith("breakdown")]
+
+
+def lacking(result: BearingResult, file: str) -> str | None:
+    """Why a bearing lacks a figure that other bearings have; None if no bearing has it."""
+    if file not in (*FIGURES, *SPEED_FIGURES):
+        return None
+    if file == DUTY_FIGURE:
+        return "that of a duty cycle needs [duty], which the case does not have"
+    if result.solution.conditions.ceramic:
+        return "the others need elements that conduct, and those of this bearing are ceramic"
+    if not result.case.discharge.has_strength:
+        return "those of breakdown need discharge.dielectric_strength, which the case does not give"
+    return "this bearing has nothing to show in the others"
 
 
 def figure(result: BearingResult, name: str) -> Figure:

@@ -62,6 +62,15 @@ def drawings_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
     return common | {name: draw for name, draw, has in _FURTHER if has(result)}
 
 
+def default_name(result: AnyContact) -> str:
+    """Name of the most informative figure of a contact: the film, or the field where a discharge is
+    assessed.
+    """
+    if isinstance(result, PointResult):
+        return "film_map.png" if result.discharge is None else "field_map.png"
+    return "film.png" if result.discharge is None else "field_profiles.png"
+
+
 def figure(result: AnyContact, name: str) -> Figure:
     """Figure of a contact. Raises InputError where the result has no figure of this name."""
     draw = drawing_of(drawings_of(result), name)

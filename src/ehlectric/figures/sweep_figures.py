@@ -44,8 +44,8 @@ from ehlectric.readable import ratio_text, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
-from ehlectric.sweep.slices import Slice, numbers_of, spaced_log, take
-from ehlectric.sweep.sweep_inputs import breakdown_of, ranked_value
+from ehlectric.sweep.slices import Slice, known_values, numbers_of, spaced_log, take
+from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
 
 
 def of_slice(results: SweepResults, selection: Slice) -> str:
@@ -343,3 +343,76 @@ def save_speeds(
     # The title of the case may name values that the sweep changes.
     title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
     return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []
+
+
+# Value of a sweep without breakdown voltages, by the kind of its case.
+_MAIN_VALUES = ("film.minimum_thickness", "bearing.capacitance")
+
+
+def default_figure(results: SweepResults, options: Mapping[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Name and options of the most informative figure of a sweep: the sensitivity of a Sobol design, lines
+    over one varied key, or a map over two.
+    """
+    if results.design == "sobol":
+        return SENSITIVITY_FIGURE, {}
+    value = options.get("value") or _value_of(results)
+    over = default_axes(results, options)
+    if not over:
+        raise InputError("x", "no varied key has numbers;", takes="a figure by its name")
+    files = map_files(value)
+    return files[0 if "y" in over and results.design == "grid" else 1], over | {"value": value}
+
+
+def default_axes(results: SweepResults, options: Mapping[str, Any]) -> dict[str, str]:
+    """Varied keys along the axes of a figure: those that are given, else the first ones with numbers. Returns
+    ``x``, and ``y`` where there is a second key; empty where no key has numbers.
+    """
+    x, y = options.get("x"), options.get("y")
+    at = options.get("at") or {}
+    free = [key for key in _numeric(results) if key not in (x, y, *at)]
+    keys = [x] if x else free[:1]
+    if not keys:
+        return {}
+    others = [y] if y else [key for key in free if key not in keys]
+    return {"x": keys[0]} | ({"y": others[0]} if others else {})
+
+
+def _value_of(results: SweepResults) -> str:
+    """Breakdown voltage, where there is one, else the film or the capacitance."""
+    known, breakdown = known_values(results), main_value(results.case)
+    for value in (breakdown, *_MAIN_VALUES, *known):
+        if value in known:
+            return value
+    raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")
+
+
+def _numeric(results: SweepResults) -> list[str]:
+    """Varied keys with numbers that differ."""
+    columns = {key: {repr(point.inputs[key]) for point in results.points} for key in results.varied}
+    first = results.points[0].inputs
+    return [key for key, values in columns.items() if len(values) > 1 and isinstance(first[key], int | float)]
+
+
+def default_names(results: SweepResults) -> list[str]:
+    """Names of the figures of a sweep over its default axes."""
+    axes = default_axes(results, {})
+    known = (value for value in known_values(results) if not value.startswith("inputs."))
+    values = [value for value in known if label_of(value, results.case).name != value]
+    names = []
+    for value in values if axes else ():
+        on_map, lines = map_files(value)
+        names += [on_map, lines] if "y" in axes and results.design == "grid" else [lines]
+    return [SENSITIVITY_FIGURE, *names] if results.design == "sobol" else names
+
+
+def with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a figure by its name, with the default axes where none are given. Raises InputError if the
+    name is that of a value.
+    """
+    if name in known_values(results):
+        raise InputError("figure", got=f"{shown(name)}, a value;", takes=f"value={name!r} in place of a name")
+    if not name.startswith(("map_", "lines_")):
+        return dict(options)
+    if options.get("x") and (name.startswith("map_") or results.design != "grid"):
+        return dict(options)
+    return {**default_axes(results, options), **options}
