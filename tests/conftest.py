@@ -1,8 +1,6 @@
 """Fixtures shared by all tests."""
 
 import signal
-import tomllib
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -23,19 +21,6 @@ settings.register_profile(
     "repeated", deadline=None, derandomize=not THOROUGH, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("repeated")
-
-# Long tests that every change must pass, by what they would catch.
-GATE = tomllib.loads((Path(__file__).parent / "gate.toml").read_text(encoding="utf-8"))
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
-    """Mark the long tests of ``gate.toml``: a case by its whole name, all cases by the name without it."""
-    chosen = {name for group in GATE.values() for name in group["tests"]}
-    for item in items:
-        if item.nodeid in chosen or item.nodeid.partition("[")[0] in chosen:
-            item.add_marker("gate")
-
 
 PAPER_CONTACT = {
     "reduced_radius": "14.1 mm",

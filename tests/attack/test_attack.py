@@ -14,6 +14,7 @@ from tests.attack.kills import SCENARIOS, kill
 from tests.attack.runner import Runner
 from tests.attack.stock import make
 from tests.cli.test_drive_command import SHORT
+from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share, share_of
 
@@ -84,7 +85,7 @@ def test_a_drive_of_a_user_without_a_home(poor, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", SCENARIOS)
+@pytest.mark.parametrize("command", gated(SCENARIOS, "run", "sweep"))
 def test_kills(command, stock, runner, tmp_path, record_property):
     kills = share_of(SCENARIOS[command].kills, KILLS)
     report = kill(command, kills, SEED, stock, tmp_path, runner)

@@ -74,6 +74,7 @@ def wait_until_solved(page):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_line_contact_is_drawn_with_the_numbers_of_the_command(open_page, app_server, tmp_path):
     page = open_page(app_server, "/contact")
     wait_until_solved(page)

@@ -57,6 +57,7 @@ def test_the_first_answer_follows_what_is_typed(open_page, app_server):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_simulation_has_the_numbers_of_the_command_and_a_remedy_stands_beside_it(
     open_page, app_server, tmp_path
 ):

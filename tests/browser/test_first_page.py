@@ -22,6 +22,7 @@ def capacitance(load="1800 N"):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_first_page_has_its_answer(page, screenshot):
     wait_for_number(page, "bearing.capacitance", capacitance())
     assert page.get_by_test_id("verdict").inner_text().strip()
@@ -111,6 +112,7 @@ def test_twenty_sessions_at_once_within_their_memory(own_server, open_page):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_keyboard_is_enough(page):
     wait_for_number(page, "bearing.capacitance", capacitance())
     box = field(page, LOAD)

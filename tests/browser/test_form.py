@@ -23,6 +23,7 @@ def search(page, text):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_bearing_is_found_by_the_names_of_makers(page):
     for name in ("6208-2RS", "6208-2Z", "6208 ZZ", "6208 C3", "6208-2RS1/C3", "6208"):
         assert "6208" in search(page, name), name

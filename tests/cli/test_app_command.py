@@ -43,7 +43,7 @@ def ask(server, path, method="GET", body=None, **headers):
     ("number", "status"),
     [
         (signal.SIGINT, 0),
-        (signal.SIGTERM, _TERMINATED),
+        pytest.param(signal.SIGTERM, _TERMINATED, marks=pytest.mark.gate),
         (signal.SIGHUP, _HUNG_UP),
         (signal.SIGKILL, -signal.SIGKILL),
     ],
@@ -116,6 +116,7 @@ def test_a_missing_nicegui_is_one_line(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_process_of_the_server_loads_no_physics():
     heavy = "{'numpy', 'scipy', 'pint', 'pandas', 'matplotlib'}"
     code = f"import sys, ehlectric.app.server; print(sorted({heavy} & set(sys.modules)))"

@@ -105,6 +105,7 @@ def test_a_speed_in_rad_per_second_is_seen_at_once(ehlectric, bearing_file):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_bearing(ehlectric, bearing_file, tmp_path):
     done = ehlectric("bearing", bearing_file, "-o", "out")
     assert done.returncode == 0, done.stderr

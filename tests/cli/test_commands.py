@@ -44,6 +44,7 @@ AGREED = {
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_run_writes_everything_plot_redraws_and_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -93,6 +94,7 @@ def test_quiet_prints_nothing(ehlectric, case_file):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
     case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
     done = ehlectric("run", case_file, "-o", "out")
@@ -147,6 +149,7 @@ def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_termination_leaves_no_stray_files(case_file, tmp_path):
     process = subprocess.Popen([COMMAND, "run", case_file, "-o", tmp_path / "out"], stderr=subprocess.PIPE)
     summary = tmp_path / "out" / "summary.json"
@@ -257,6 +260,7 @@ def test_figures_of_surfaces_have_the_format_of_their_names(ehlectric, tmp_path,
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     """Sq 290 nm after a plane is recorded with the file; without --map its first row is shown."""
     words = ["surface", SURFACES / "al3d-1.al3d", "--form", "line", "--cutoff-long", "30 um"]
@@ -315,6 +319,7 @@ def test_check_says_what_is_doubtful_about_the_roughness(ehlectric, case_file, t
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml").returncode == 0
     assert ehlectric("check", "new.toml").returncode == 0
@@ -388,6 +393,7 @@ BAD_FILES = [
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("old, new, names", BAD_FILES)
 def test_bad_case_is_one_line_and_nothing_is_written(typed, case_file, tmp_path, old, new, names):
     case_file.write_text(CASE.replace(old, new))
@@ -427,6 +433,7 @@ def test_permissions(ehlectric, case_file, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_papers_solvers(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--solver", "paper")
     assert done.returncode == 0, done.stderr

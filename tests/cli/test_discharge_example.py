@@ -10,6 +10,7 @@ from tests.helpers.places import EXAMPLES
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_discharge_example(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "discharge.toml", "-o", "out", "--no-plots")
     assert (done.returncode, done.stderr) == (0, "")

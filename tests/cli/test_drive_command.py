@@ -38,6 +38,7 @@ def drive(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     drive.write_text(SHORT + REMEDY)
     done = ehlectric("drive", "drive.toml", "-o", "out", "--format", "svg")

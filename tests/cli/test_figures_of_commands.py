@@ -105,6 +105,7 @@ def assert_figure_is_missing(done, name, *texts):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_figure_of_an_oil_that_fails_takes_nothing_else(typed, tmp_path, monkeypatch):
     monkeypatch.setattr("ehlectric.figures.oil_figures.over_pressure", broken)
     done = typed("oil", "fva-3", "-o", "out")

@@ -21,6 +21,7 @@ from tests.cli.conftest import CASE
 from tests.cli.test_moving_run import LONG, begun
 from tests.helpers.commands import Begun, run_command
 from tests.helpers.each import each
+from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import wait_until
 
@@ -166,6 +167,7 @@ nodes = 12801
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_two_runs_at_once_leave_one_result(tmp_path):
     """Whichever comes second is refused: summary and arrays are of one case."""
     for name, pressure in (("a", 1.0), ("b", 0.8)):
@@ -199,7 +201,7 @@ def test_two_runs_at_once_leave_one_result(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", gated(range(3), 1))
 def test_what_a_kill_leaves_is_gone_after_the_next_run(tmp_path, seed):
     """A run that is killed at any moment leaves no hidden file behind the next one."""
     (tmp_path / "case.toml").write_text(SMALL)

@@ -79,6 +79,7 @@ def agrees(run, page):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_tutorial_has_the_output_of_check():
     agrees("check", TUTORIAL)
 
@@ -99,6 +100,7 @@ def test_the_first_page_of_the_documentation_has_the_verdict_of_its_bearing():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_answer_of_the_readme_is_that_of_the_command():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "ehlectric bearing examples/bearing_6208.toml --contacts atlas -o" in text

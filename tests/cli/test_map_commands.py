@@ -50,6 +50,7 @@ def command(monkeypatch, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_map_writes_both_figures(command, tmp_path):
     done = command("map", "grid", "--x", SPEED, "--y", LOAD, "--value", VALUE, "--at", f"{POTENTIAL}=4 V")
     assert done.exit_code == 0, done.output

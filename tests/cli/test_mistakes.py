@@ -82,6 +82,7 @@ REFUSED = {
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("changes, names", [pytest.param(*case, id=name) for name, case in REFUSED.items()])
 def test_refused_bearings(typed, tmp_path, changes, names):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
@@ -173,6 +174,7 @@ def test_refused_contacts(typed, tmp_path, changes, names):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_radii_and_speeds_that_no_machine_has_are_doubted(typed, tmp_path):
     """E20: a radius meant in millimetres, and 3000 rad/s as a string, are accepted with a warning."""
     for text, kind, names in (

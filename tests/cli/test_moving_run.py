@@ -87,6 +87,7 @@ def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_options_of_what_is_printed_and_a_run_is_drawn_again(typed, tmp_path, case_file):
     quiet = typed("run", case_file, "-o", "out", "--no-plots", "-q")
     assert (quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", "")
@@ -254,7 +255,9 @@ def kept(folder):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize(
+    "number", [signal.SIGTERM, pytest.param(signal.SIGINT, marks=pytest.mark.gate), signal.SIGHUP]
+)
 def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     process = begun(tmp_path)
     process.send_signal(number)

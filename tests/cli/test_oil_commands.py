@@ -21,6 +21,7 @@ def row(text, start):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_oils_are_listed_with_kinds_and_needs(ehlectric):
     done = ehlectric("oils")
     assert done.returncode == 0, done.stderr
@@ -47,6 +48,7 @@ def test_oils_are_listed_with_kinds_and_needs(ehlectric):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_oil_at_a_temperature_and_a_pressure(ehlectric):
     """By hand, with the modulus equation of table A1 in degC and bar, and 1 GPa as 10000 bar."""
     done = ehlectric("oil", "fva-3", "--temperature", "40 degC", "--pressure", "1 GPa")

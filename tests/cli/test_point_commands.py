@@ -40,6 +40,7 @@ def names_in(folder):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_run_writes_everything(ehlectric, point_file, tmp_path):
     done = ehlectric("run", point_file, "-o", "out")
     assert done.returncode == 0, done.stderr

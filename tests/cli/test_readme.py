@@ -22,6 +22,7 @@ def test_the_links_of_the_readme_lead_somewhere():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_python_of_the_readme_runs(monkeypatch):
     monkeypatch.chdir(ROOT)
     (block,) = blocks("python")

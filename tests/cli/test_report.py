@@ -55,6 +55,7 @@ def test_of_a_service_whose_home_is_no_folder(ehlectric, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_of_a_line_contact(ehlectric, tmp_path):
     """Numbers are those of summary.json; the next run removes the report."""
     text = CASE.replace('"Test"', f"'{HOSTILE}'".replace("\u202e", ""))

@@ -60,6 +60,7 @@ def test_table_3_alone(ehlectric, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_one_figure_alone(ehlectric, tmp_path):
     done = ehlectric("reproduce", "-o", "out", "--figure", "7", "--quiet")
     assert done.returncode == 0, done.stderr

@@ -22,6 +22,7 @@ def bearing(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
     """The shaft voltage of the bench is that of the solved bearing."""
     (tmp_path / "sim").mkdir()
@@ -38,6 +39,7 @@ def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.usefixtures("bearing")
 def test_a_table_over_speed_is_written(ehlectric, tmp_path):
     done = ehlectric("spice", "bearing.toml", "--speeds", "1500 rpm : 6000 rpm : 3", "--bench", "bench.cir")
@@ -83,6 +85,7 @@ def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_drive_is_written_with_its_inverter(ehlectric, tmp_path):
     """Both bearings, the arc of the drive, and a bench with its source and its circuit."""
     assert ehlectric("init", "drive.toml", "--kind", "drive", "--no-schema").returncode == 0

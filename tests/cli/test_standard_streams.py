@@ -48,6 +48,7 @@ def test_a_full_device_is_named_by_every_command(tmp_path, words):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_files_are_whole_where_all_streams_are_closed(tmp_path):
     """A closed stream has a low number, which the first file must not get."""
     words = ("oil", "fva-3", "--no-plots", "-o", "open")

@@ -17,6 +17,7 @@ from ehlectric.runs.file_kinds import kind_of_file
 from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
+from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES, ROOT
 
 KINDS = {
@@ -30,7 +31,7 @@ COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", TEMPLATES)
+@pytest.mark.parametrize("kind", gated(TEMPLATES, "bearing", "line"))
 def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectric, tmp_path, kind):
     """In a folder of its own: it needs no other file."""
     done = ehlectric("init", "new.toml", "--kind", kind)
@@ -54,6 +55,7 @@ def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectri
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path):
     listed = ehlectric("examples")
     assert listed.returncode == 0
@@ -219,6 +221,7 @@ def test_no_name_that_windows_lacks_is_used_unguarded():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_bearings_of_the_library_are_listed(ehlectric):
     """The 6208 as a person and as a program reads it; nothing is cut at the width of 80 characters."""
     done = ehlectric("bearings")

@@ -86,6 +86,7 @@ def saved(folder):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--workers", 1)
     rows = rows_of(tmp_path / "out")
@@ -134,6 +135,7 @@ def test_points_that_failed_are_counted_by_their_reason(ehlectric, tmp_path, swe
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_where_none_is_solved_the_status_is_3(ehlectric, tmp_path, swept):
     done = ehlectric("sweep", swept(SWEEP + "solver.max_iterations = [1]\n"), "-o", "out", "--workers", 1)
     assert (done.returncode, failures(done.stderr)) == (3, "error: none of 4 points was solved\n")
@@ -187,7 +189,7 @@ def wait_for_points(folder, points, process):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.gate)])
 def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     swept(LONG)
     process = begun(tmp_path, "--workers", "1", group=True)
@@ -288,6 +290,7 @@ def cluster(dask, scheduler):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_worker_without_the_package_ends_the_sweep(ehlectric, swept, dask, scheduler):
     dask.worker_without_package(scheduler[1])
     done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--scheduler", scheduler[1])

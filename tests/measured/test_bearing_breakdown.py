@@ -33,6 +33,7 @@ def test_measured_exponents():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @BEARINGS
 def test_flooded_films_depend_more_on_the_speed(bearing):
     """A miss: flooded films have 0.58 to 0.73 for each candidate, with and without heat in the inlet.
@@ -46,6 +47,7 @@ def test_flooded_films_depend_more_on_the_speed(bearing):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @BEARINGS
 def test_supply_and_warmer_oil_have_the_measured_range(bearing):
     """Grease that fills the track only in part, and oil that is 0 to 40 K warmer, span the exponents."""

@@ -6,6 +6,7 @@ from tests.measured.equation_of_state import values
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_tait_beside_dowson_higginson():
     """Tait's oil is 8 % denser at 2 GPa, so that the film is 7 % thinner and its permittivity 9 % higher.
 

@@ -30,6 +30,7 @@ def test_films_of_fva_3(nodes, rows):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_films_of_fva_3_of_the_library():
     """The oil of the library, with no number of this rig, gives the same films at 25.1 degC."""
     reference = load("ball_on_glass_fva3")

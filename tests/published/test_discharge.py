@@ -32,6 +32,7 @@ def solved(paper_case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("load", LOADS)
 def test_ratio_to_plates(solved, load):
     ratios = [solved[load, u_s].discharge.capacitance_ratio for u_s in SPEEDS]
@@ -40,6 +41,7 @@ def test_ratio_to_plates(solved, load):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("load", LOADS)
 @each("u_s", SPEEDS)
 def test_dry_contact_with_a_film_is_nearly_it(solved, load, u_s):
@@ -77,6 +79,7 @@ def hertz_zone(result):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("load", LOADS)
 @each("u_s", SPEEDS)
 def test_spike_and_constriction_hardly_matter(solved, load, u_s):

@@ -51,6 +51,7 @@ def test_film_of_another_program_on_its_grid():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", OTHERS)
 def test_films_of_another_program_are_thicker_than_ours_by_their_first_order_wedge(name):
     """By 0 to 1.2 %, as its first-order wedge makes films too thick."""

@@ -47,6 +47,7 @@ def row_name(row):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("row", FILMS, ids=row_name)
 def test_first_order_film_agrees_with_independent_computation(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "first-order")
@@ -63,6 +64,7 @@ def test_first_order_film_agrees_with_independent_computation(solved, row):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("row", FILMS, ids=row_name)
 def test_second_order_film_agrees_with_independent_computation(solved, row):
     film = solved(row["load_per_length"], row["u_s"], "second-order").film
@@ -71,6 +73,7 @@ def test_second_order_film_agrees_with_independent_computation(solved, row):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("row", FILMS, ids=row_name)
 def test_second_order_film_is_near_the_converged_one(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")
@@ -119,6 +122,7 @@ def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("row", TABLE_3)
 def test_table_3(solved, row):
     result = solved(1.57e6, row["u_s"], "second-order")
@@ -137,6 +141,7 @@ def test_table_3(solved, row):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("row", FILMS, ids=row_name)
 def test_field_is_v12_over_h_min_at_the_constriction(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")

@@ -9,12 +9,14 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.formulas.film_point import hamrock_dowson
+from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES
 
 MICRO = 1e-6
 FILMS = pd.read_csv(Path(__file__).parent / "data" / "point_contact_films.csv", comment="#", dtype=str)
 FILMS = {row.nodes: (float(row.h_min) * MICRO, float(row.h_0) * MICRO) for row in FILMS.itertuples()}
 EXTRAPOLATED = FILMS.pop("extrapolated")
+NODES = [int(nodes) for nodes in FILMS]
 
 
 @pytest.fixture(scope="module")
@@ -37,13 +39,8 @@ def off(film, expected):
     return found / np.array(expected) - 1.0
 
 
-def grids(most):
-    """Those of the data, slow where they are finer than ``most``."""
-    return [pytest.param(int(n), marks=[pytest.mark.slow] if int(n) > most else []) for n in FILMS]
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("nodes", grids(129))
+@pytest.mark.parametrize("nodes", gated(NODES, 257))
 def test_first_order_film_agrees_with_independent_computation(solved, nodes):
     film = solved(nodes, "first-order").film
     assert film.converged
@@ -56,8 +53,9 @@ def test_second_order_film_is_near_the_extrapolated_one(solved):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
-@pytest.mark.parametrize("nodes", grids(129))
+@pytest.mark.parametrize("nodes", NODES)
 def test_error_estimate_is_the_true_error(solved, nodes, wedge):
     """Within a factor 3 of the distance from the extrapolated film, which is rounded to 0.001 um."""
     film = solved(nodes, wedge).film
@@ -66,6 +64,7 @@ def test_error_estimate_is_the_true_error(solved, nodes, wedge):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_film_formulas(solved):
     """Hamrock-Dowson gives 0.251 and 0.438 um; their fits are within 10 % of this film."""
     result = solved(257, "second-order")
@@ -79,6 +78,7 @@ def test_film_formulas(solved):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("nodes", [129])
 def test_solution_meets_its_equations(solved, nodes, wedge):
@@ -96,6 +96,7 @@ def test_solution_meets_its_equations(solved, nodes, wedge):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_horseshoe(solved):
     """The film is thinnest at the two sides, not at the exit, and the field largest there: V12/h_min."""
     result = solved(257, "second-order")

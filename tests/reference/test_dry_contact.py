@@ -94,6 +94,7 @@ def test_smooth_line_is_hertz(linear):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("k", [1.0, 3.0])
 def test_smooth_point_is_hertz(k):
     ratio, compliance = dry.ellipse(k)
@@ -146,6 +147,7 @@ def test_complete_contact_of_a_sinusoid():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_complete_contact_of_a_map():
     # The pressure of a wave z is E* q z/2, so that its mean square is that of the gradient times E*^2/4.
     heights, gradient = rough_map(128)
@@ -248,6 +250,7 @@ def test_area_of_a_self_affine_map_is_proportional_to_a_small_load(seed):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_area_at_larger_loads_is_above_perssons():
     # A/A0 = erf(sqrt(2) p/(E* g)), B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840. Here the area is larger
     # by about 30 % at a tenth of E* g, 20 % at two tenths and 8 % at five; it is exact in complete contact.

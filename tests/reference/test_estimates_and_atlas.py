@@ -43,6 +43,7 @@ def test_estimates_are_those_of_the_program(name):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(
     ("kind", "least", "median"),
     [
@@ -63,6 +64,7 @@ def test_films_of_the_atlas_keep_their_stated_error(kind, least, median):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_classes_of_the_points():
     """Light and heavy, slender and wide contacts each keep their stated error in 95 % of the films."""
     laws = atlas.laws_of("points")

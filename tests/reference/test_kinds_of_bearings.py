@@ -232,6 +232,7 @@ def test_loads_and_displacement(name):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", KINDS)
 def test_loads_with_the_cage_turned(name):
     """A quarter, a half and three quarters of a pitch on; the last one mirrors the first."""

@@ -36,6 +36,7 @@ def test_files_are_those_of_the_manifest():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_inputs_are_those_of_the_design():
     drawn, written = dict(contacts()), rows("contacts.csv")
     assert len(written) == 240
@@ -103,6 +104,7 @@ def test_comparison_finds_what_is_wrong(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -24,6 +24,7 @@ def test_pressure_carries_the_load(film):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("film", FILMS)
 @each("at", [(-0.3, 0.01), (0.7, 1.0), (INLET, 0.4), (1.0, SIDE), (-1.89, -1.79)])
 def test_deflection_is_the_potential(film, at):

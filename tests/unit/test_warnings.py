@@ -30,6 +30,7 @@ def literals(tree):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_every_code_is_used():
     """A code that no generator gives any more is taken out of the table."""
     used = set().union(*map(literals, syntax_trees()))
@@ -43,6 +44,7 @@ def test_every_code_is_explained():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_every_generator_gives_a_known_code():
     """Branches that no other test reaches too: the code is a literal, or a name for literals."""
     calls = [

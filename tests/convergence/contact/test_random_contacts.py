@@ -27,7 +27,7 @@ def random_contacts():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("wedge", ["first-order", "second-order"])
+@pytest.mark.parametrize("wedge", ["first-order", pytest.param("second-order", marks=pytest.mark.gate)])
 def test_every_contact_is_solved(paper_case, wedge):
     failed = []
     for load, speed in share(list(random_contacts()), 4):

@@ -22,6 +22,7 @@ def ball(doublings):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_capacitance_of_a_ball_grows_with_the_logarithm_of_its_domain():
     """Far out h = r^2/2R, so that doubling the domain adds 4 pi eps0 eps R ln 2, whatever its shape."""
     found = [ball(doublings).capacitance for doublings in range(3)]
@@ -45,6 +46,7 @@ def dry_gap(x, b):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_capacitance_of_a_line_contact_tends_to_a_limit():
     """What a longer domain adds is that of the dry gap and the film; far out it goes with 1/x."""
     results = [line(size) for size in (1, 2, 4, 8)]

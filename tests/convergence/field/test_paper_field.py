@@ -22,6 +22,7 @@ def manufactured():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_manufactured_solution_is_met_to_second_order(slope):
     """Cut cells, varying permittivity across and along, and free charge."""
     lower, upper, v, eps, charge = manufactured()

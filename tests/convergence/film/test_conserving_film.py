@@ -68,6 +68,7 @@ def test_the_flow_before_a_cavity_is_that_behind_it():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_oil_in_a_cavity_is_what_flows_there():
     """Between two full parts the surfaces carry the same oil all the way, which fills a part of the gap."""
     result = solve(line(), beside_smooth=False)

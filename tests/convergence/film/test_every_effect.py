@@ -99,6 +99,7 @@ def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("hot", [False, True])
 def test_a_layer_that_floods_is_no_supply(hot):
     """To 1e-8 of the film."""
@@ -110,6 +111,7 @@ def test_a_layer_that_floods_is_no_supply(hot):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("starved", [False, True])
 def test_a_boundary_film_that_is_thin_changes_no_hot_film(starved):
     """To 1e-8 of the film: nowhere do the surfaces touch."""
@@ -131,6 +133,7 @@ def test_a_newtonian_rheology_is_the_film_without_it(effects):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("part", [0.3, 0.8])
 def test_oil_that_conducts_all_heat_leaves_a_starved_film_isothermal(part):
     """To 1e-6: with 1.4e4 W/(m K) in the oil and 1e9 in the bodies no temperature builds up."""
@@ -167,6 +170,7 @@ def carried_across(problem, temperature, zeta):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_hot_film_of_sliding_surfaces_gets_its_layer_and_no_more():
     """The slow surface is hot ahead of the contact, and the oil there moves with the fast one.
 

@@ -37,6 +37,7 @@ def severe(result):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("point", [False, True])
 def test_a_table_without_heat_and_shear_changes_nothing(point):
     """Film = {} states what holds without the table: the film is the same to the last bit."""

@@ -27,6 +27,7 @@ THE_PAPERS = fas.solve_film, (401, 801, 1601)
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("solver", "wedge_order", "order", "largest"),
     [

@@ -25,7 +25,7 @@ def errors(exact, nodes, *, wedge_order):
 @pytest.mark.parametrize(
     ("skew", "nodes"),
     [
-        pytest.param(0.0, [49, 97], id="symmetric"),
+        pytest.param(0.0, [49, 97], id="symmetric", marks=pytest.mark.gate),
         pytest.param(0.5, [65, 129], id="whole"),
     ],
 )

@@ -50,7 +50,7 @@ def apart(film):
 
 # Profiles: waves whose valleys hardly fill, and waves of which the tips touch.
 PROFILES = [
-    pytest.param(sinusoid("200 nm", "40 um"), id="sinusoid"),
+    pytest.param(sinusoid("200 nm", "40 um"), id="sinusoid", marks=pytest.mark.gate),
     pytest.param(gaussian("200 nm", "20 um", seed=4), id="gaussian"),
     pytest.param(gaussian("50 nm", "20 um"), id="low"),
 ]
@@ -142,13 +142,14 @@ def test_fine_point_at_rest_is_the_dry_rough_contact(nodes):
 
 
 THICK = [
-    pytest.param(rough_line(sinusoid("20 nm", "40 um"), speed=2.0), id="line"),
+    pytest.param(rough_line(sinusoid("20 nm", "40 um"), speed=2.0), id="line", marks=pytest.mark.gate),
     pytest.param(rough_line(gaussian("20 nm", "20 um"), speed=1.0), id="random line"),
     pytest.param(rough_point(gaussian("20 nm", "35 um"), speed=2.0), id="point"),
 ]
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("case", THICK)
 def test_thick_film_does_not_know_the_boundary_film(case):
     """The same steps with and without a boundary film, and the same film from the solver of touching ones."""

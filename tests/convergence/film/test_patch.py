@@ -66,7 +66,7 @@ def test_a_film_as_wide_as_the_domain_has_no_patch():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["medium", "thick"])
+@pytest.mark.parametrize("name", [pytest.param("medium", marks=pytest.mark.gate), "thick"])
 def test_patch_has_the_film_of_the_whole_domain(name):
     check_patch(name)
 
@@ -90,6 +90,7 @@ def check_patch(name):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_film_on_a_patch_covers_the_whole_domain(tmp_path):
     """Nodes from inlet to outlet and from side to side, the whole load, and results that survive the disk."""
     case = CONTACTS["medium"][0].replace({"grid.nodes": 65, "grid.refine": 0.003, "grid.inlet": -4.25})

@@ -76,6 +76,7 @@ def test_very_long_ellipses():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_entrainment_along_the_long_axis():
     """An ellipse of ratio 1/4 has its film thinned by oil that flows off to both sides, as the formulas say.
 
@@ -91,6 +92,7 @@ def test_entrainment_along_the_long_axis():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_slow_contacts_tend_to_the_dry_one(slope):
     """The Hertz pressure, and its gap beside the contact, from which both differ by about the film."""
     films, insides, gaps = [], [], []

@@ -54,6 +54,7 @@ def drawn(seed):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_spike_that_becomes_the_hottest_place_is_in_the_error():
     """On 401 nodes the rise hardly differs from that on 201; on 801 it is 50 K more."""
     values = 5.0, 1e9, 0.1, "newtonian"

@@ -31,7 +31,7 @@ def central(solution):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("contact", [line_contact, circular_contact])
+@pytest.mark.parametrize("contact", [pytest.param(line_contact, marks=pytest.mark.gate), circular_contact])
 def test_large_eyring_stress_gives_the_newtonian_film(contact):
     """To 1e-9 at an Eyring stress of 1e14 Pa, with sliding."""
     problem = replace(contact(rheology=None), tolerance=1e-12)
@@ -87,6 +87,7 @@ def test_traction_under_a_hertz_pressure(width, share):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
 def test_reversed_slip_gives_the_same_film(contact, nodes):
     """Equal bodies: the film is the same, the traction has the other sign."""
@@ -104,6 +105,7 @@ def test_reversed_slip_gives_the_same_film(contact, nodes):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("exponent", "stress", "speed", "ratio"),
     [(0.5, 6e6, 4.0, 0.0), (0.5, 6e5, 4.0, 0.0), (0.7, 1e5, 4.0, 0.0), (0.8, 3e4, 4.0, 0.5)],
@@ -135,6 +137,7 @@ def test_traction_tends_to_the_limiting_coefficient():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
 def test_evenly_hot_film_is_that_of_a_thinner_oil(contact, nodes):
     """A temperature profile on all grids, the same everywhere, against an oil with these properties."""
@@ -163,6 +166,7 @@ def test_evenly_hot_film_is_that_of_a_thinner_oil(contact, nodes):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_sheared_film_converges_with_second_order():
     """Differences of the central thickness on four grids fall by about four from grid to grid."""
     films = [
@@ -187,7 +191,7 @@ def random_contacts(law, count, seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("law", ["eyring", "carreau", "limiting"])
+@pytest.mark.parametrize("law", [pytest.param("eyring", marks=pytest.mark.gate), "carreau", "limiting"])
 def test_random_line_contacts_converge(law):
     for conditions in random_contacts(law, 12, 7):
         solved(line_contact(*conditions))

@@ -73,6 +73,7 @@ def test_thick_layer_floods_a_line_contact():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("meniscus", [-3.0, -1.0, -0.5])
 def test_rigid_line_from_its_meniscus(meniscus):
     """Martin's quadrature from the meniscus: film and meniscus follow from load and layer.
@@ -108,6 +109,7 @@ def test_starved_circle_between_the_published_exponents():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_mass_is_conserved_in_a_point_contact():
     """What enters through the inlet edge leaves through outlet and sides, to rounding."""
     problem = posed(CIRCLE)
@@ -167,6 +169,7 @@ def test_rough_line_takes_what_it_is_given():
 @settings(max_examples=50, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(st.floats(0.3, 2.0), st.floats(np.log(0.3), np.log(20.0)), st.floats(np.log(0.01), np.log(1.2)))
 @pytest.mark.slow
+@pytest.mark.gate
 def test_random_starved_lines_converge(pressure, log_speed, log_part):
     """Any layer from a hundredth of the flooded film on, at any load and speed."""
     changes = {
@@ -183,6 +186,7 @@ def test_random_starved_lines_converge(pressure, log_speed, log_part):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_circle_from_its_meniscus_is_near_the_published_one():
     """Hamrock and Dowson IV (1977): h_c/h_ff = [(m - 1)/(m* - 1)]^0.29, m* = 1 + 3.06 [(R/b)^2 H_c]^0.58.
 

@@ -49,6 +49,7 @@ def test_a_steady_starved_film_stays(posed, ratio, steps):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_thick_layer_gives_the_flooded_motion():
     """A layer thicker than the gap at the inlet: the same numbers as without a layer."""
     problem = line(1000.0)
@@ -78,7 +79,8 @@ def oil_driven(moving, instant):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("ratio", "courant", "speed"), [(0.8, 1.0, 1.0), (0.4, 1.0, 0.5), (0.4, 0.7, 1.0), (0.1, 0.5, 1.5)]
+    ("ratio", "courant", "speed"),
+    [pytest.param(0.8, 1.0, 1.0, marks=pytest.mark.gate), (0.4, 1.0, 0.5), (0.4, 0.7, 1.0), (0.1, 0.5, 1.5)],
 )
 @pytest.mark.usefixtures("closely")
 def test_oil_in_minus_oil_out_is_the_change_of_content(ratio, courant, speed):
@@ -140,6 +142,7 @@ def with_wave(moving, history, wave, step):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("courant", [1.0, 2.0])
 def test_a_wave_of_the_layer_travels_unchanged_to_the_meniscus(courant):
     """Between the inlet edge and the meniscus the oil is where it was a time T before, T upstream."""
@@ -182,6 +185,7 @@ def test_steps_between_the_nodes_carry_the_layer_upstream_weighted():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_layer_that_changes_leads_to_its_own_stationary_film():
     """From the film of one layer to that of 0.8 of it: the stationary film, once other oil has left."""
     problem = line(0.5)

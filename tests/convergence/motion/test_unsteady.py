@@ -24,6 +24,7 @@ def carried_to_the_centre(problem, start, step, steps):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_order_in_time(paper_case):
     """On one grid, steps of 4, 2 and 1 spacings, where nothing is interpolated: their differences.
 
@@ -56,6 +57,7 @@ def test_order_in_space_and_time(paper_case, slope, courant):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_step_is_solved_far_below_its_error(paper_case, monkeypatch):
     """Solved a thousand times as closely, the film differs by less than 1e-5 of itself.
 
@@ -70,6 +72,7 @@ def test_a_step_is_solved_far_below_its_error(paper_case, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("gap", [ridge(0.0, 1.0, 0.0), ridge(HEIGHT, 0.1, 0.1, speed=0.0)])
 def test_a_steady_film_stays(paper_case, gap):
     """With steps of one spacing the time steps are the steady scheme: smooth and rough, P, H and the mass."""
@@ -82,6 +85,7 @@ def test_a_steady_film_stays(paper_case, gap):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_gap_that_rises_and_stays_gives_the_stationary_film(paper_case):
     """A ridge grows for T = 1: once the oil of before has left, its film is the steady one."""
     problem = problem_of(paper_case, 201)
@@ -114,7 +118,7 @@ def test_slow_roughness_tends_to_the_quasi_stationary_film(paper_case, slope):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("courant", [1.0, 0.7])
+@pytest.mark.parametrize("courant", [pytest.param(1.0, marks=pytest.mark.gate), 0.7])
 def test_a_shape_is_carried_through_the_flat_zone(paper_case, courant):
     """What a ridge makes of the film at X = -0.5 stands at X = 0.5 a time 1 later, within 1 %.
 
@@ -153,7 +157,7 @@ def flow(problem, now, dx, node):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("courant", [1.0, 0.7])
+@pytest.mark.parametrize("courant", [pytest.param(1.0, marks=pytest.mark.gate), 0.7])
 def test_oil_is_kept(paper_case, slope, courant):
     """What flows past X = -1.5 less what leaves the cavitated zone at 1.75 is gained, to second order.
 

@@ -31,6 +31,7 @@ def problem_of(nodes):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_steady_film_stays():
     """With steps of one spacing the time steps are the steady scheme."""
     problem = problem_of(65)

@@ -71,6 +71,7 @@ def whole() -> BearingAnswer:
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_answer_at_once_has_the_numbers_of_the_command(quick, summary):
     assert quick.numbers == summary["bearing"]
     assert list(quick.contact_rows) == summary["contacts"]
@@ -88,6 +89,7 @@ def test_a_case_by_formula_keeps_its_choice():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
     assert (whole.verdict.text, whole.verdict.level) == (summary["verdict"], summary["margin"]["level"])
     assert whole.margin == summary["margin"]
@@ -104,6 +106,7 @@ def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     totals = summary["bearing"]
     shown = {number.key: (number.bound, f"{number.text} {number.unit}".strip()) for number in quick.shown}
@@ -150,6 +153,7 @@ def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
     from ehlectric.tables.bearing_tables import total_rows
 
@@ -280,6 +284,7 @@ def test_figures_around_the_shaft_have_the_contacts_of_the_summary(quick, summar
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary):
     data = whole.figures["breakdown"].plot["data"]
     (star,) = (trace for trace in data if trace.get("marker", {}).get("symbol") == "star")

@@ -44,6 +44,7 @@ def solved():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_results_are_those_of_the_package(both, solved):
     found = {result.name: result for result in both[0].results}
     summary = numbers_of(solved)["bearing"]

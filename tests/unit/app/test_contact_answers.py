@@ -105,6 +105,7 @@ def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", ["line_contact", "ball_contact"])
 def test_solved_answer_is_that_of_the_command(name, tmp_path):
     grid = {} if name == "line_contact" else SMALL

@@ -172,6 +172,7 @@ def test_a_wrong_value_is_told_at_its_key(key, value, told):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     answer, out, told = simulated
     path = tmp_path / "drive.toml"

@@ -13,6 +13,7 @@ from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import breakdown_voltages, summary_of
 from ehlectric.runtime.progress import silent
+from tests.helpers.gate import gated
 from tests.helpers.moving_cases import LINE, POINT
 
 DISCHARGE = {"discharge": {"dielectric_strength": "20 V/um"}}
@@ -35,6 +36,7 @@ def solved(request, tmp_path_factory):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("solved", gated(TABLES, "line"), indirect=True)
 def test_frames_are_those_of_the_file(solved):
     answer, run, _, _ = solved
     chosen, frames = instants(run), answer.movie["frames"]

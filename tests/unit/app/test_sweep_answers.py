@@ -159,6 +159,7 @@ def test_warnings_of_a_map_have_no_codes(folder):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_map_has_the_numbers_of_the_summaries(folder):
     view, results = sweep_answers.seen(str(folder), "bearing.capacitance", TABLE), read_sweep(folder)
     factor = {"Capacitance of the bearing [pF]": 1e12, "Capacitance of the bearing [nF]": 1e9}[

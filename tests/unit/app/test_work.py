@@ -70,6 +70,7 @@ def test_an_error_of_the_program_is_one_line_and_its_traceback_is_in_the_log(fun
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_killed_process_loses_its_answer_only_and_another_takes_its_place():
     async def use(work):
         slow = asyncio.create_task(work.share().quick(calls.wait, 1.0))
@@ -166,7 +167,9 @@ def test_a_job_that_takes_too_long_is_stopped():
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are watched by the files of Linux")
-@pytest.mark.parametrize("how", ["cancel", "close the session", "close the work"])
+@pytest.mark.parametrize(
+    "how", [pytest.param("cancel", marks=pytest.mark.gate), "close the session", "close the work"]
+)
 @pytest.mark.parametrize("forks", ["served", pytest.param("no longer served", marks=pytest.mark.slow)])
 def test_a_job_ends_with_all_that_it_started(how, forks, tmp_path):
     """Also where the process that makes the others has died, as when a terminal is closed."""

@@ -68,6 +68,7 @@ def test_the_voltage_is_a_bound_without_a_capacitance():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_conducting_elements_have_none_of_these_numbers():
     own = totals()
     assert {own[f"element_{name}"] for name in ("voltage", "field", "breakdown", "margin")} == {None}

@@ -191,6 +191,7 @@ def test_a_film_factor_acts_once(tables, load, exponent):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
 def test_a_contact_of_a_bearing_makes_no_case(monkeypatch, tables):
     ring, solver = of(tables)
@@ -206,6 +207,7 @@ def test_a_contact_of_a_bearing_makes_no_case(monkeypatch, tables):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("load", [5.0, 60.0, 1200.0])
 def test_a_rollers_capacitance_does_not_depend_on_where_its_film_ends(load):
     """Film and tails beside a domain twice as long: within 1 %, the film's own part of that with it.

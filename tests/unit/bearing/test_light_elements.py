@@ -84,6 +84,7 @@ def test_rollers_that_carry_their_centrifugal_force():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(
     "bearing, key, values",
     [
@@ -149,6 +150,7 @@ def test_films_thicker_than_the_room_at_some_elements(bearing, radial, axial):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(
     "bearing",
     [

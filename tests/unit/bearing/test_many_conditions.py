@@ -80,6 +80,7 @@ def at(value, index):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", CASES)
 def test_points_are_those_of_single_bearings(name):
     changes, ends = CASES[name]

@@ -16,6 +16,7 @@ def test_a_step_is_suspicious_and_a_slope_is_not():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(
     "kind, key, points",
     [

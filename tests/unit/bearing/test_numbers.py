@@ -63,6 +63,7 @@ def by_elements(result, at, fill):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_bearing_from_its_elements(result):
     """1/C = 1/C_i + 1/C_o, elements added; V/s of each contact, then what its partner holds.
 

@@ -29,11 +29,13 @@ def life(tables=BALLS, **changes):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_without_its_table_there_is_no_life():
     assert life() == dict.fromkeys(KEYS)
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_ball_bearing_by_hand():
     """6208 under 1800 N and 300 N: F_a/F_r = 0.167 is below e = 0.19, so P = F_r. L_10 = (29.1/1.8)^3
     million turns, at 3000 rpm 180 000 an hour."""
@@ -56,6 +58,7 @@ def walther(temperature, points):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_modified_reference_life_uses_the_viscosity_of_the_oil():
     """ISO/TS 16281 takes kappa = nu/nu_1, with nu_1 = 4500/(3000 60)^0.5 mm^2/s at 3000 rpm and 60 mm, and
     P as the load whose basic life is the reference life. The film has a life with a name of its own.
@@ -144,6 +147,7 @@ def test_printed_ratings_of_the_series_are_those_of_the_life(base):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_ratings_come_from_the_file_then_the_designation_then_the_elements():
     keys = OF_SERIES["6809"]
     case, found = of_base("6809", {"dynamic_rating": "7 kN"}, **keys)
@@ -197,6 +201,7 @@ def test_lives_above_a_million_hours_are_not_numbers_in_texts():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_own_ratings_are_the_printed_ones_within_a_per_cent():
     own, printed = life(**CLEAN), life(bearing__life=PRINTED)
     assert own["dynamic_rating"] == pytest.approx(printed["dynamic_rating"], rel=0.01)
@@ -204,6 +209,7 @@ def test_own_ratings_are_the_printed_ones_within_a_per_cent():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})])
 def test_reference_life_is_near_the_basic_one(tables, power, changes):
     """Half of the ring is loaded without clearance, as ISO 281 takes it.

@@ -256,6 +256,7 @@ def test_ratings_of_other_makers_keep_the_balls(name, dynamic, static, elements,
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_higher_dynamic_ratings_and_rounding_change_no_balls():
     """Other makers print dynamic ratings up to 15 % higher, and static ones with another rounding."""
     for bearing in (one for one in ALL if one.kind in ("deep-groove ball", "angular-contact ball")):

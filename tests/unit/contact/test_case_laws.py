@@ -112,6 +112,7 @@ def test_a_loaded_result_keeps_the_values_of_its_laws(result, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_report_names_the_laws(result, tmp_path):
     save(result, tmp_path)
     (page,) = write_report(tmp_path, tmp_path / "report.html")

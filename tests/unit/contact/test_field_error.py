@@ -40,6 +40,7 @@ def test_a_smooth_contact_has_a_small_error_that_its_summary_states(result):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_error_is_saved_and_is_unknown_in_files_without_it(result, tmp_path):
     save(result, tmp_path)
     assert load(tmp_path / "result.nc").field.strength_error == result.field.strength_error

@@ -67,6 +67,7 @@ FIRST_ORDER = [("2 GPa", 0.37125, 801, 0.03), ("0.3984 GPa", 0.01, 401, None)]
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("pressure", "speed", "nodes", "target"), FIRST_ORDER)
 def test_first_order_error_is_not_underestimated(paper_case, pressure, speed, nodes, target):
     case = paper_case.replace({"contact.max_hertz_pressure": pressure, "contact.entrainment_speed": speed})

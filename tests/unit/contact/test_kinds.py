@@ -93,6 +93,7 @@ def test_a_run_reads_each_file_once(read, tmp_path, geometry, refine):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("geometry", list(CASES))
 def test_a_check_reads_each_file_once(read, tmp_path, geometry):
     path = tmp_path / "case.toml"
@@ -102,6 +103,7 @@ def test_a_check_reads_each_file_once(read, tmp_path, geometry):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("geometry", list(CASES))
 def test_without_a_case_the_result_is_that_of_the_case(geometry):
     case = case_of(geometry, discharge={"dielectric_strength": "15 V/um"})
@@ -129,6 +131,7 @@ def test_without_a_case_nothing_is_saved_that_could_not_be_loaded(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("geometry", "exponent"), [("line", 0.69), ("point", 0.67)])
 def test_a_film_factor_is_that_of_a_slower_contact(geometry, exponent):
     """The formulas' films go with the speed to the power 0.69 or 0.67; the conditions keep the true speed."""
@@ -142,6 +145,7 @@ def test_a_film_factor_is_that_of_a_slower_contact(geometry, exponent):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("geometry", list(CASES))
 def test_prepared_surfaces_are_those_that_are_solved(geometry):
     """A contact whose surfaces were prepared for another case is solved with those."""

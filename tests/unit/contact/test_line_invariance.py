@@ -77,6 +77,7 @@ def test_the_film_depends_on_m_and_l_alone(radius, modulus, load, viscosity):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(deadline=None, max_examples=10)
 @given(radius=factor, modulus=factor, viscosity=factor)
 def test_the_field_of_similar_contacts_is_similar(radius, modulus, viscosity):
@@ -89,6 +90,7 @@ def test_the_field_of_similar_contacts_is_similar(radius, modulus, viscosity):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(deadline=None, max_examples=10)
 @given(voltage=st.floats(1e-3, 1e3), common=st.floats(-1e3, 1e3), sign=st.sampled_from([-1.0, 1.0]))
 def test_the_field_of_a_contact_is_linear_in_the_voltage(voltage, common, sign):

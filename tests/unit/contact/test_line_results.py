@@ -52,6 +52,7 @@ def test_csv_has_units_in_its_header(paper_result, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_other_netcdf_files_are_refused(paper_result, tmp_path):
     paper_result.to_xarray().drop_vars("pressure").to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
     with pytest.raises(InputError, match="damaged: pressure "):
@@ -127,6 +128,7 @@ def test_thin_gap_error_without_the_minimum(paper_case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("speed", [4.0, 16.0])
 def test_inlet_deficit_is_what_the_film_lacks(paper_case, speed):
     """Against a domain ten times as long; a film goes with some 3/4 power of its inlet integral."""
@@ -169,6 +171,7 @@ def test_threads_share_the_limit_on_blas(paper_case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_tolerance_below_rounding_is_not_chased(paper_case):
     case = paper_case.replace({"solver.tolerance": 1e-11, "grid.nodes": 25_601})
     film = solve(case).film
@@ -243,6 +246,7 @@ WARNINGS = [
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("keys, message, code", WARNINGS)
 def test_warnings(paper_case, keys, message, code):
     case = paper_case.replace({"grid.nodes": 801} | keys)

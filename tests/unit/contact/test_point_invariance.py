@@ -106,6 +106,7 @@ def test_half_of_the_contact_is_the_whole_one(wedge):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_any_number_of_nodes_across():
     """Odd numbers are solved by half, even ones as a whole: neighbours differ by their grids alone."""
     films = {}
@@ -125,6 +126,7 @@ def test_any_number_of_nodes_across():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("nodes", [66, 70])
 def test_any_number_of_nodes_along(nodes):
     case = point({"entrainment_speed": 4.0}, grid={"nodes": nodes, "nodes_y": 65})

@@ -51,6 +51,7 @@ def rough_result():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_summary_has_the_agreed_keys(result, rough_result):
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))
     assert set(summary) == {
@@ -114,6 +115,7 @@ def thicknesses(film):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("wedge", [SLOW("first-order"), "second-order"])
 def test_discretisation_error_is_richardsons(wedge):
     """From two solutions of their own; of first order with the distance from the third order."""
@@ -134,6 +136,7 @@ def test_discretisation_error_is_richardsons(wedge):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_dataset_has_dimensions_and_units(rough_result):
     dataset = rough_result.to_xarray()
     for variable in dataset.variables.values():
@@ -167,6 +170,7 @@ def test_dataset_has_dimensions_and_units(rough_result):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("kind", ["smooth", "rough"])
 def test_results_survive_the_disk(request, kind, tmp_path):
     original = request.getfixturevalue("result" if kind == "smooth" else "rough_result")

@@ -22,6 +22,7 @@ PIT |= {"position": "20 um"}
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_pit_and_its_mirror_image():
     """Off the middle no half of the contact is like the other; everything is turned over with the pit."""
     left = rough(PIT | {"position_y": "-40 um"})

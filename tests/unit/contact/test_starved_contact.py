@@ -110,6 +110,7 @@ def test_thick_layer_is_told():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_meniscus_at_the_edge_of_the_hertz_zone_and_of_the_domain(starved):
     assert "meniscus-at-edge" not in codes(starved)
     (text,) = [
@@ -190,6 +191,7 @@ def test_layer_for_a_ratio_of_films(case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_layer_over_y_may_differ_on_both_sides():
     table = {"y": ["-0.2 mm", "0.2 mm"], "thickness": ["0.4 um", "0.1 um"]}
     result = solve(POINT.replace({"inlet.layer_table": table}))

@@ -231,6 +231,7 @@ def ball(request):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_capacitance_of_a_ball(ball):
     """Over the whole domain by adaptive quadrature, and over the disc of a circle in closed form,
     2 pi R eps0 eps ln(1 + a^2/(2 R h0)).

@@ -191,6 +191,7 @@ def test_solved_over_the_whole_domain(solved, kind):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("reach", [0.5, 1.25, 1.9])
 def test_zones_of_a_line_by_quadrature(reach):
     """eps0 eps/h of the film, linear between nodes. The solved field is a thin gap's to about a twelfth of
@@ -239,6 +240,7 @@ def test_the_papers_solvers_agree():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_nothing_new_is_said_of_an_ordinary_case(solved, kind):
     with_discharge = solve(case_of(kind, LAWS["constant"]))
@@ -364,6 +366,7 @@ def test_beyond_a_paraboloid():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_a_domain_twice_as_large_has_what_is_told_of_it(geometry):
     """The elastic gap grows faster than the square: by a factor 6 and not 4 from two half-widths to four."""

@@ -94,6 +94,7 @@ def test_without_a_motor_a_ring_has_no_voltage(case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_margins_follow_the_shaft_voltage(now):
     summary = now.summary(probable=False)
     found = at_shaft_voltage(summary, 0.5 * summary["bearing"]["shaft_voltage"])

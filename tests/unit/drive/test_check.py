@@ -33,6 +33,7 @@ def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_source_that_follows_the_speed_is_the_same_source(drive):
     """At the speed at which the frequency and the index are those of the example."""
     quick = drive.replace({"drive.contacts": "formula", "remedies": []})
@@ -81,6 +82,7 @@ def test_a_wrong_remedy_is_refused_before_anything_is_solved(drive, look, change
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("conductivity", "told"), [("1 pS/m", False), ("1 uS/m", True), ("1 mS/m", False)])
 def test_an_oil_slower_than_the_edges_is_noted(drive, conductivity, told):
     """2.4 eps0 over 1 uS/m is 21 us: a fifth of a period of 100 us, and 200 edges of 100 ns."""

@@ -72,6 +72,7 @@ def test_both_bearings_have_a_life_of_the_cycle(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_sums_are_those_of_a_law_that_is_known(tmp_path):
     """The sum over the rows by hand is within the stated interval, which is narrow for a smooth law."""
     duty = run_drive_cycle(cycle_of(tmp_path), PEAK, by_speed)
@@ -109,6 +110,7 @@ def test_interval_covers_a_law_with_noise(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_standstill_and_a_source_that_is_off_have_no_discharges(tmp_path):
     head = "time [s],speed [rpm],common-mode voltage [V]"
     case = cycle_of(tmp_path, [0.0, 3000.0, 3000.0, 3000.0], head, [280.0, 280.0, 0.0, 140.0])
@@ -147,6 +149,7 @@ def test_slow_rows_are_simulated_for_a_limited_time(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_no_discharge_is_bounded_by_the_simulated_time(tmp_path):
     """None in T seconds: below 3.689/T at 95 %, as exp(-3.689) = 2.5 %; their energy has no bound."""
     duty = run_drive_cycle(cycle_of(tmp_path), PEAK, lambda case: as_record(case, [0.0] * 2, [0.0] * 2))
@@ -158,6 +161,7 @@ def test_no_discharge_is_bounded_by_the_simulated_time(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rows_that_cannot_be_simulated_are_left_out_and_named(tmp_path):
     def refusing(case):
         if case.drive.speed > 3000.0 * RPM:

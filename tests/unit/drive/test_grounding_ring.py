@@ -109,6 +109,7 @@ def test_without_a_speed_of_the_drive_that_of_its_bearing_counts():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("rpm, table, ohm", [(3000, BRUSH, 5.0), (1500, {**BRUSH, "resistance": ["7 ohm"] * 3}, 7.0)])
 def test_a_drive_is_that_with_the_resistance_at_its_speed(rpm, table, ohm):
     """At an entry, and for a table of one value, to the last bit."""
@@ -170,6 +171,7 @@ def test_a_speed_beyond_the_table_has_a_note(rpm, words):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_check_has_the_resistance_and_no_verdict_from_the_divider():
     meaning = check(driven(1500))
     (row,) = (row for row in meaning.rows if row.key == RING)

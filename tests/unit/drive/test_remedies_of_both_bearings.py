@@ -53,6 +53,7 @@ def test_each_remedy_has_the_sums_of_both_bearings(drive):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_insulated_bearing_does_not_hide_the_other_one(drive):
     """Insulation of one bearing ends its discharges; the other bearing and the sum remain in the table."""
     summary = drive.summary()

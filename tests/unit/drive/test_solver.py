@@ -27,6 +27,7 @@ def case():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("fundamental", [50.0, 60.0, 61.7])
 def test_all_of_the_duration_is_measured(case, fundamental):
     """Also where the carrier has no whole number of periods in one of the fundamental."""
@@ -187,6 +188,7 @@ def test_surfaces_that_touch_are_told_as_a_drive_takes_them(case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("rise", "together"), [("5 ns", True), ("100 ns", False)])
 def test_fast_edges_discharge_both_ends_at_once(rise, together):
     """An arc of 10 ohm drains the 1 nF of the shaft in 10 ns: the other film is reached before, or never."""

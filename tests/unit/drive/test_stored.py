@@ -71,6 +71,7 @@ def test_each_bearing_of_a_drive_has_its_rating_life(drive):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
     """Its variables are missing, and half of them are a damaged file."""
     whole = drive.to_xarray()
@@ -87,6 +88,7 @@ def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_file_that_knows_no_summits_has_smooth_films(drive):
     dataset = drive.to_xarray()
     lines = drive.case.replace({"bearings.bearing.film_factor": 0.9}).to_toml().splitlines()
@@ -98,6 +100,7 @@ def test_a_file_that_knows_no_summits_has_smooth_films(drive):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_result_without_discharges_is_loaded_too(drive, tmp_path):
     _, _, grounded = drive.remedies[0]
     result = DriveResult(replace(grounded, case=grounded.case.replace({"remedies": []})))
@@ -155,6 +158,7 @@ def test_what_is_wrong_is_named(drive, tmp_path, name, change):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_file_of_another_result_is_refused(drive, tmp_path):
     other = drive.to_xarray().assign_attrs(schema="ehlectric.bearing.solution/1")
     with pytest.raises(InputError, match=r"drive\.nc: "):

@@ -116,6 +116,7 @@ def random_gap(lower, gap, permittivity, **changes):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(deadline=None)
 @given(lower=waves, gap=waves, permittivity=waves)
 def test_energy_and_charge_give_one_capacitance(lower, gap, permittivity):
@@ -124,6 +125,7 @@ def test_energy_and_charge_give_one_capacitance(lower, gap, permittivity):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(deadline=None)
 @given(lower=waves, gap=waves, permittivity=waves)
 def test_capacitance_lies_between_its_variational_bounds(lower, gap, permittivity):
@@ -140,6 +142,7 @@ def test_capacitance_lies_between_its_variational_bounds(lower, gap, permittivit
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(deadline=None, max_examples=20)
 @given(lower=waves, gap=waves, density=st.floats(-100.0, 100.0), voltage=st.floats(0.1, 100.0))
 def test_voltage_and_charge_superpose(lower, gap, density, voltage):

@@ -115,6 +115,7 @@ def test_places_are_local_maxima_and_the_first_is_the_largest_field():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_point_contact_finds_hidden_waves():
     gap, wavelength, amplitude = 1.4e-6, 0.7e-6, 20e-9
     x, y = np.arange(-24, 97) * wavelength / 8.0, np.linspace(-1e-6, 1e-6, 5)

@@ -81,6 +81,7 @@ def test_permittivity_by_column_is_that_by_node():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=10, deadline=None)
 @given(scale=st.floats(1e-3, 1e4), offset=st.floats(-1e3, 1e3))
 def test_voltage_scales_and_shifts_the_field(scale, offset):

@@ -89,6 +89,7 @@ def test_value_at_the_centre(nodes_y, symmetric):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("nodes", [65, 66, 100, 129])
 @each("nodes_y", [65, 66, 67, 68, 129, 130])
 @EITHER

@@ -219,6 +219,7 @@ def convergence_factor(levels):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("nodes", [401, 800, 1601, 6401])
 def test_v_cycle_reduces_the_error_fivefold(nodes):
     assert convergence_factor(jacobians(nodes)) < 0.2

@@ -121,6 +121,7 @@ def test_relaxation_of_a_half_is_that_of_the_whole(circle, whole_circle):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", CASES)
 def test_a_cycle_reduces_the_residual(name):
     """A random one to a quarter or less.
@@ -155,6 +156,7 @@ def krylov_iterations(solutions):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("name", CASES)
 def test_iterations_of_a_newton_step(name):
     """To a relative tolerance of 1e-3; the coarsest grid is solved by its own dense matrix."""

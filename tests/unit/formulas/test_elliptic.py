@@ -9,6 +9,7 @@ from tests.helpers.each import each
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("size", [20, 700, 5000])
 @each("spread", [0.0, 0.03, 0.5, 2.0, 6.0, 30.0])
 def test_both_are_those_of_scipy(spread, size):

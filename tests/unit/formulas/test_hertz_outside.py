@@ -9,6 +9,7 @@ from tests.helpers.each import each
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("ratio", [0.02, 0.5, 1.0, 1.0 + 1e-9, 3.0, 9.3, 50.0])
 @each("number", [40, 5000])
 def test_deflection_is_that_of_elliptic_integrals(ratio, number):

@@ -70,6 +70,7 @@ def test_capacitance_to_the_copper_is_that_of_finite_volumes():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=25)
 @given(
     st.floats(0.2, 0.9), st.floats(0.05, 1.0), st.floats(0.05, 3.0), st.floats(1.0, 10.0), st.floats(1.05, 2)

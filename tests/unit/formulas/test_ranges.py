@@ -116,6 +116,7 @@ def drawn(rng, kind, oil):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("kind", "module", "number"), [("line", film_line, 120), ("point", film_point, 240)])
 def test_stated_differences_are_kept_within_the_ranges(kind, module, number):
     """Random contacts of the atlas, in all regimes; its own error is up to some per cent."""

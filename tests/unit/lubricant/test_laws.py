@@ -158,6 +158,7 @@ def test_permittivity_of_compressed_oil(pressure, expected):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(ratio=st.floats(0.5, 1.4), reference=st.floats(1.0, 6.0))
 def test_clausius_mossotti_keeps_the_molar_polarisation(ratio, reference):
     """(eps - 1)/(eps + 2) is proportional to the density: the law before it is solved for eps."""

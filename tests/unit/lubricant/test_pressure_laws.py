@@ -194,6 +194,7 @@ def of_the_free_volume(pressure, temperature, oil):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(oil=around(DOOLITTLE, 0.05), pressure=st.floats(0.0, 0.5e9), temperature=st.floats(310.0, 400.0))
 def test_doolittle_is_the_printed_law_below_its_cap(oil, pressure, temperature):
     expected = of_the_free_volume(pressure, temperature, oil)

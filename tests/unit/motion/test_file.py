@@ -192,6 +192,7 @@ def test_the_held_roughness_is_that_of_the_case(whole):
     np.testing.assert_array_equal(whole["stationary_strength"], LINE.column_strength(still.film, still.field))
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("until", [pytest.param(0, marks=pytest.mark.slow), 4, 8])
 def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped, until):
     if until == 4:

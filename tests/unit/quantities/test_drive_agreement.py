@@ -59,6 +59,7 @@ DIVIDED = ("capacitance", "voltage_ratio", "voltage_at_peak", "peak_voltage", "r
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rows_are_those_of_the_book(summary):
     for key, row in rows_by_key(drive_rows(summary)).items():
         about = DRIVE_BOOK[of_book(key)]

@@ -56,6 +56,7 @@ def test_rows_are_those_of_the_book(result, rows):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_values_are_those_of_the_summary(result, rows):
     summary = result.summary()
     for key, row in rows.items():

@@ -83,6 +83,7 @@ def rows(table):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_sections_begin_with_the_answer(report):
     (light,) = [block for block in report.sections[0].blocks if isinstance(block, Light)]
     lead, _ = report.sections[2].blocks

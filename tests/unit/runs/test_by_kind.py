@@ -97,6 +97,7 @@ def files(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("kind", FILES)
 def test_a_file_of_each_kind_is_run_the_same_way(kind, files, tmp_path):
     """Nothing is drawn; what the progress is told last is the end."""

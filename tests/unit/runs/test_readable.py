@@ -68,6 +68,7 @@ def test_a_drive_that_load_would_refuse(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_instant_that_load_would_refuse_is_not_written(tmp_path, monkeypatch):
     """The instants before it can be loaded."""
     right = MotionFile._frame

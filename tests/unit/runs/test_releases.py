@@ -59,6 +59,7 @@ def test_this_release_has_files():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("folder", RESULTS, ids=name_of)
 def test_a_stored_result_has_its_numbers(folder):
     """Numbers of the summary follow from the stored arrays and the case: those of a later version too."""

@@ -95,6 +95,7 @@ def test_cases_may_be_endless():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_process_that_dies_costs_only_its_case(monkeypatch):
     monkeypatch.setattr(module, "solve_case", dies)
     deadly = CASES[0].replace({"grid.nodes": 131})

@@ -129,6 +129,7 @@ def test_a_file_is_read_where_a_kill_came_before_its_old_part_was_changed(grown,
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_kill_at_any_write_leaves_the_old_or_the_new_file(grown, monkeypatch):
     """Each write of a change is the last one in turn; the next reader finds the file before or after it."""
     path, grow = grown

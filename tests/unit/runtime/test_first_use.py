@@ -40,6 +40,7 @@ print(sorted({round(load, 3) for load in loads}), len(loads))
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_threads_read_cases_while_one_imports_the_registry_of_units():
     """400 lbf are 1779.289 N, 1.8 kN are 1800 N, and 0.4 kip are 1779.289 N."""
     done = subprocess.run([sys.executable, "-c", _THREADS], capture_output=True, text=True, check=False)

@@ -80,6 +80,7 @@ def test_a_batch_has_the_numbers_and_codes_of_its_points(shape, contacts):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_points_without_a_result_have_the_reason_that_they_have_alone():
     """The grooves of a bearing end before the contact of a ball with a load of tons."""
     loads = {LOAD: ["1 kN", "30 kN", "300 kN"], "bearing.axial_load": ["0 N", "300 kN"]}

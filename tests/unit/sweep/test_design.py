@@ -78,6 +78,7 @@ def test_the_seed_alone_makes_the_points():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("seed", [0, 1, 2])
 def test_indices_of_a_function_that_are_known(seed):
     """Ishigami's function with a = 7, b = 0.1, whose variance is split so (Ishigami and Homma, 1990)."""

@@ -169,6 +169,7 @@ def test_any_executor_will_do():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_only_the_point_that_kills_its_process_fails():
     with processes(1) as crew:
         found = found_by(with_deaths(crew), points([129, 129, DEADLY, 129, 129]))

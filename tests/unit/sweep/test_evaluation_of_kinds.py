@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.each import each
+from tests.helpers.gate import gated
 from tests.helpers.kinds_of_bearings import KINDS, OIL, bearing_of, differences, near, numbers_of
 from tests.helpers.share import share
 
@@ -18,6 +19,7 @@ _STEP = 2e-3
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each(
     ("kind", "key", "values"),
     [
@@ -55,7 +57,7 @@ def test_the_viscosity_of_the_library_is_noted_where_it_is_used():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", gated(KINDS, "needle with a coating"))
 def test_all_numbers_together(kind):
     """Numbers of points are numbers of elements, limits, tracks and positions of the cage, too."""
     rng = np.random.default_rng(5)
@@ -98,7 +100,10 @@ def test_points_of_all_regimes_together(kind):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "kind", [kind for kind, table in KINDS.items() if "axial_load" in table and "radial_load" in table]
+    "kind",
+    gated(
+        [kind for kind, table in KINDS.items() if "axial_load" in table and "radial_load" in table], "tapered"
+    ),
 )
 def test_points_whose_elements_share_the_load_evenly(kind):
     """Of some of these points all elements carry one load, and of others each carries its own."""

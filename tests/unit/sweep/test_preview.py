@@ -29,6 +29,7 @@ def test_the_slowest_point_names_what_it_lacks():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_given_resistance_lacks_nothing():
     sweep = swept(**{"bearings.bearing.contact_resistance": "1 ohm"})
     assert lacking_point(sweep, list(plan(sweep))) is None

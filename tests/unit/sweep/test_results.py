@@ -76,6 +76,7 @@ def test_results_are_compared_by_their_points(results):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_sweep_is_read_back_from_its_file(results, tmp_path):
     """Also a rotational speed, which a file takes with its unit alone."""
     speeds = {"bearing.inner_speed": ["1000 rpm", "2000 rpm"]}

@@ -41,6 +41,7 @@ def solved_by(sweep, folder, most=10**9):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_points_are_the_solutions_of_their_cases(tmp_path):
     told = []
     sweep = sweep_over({SPEED: [1.0, 2.0], PRESSURE: ["0.5 GPa", "1 GPa"]})
@@ -59,6 +60,7 @@ def test_points_are_the_solutions_of_their_cases(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_sweep_that_was_stopped_goes_on(tmp_path):
     first, begun = solved_by(speeds(6), tmp_path, most=4)
     assert (first, begun) == (None, [1.0, 2.0, 3.0, 4.0])
@@ -74,6 +76,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_changed_sweep_solves_what_it_does_not_share(tmp_path):
     solved_by(speeds(3), tmp_path)
     results, rest = solved_by(speeds(5), tmp_path)

@@ -110,6 +110,7 @@ def test_complete_design_as_scipy_has_it():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(
     scale=st.floats(1e-6, 1e6),
     sign=st.sampled_from([-1.0, 1.0]),
@@ -127,6 +128,7 @@ def test_unit_and_zero_of_the_value_do_not_matter(scale, sign, shift, seed):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(seed=st.integers(0, 999), inputs=st.integers(2, 5))
 def test_totals_are_no_less_than_first_order(seed, inputs):
     """Of the true indices; of estimates but for their scatter: twice both of their intervals, four standard

@@ -64,6 +64,7 @@ def test_heads_of_the_csv_have_units(gridded):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_csv_is_the_database(gridded):
     folder, _ = gridded
     with sqlite3.connect(folder / NAME) as file:
@@ -110,6 +111,7 @@ def test_parquet_is_the_csv(gridded):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_netcdf_is_the_csv(gridded):
     folder, results = gridded
     with xr.open_dataset(folder / "sweep.nc") as file:
@@ -166,6 +168,7 @@ def test_inputs_that_stay_are_left_out_and_resolved_ones_kept(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_tables_of_an_earlier_sweep_are_replaced_whole(gridded, tmp_path):
     _, results = gridded
     for name in ("sweep.csv", "sweep.parquet", "sweep.nc"):

@@ -144,6 +144,7 @@ def test_the_larger_load_changes_where_components_cross():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_probability_rises_with_the_voltage():
     """The same samples at all points: their margins are in proportion to 1 / voltage."""
     voltages = [100.0, 200.0, 300.0, 400.0, 800.0]
@@ -181,6 +182,7 @@ def test_a_sweep_has_columns_only_where_it_is_asked_for_them(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_sweep_of_an_earlier_version_has_no_samples(tmp_path):
     """Its database lacks the setting."""
     import sqlite3

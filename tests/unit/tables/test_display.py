@@ -93,6 +93,7 @@ def test_representation_of_parts_of_a_result(results):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("kind", "rows_of"),
     [

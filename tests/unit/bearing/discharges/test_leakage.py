@@ -52,6 +52,7 @@ def test_a_tight_oil_says_nothing():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("over", [0.9, 1.1])
 def test_the_period_decides(over):
     time = totals(solved(**LEAKY))["shaft_time_constant"]
@@ -90,6 +91,7 @@ def test_the_conductance_is_that_of_high_frequencies():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(
     "changes",
     [

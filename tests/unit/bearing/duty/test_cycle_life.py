@@ -47,6 +47,7 @@ def hours_of_cycle(rows, rating, power):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_basic_life_by_hand(tmp_path):
     """The mean load is (sum n t F^3/sum n t)^(1/3) = 2537 N at 2500 rpm, and its basic life 10 060 h."""
     found = run_duty(case_of(tmp_path)).summary()
@@ -165,6 +166,7 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("command", ["check", "bearing"])
 def test_every_number_states_the_point_or_the_cycle(command, tmp_path):
     case = case_of(tmp_path)

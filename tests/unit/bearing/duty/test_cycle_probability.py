@@ -97,6 +97,7 @@ def test_a_bearing_whose_surfaces_touch_has_the_probability_of_random_points():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rows_without_a_voltage_do_not_break_down_and_rows_at_rest_have_no_probability(tmp_path):
     rows = "time [s],speed [rpm],common-mode voltage [V]\n0,0,300\n10,60,0\n20,60,300\n30,6000,0\n"
     duty = run_duty(with_cycle(tmp_path, rows))
@@ -112,6 +113,7 @@ def test_rows_without_a_voltage_do_not_break_down_and_rows_at_rest_have_no_proba
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rows_that_are_not_computed_leave_bounds(tmp_path):
     """At 300 degC the oil is beyond the equation of its viscosity: a third of the time is not known."""
     rows = "time [s],speed [rpm],temperature [degC]\n0,6000,20\n10,6000,20\n20,6000,300\n30,6000,300\n"

@@ -74,6 +74,7 @@ def at_row(case, rows, k):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_each_row_is_the_bearing_alone(case, duty):
     rows = duty.rows
     for k in (2, 3, 4, 6):
@@ -87,6 +88,7 @@ def test_each_row_is_the_bearing_alone(case, duty):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_states_follow_from_speed_and_lambda_ratio(duty):
     states = [STATES[int(state)] for state in duty.rows.state]
     assert states[:3] == ["standstill", "standstill", "touching"]
@@ -99,6 +101,7 @@ def test_states_follow_from_speed_and_lambda_ratio(duty):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_shares_are_those_of_the_durations(duty):
     # Half of the intervals on both sides: 5, 10, 10, 10, 15, 30 and 20 s of 100 s.
     durations = np.array([5.0, 10.0, 10.0, 10.0, 15.0, 30.0, 20.0])
@@ -176,6 +179,7 @@ def test_a_load_along_the_axis_beside_others_across_it(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rings_keep_their_difference_from_the_oil(tmp_path):
     rows = "0,70\n1,90\n"
     bearing = BALLS["bearing"] | {"inner_ring_temperature": "85 degC"}
@@ -198,6 +202,7 @@ def test_a_stretch_lies_between_the_rows_around_it(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_reason_of_a_stretch_is_the_input_that_raises_the_margin(tmp_path):
     # The speed hardly changes, and the voltage is ten times its usual value for a while.
     volts = [60, 60, 60, 600, 60, 60]
@@ -210,6 +215,7 @@ def test_the_reason_of_a_stretch_is_the_input_that_raises_the_margin(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_at_most_ten_stretches_the_worst_first(tmp_path):
     speeds = np.where(np.arange(40) % 3 == 1, 500.0 + np.arange(40), 6000.0)
     rows = "".join(f"{k},{speed}\n" for k, speed in enumerate(speeds))
@@ -221,6 +227,7 @@ def test_at_most_ten_stretches_the_worst_first(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_equal_points_are_computed_once(tmp_path):
     rows = "".join(f"{k},{1000 * (k % 3)}\n" for k in range(30))
     assert run_duty(case_of(tmp_path, rows, "time [s],speed [rpm]")).points == 2
@@ -319,6 +326,7 @@ def test_files_of_a_cycle(case, duty, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_bearing_without_a_cycle_has_no_table():
     result = solve_bearing(BearingCase.from_dict({**BALLS, "contacts": "formula"}))
     assert result.duty is None

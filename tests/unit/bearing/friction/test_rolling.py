@@ -197,6 +197,7 @@ def test_without_solved_heat_there_is_no_friction(factor, known):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_given_film_factor_has_no_friction():
     """Films of another thickness are not those whose friction was solved."""
     changed = with_film_factor(prepare_bearing(case(ROLLERS), 1), 0.8).conditions
@@ -205,6 +206,7 @@ def test_a_given_film_factor_has_no_friction():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_stored_friction(rollers, tmp_path):
     """A file keeps it; one of films of another thickness has none, and a damaged one is refused."""
     result = solve_bearing(case(ROLLERS))

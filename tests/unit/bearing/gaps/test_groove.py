@@ -445,6 +445,7 @@ def by_cells(*, outer, shoulder, gap, cells=(200, 600)):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("outer", [False, True])
 @each("shoulder", [0.2, 0.07])
 @each("gap", [2e-6, 5e-6, 2e-5])

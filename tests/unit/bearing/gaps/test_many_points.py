@@ -171,6 +171,7 @@ def test_few_contacts_are_integrated():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_refused_contact_disturbs_no_other():
     race, b, ends, films = contacts(400, outer=False)
     found = around_of_balls(race, b, ends, films, BALL_DOMAINS)
@@ -183,6 +184,7 @@ def test_a_refused_contact_disturbs_no_other():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_domain_that_reaches_the_shoulder_is_integrated():
     """At 0.45 rad a shoulder at 0.883 rad is 2.7 mm away; long domains of light contacts are wider."""
     race, b, ends, films = contacts(400, outer=False)

@@ -33,6 +33,7 @@ def expected(solution, resistance, frequency, tau):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("rq", ["0.02 um", "0.06 um", "0.5 um"])
 @each("resistance", [0.3, 1e3])
 def test_mean_over_the_states_of_all_elements(rq, resistance):

@@ -63,6 +63,7 @@ def assert_same(many, index, single):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([DEEP, ANGULAR, TIGHT]), rows=st.lists(duties, min_size=1, max_size=6))
 def test_balls(bearing, rows):
@@ -74,6 +75,7 @@ def test_balls(bearing, rows):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([DEEP, TIGHT, LOOSE]), rows=st.lists(radial_duties, min_size=1, max_size=6))
 def test_balls_under_radial_loads(bearing, rows):
@@ -86,6 +88,7 @@ def test_balls_under_radial_loads(bearing, rows):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=25, deadline=None)
 @given(bearing=st.sampled_from([ROLLERS, LONG]), rows=st.lists(radial_duties, min_size=1, max_size=6))
 def test_rollers(bearing, rows):

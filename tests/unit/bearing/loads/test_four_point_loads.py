@@ -282,6 +282,7 @@ def test_fast_balls_touch_three_arcs():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("radial", [0.0, 400.0, 4000.0])
 @each("speed", [0.0, 800.0])
 def test_opposite_axial_loads_swap_the_diagonals(radial, speed):
@@ -301,6 +302,7 @@ def test_opposite_axial_loads_swap_the_diagonals(radial, speed):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_many_points_equal_single_ones():
     points = [random_point(seed)[1] for seed in range(100, 112)]
     values = {key: np.array([vars(point)[key] for point in points]).reshape(4, 3) for key in vars(points[0])}
@@ -347,6 +349,7 @@ def test_one_diagonal_is_an_angular_contact_bearing(axial):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("axial", [0.0, 15.0, -40.0])
 @each("bearing", [QJ, dataclasses.replace(QJ, inner_groove=0.51, outer_groove=0.54)])
 def test_balls_with_play_at_rest_have_the_largest_gaps(bearing, axial):

@@ -58,6 +58,7 @@ def unknown_share(case):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_points_without_a_result_lie_between_bounds(result):
     """The hot 40 % of the points have no viscosity: any part of them may break down."""
     summary = result.summary()

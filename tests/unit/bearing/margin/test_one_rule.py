@@ -160,6 +160,7 @@ def test_a_roller_bearing_whose_contacts_short_it_nearly_always_is_resistive():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_extrapolated_viscosity_is_not_called_a_possible_breakdown():
     """At -10 degC the probability is below a per mille: breakdown is not known, and not called possible."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(

@@ -59,6 +59,7 @@ def test_margins_together_are_those_of_each(margins):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_margins_over_the_speed_are_those_of_single_bearings(margins):
     """A single bearing has floats, and its own path through the equilibrium and the contacts."""
     speeds = margins.case.bearing.inner_speed * np.array([0.5, 1.0, 2.0])
@@ -112,6 +113,7 @@ def test_inputs_that_are_no_quantities_stand_apart():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_no_array_is_left_in_a_summary():
     """Every number of a whole answer is a number of Python, which JSON has."""
     result = solve_bearing(bearing_case(BALLS, contacts="formula", ranges={SPEED: ["2500 rpm", "3500 rpm"]}))

@@ -84,6 +84,7 @@ def test_the_probability_is_that_of_plain_random_points(usual):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_strength_alone_has_an_even_distribution(usual):
     """Ranges that close in on all other inputs leave the even distribution of the strength."""
     solution, margins = usual
@@ -105,6 +106,7 @@ def test_the_strength_alone_has_an_even_distribution(usual):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_shares_add_up_and_name_the_input_to_measure_first(usual):
     found = uncertainty_of(*usual)
     assert found.inputs[0].key == ROTOR
@@ -132,6 +134,7 @@ def test_a_weibull_law_scatters(usual):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_surfaces_that_touch_count_as_breakdown(usual):
     """Films that are 5 % thicker than the roughness: a warmer bearing touches."""
     rough = float(usual[0].least_film / 1.05)
@@ -157,6 +160,7 @@ def test_the_band_falls_to_no_breakdown_at_high_speed(usual):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_chance_at_once_is_near_the_whole_one(usual):
     """Its films are those of the bearing: temperature, load and clearance have a tenth of the spread here."""
     at_once, whole = quick_chance(usual[0]), uncertainty_of(*usual).chance
@@ -187,6 +191,7 @@ def test_the_probability_is_that_of_two_hundred_thousand_points(usual):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_probability_that_is_not_computed_says_why(monkeypatch):
     def refused(_):
         raise InputError.worded(None, "no point has a result")

@@ -189,6 +189,7 @@ def test_surfaces_that_touch_do_not_read_as_safe():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_thinner_film_has_no_milder_verdict():
     """The level does not fall from speed to speed, across a margin of 1 and a lambda ratio of 1."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "formula"})
@@ -206,6 +207,7 @@ def test_a_thinner_film_has_no_milder_verdict():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_ceramic_elements_insulate_also_where_surfaces_touch():
     slow = solved(bearing__element_material="silicon-nitride", bearing__inner_speed="30 rpm").verdict
     assert slow.level == "green"

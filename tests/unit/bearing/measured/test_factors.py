@@ -69,6 +69,7 @@ def test_a_measurement_without_any_usable_row_has_no_mean(case, exact):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_uncertainty_is_that_of_a_higher_capacitance(case, exact):
     """One standard uncertainty more on a row moves its film factor by what the row states."""
     error = 0.01 * (exact + 5e-12)
@@ -82,6 +83,7 @@ def test_uncertainty_is_that_of_a_higher_capacitance(case, exact):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_parallel_capacitance_of_the_case_is_the_background(case, exact):
     """Its range is an error that all rows share: of the lower capacitances at high speed most."""
     key = "bearing.parallel_capacitance"
@@ -97,6 +99,7 @@ def test_the_parallel_capacitance_of_the_case_is_the_background(case, exact):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_magnitude_and_phase_are_taken_as_well(case, exact):
     admittance = 1e-7 + 2j * np.pi * 2e4 * exact
     z = 1.0 / admittance
@@ -114,6 +117,7 @@ def test_magnitude_and_phase_are_taken_as_well(case, exact):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_rows_out_of_reach_are_marked_and_others_go_on(case, exact):
     values = exact * [1.0, 0.01, 60.0]
     found = ehlectric.film_factors(case, table(values), uncertainty="1 %")
@@ -165,6 +169,7 @@ def test_a_range_moves_the_factor_as_its_ends_do(case, exact):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_factor_that_changes_with_the_speed_is_told(case):
     points = [OperatingPoint.of(case, {"bearing.inner_speed": n * RPM}) for n in SPEEDS]
     values = np.array([at.at(f).capacitance for at, f in zip(points, (0.9, 0.7, 0.5), strict=True)])

@@ -200,6 +200,7 @@ def test_films_behind_a_coating_decay_as_in_small_steps():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_film_that_discharges_within_a_period_is_told():
     leaky = {"discharge__conductivity": "10 uS/m", "motor__switching_frequency": "10 kHz"}
     result = solved(**leaky, bearing__coating=COATING)

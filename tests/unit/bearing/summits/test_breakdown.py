@@ -130,6 +130,7 @@ def test_thinner_films_by_hand(smooth):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_points_together_have_the_numbers_of_single_ones():
     case = bearing_case(BALLS, contacts="atlas", bearing__film_factor="inlet-shear",
                         lubricant__thermal_conductivity="0.14 W/m/K")  # fmt: skip

@@ -68,6 +68,7 @@ def thicker(solution, factor):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @each("changes", [{SPEED: 120.0}, {SPEED: 80.0}, {HEIGHT: 4.0}, {RQ: 6e-8}])
 def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, changes):
     """A solution whose films are 4 % thicker than those of the atlas, at inputs at which summits matter."""
@@ -81,6 +82,7 @@ def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, chang
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_error_of_the_films_acts_on_the_gap_that_summits_leave(rough):
     """By plain points: the margin at films of a random thickness, each by hand from least film and height."""
     solution, margins = rough

@@ -81,6 +81,7 @@ def test_rollers_lose_more_film_the_faster_they_turn():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_warmer_elements_thin_the_film():
     """The element heats the oil in the inlet; without fits it is as warm as the rings."""
     fits = {
@@ -150,6 +151,7 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_isothermal_film_that_did_not_converge_gives_no_factor():
     """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
     with pytest.raises(ConvergenceError, match=r" N: .*solver\.max_iterations"):

@@ -151,6 +151,7 @@ def test_a_rule_is_a_factor_on_film_and_resistance(flooded):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_share_of_time_is_that_of_the_solved_film(starved):
     """Clarke's 1 - erf(lambda) of the most loaded contact, with the film that was solved for it."""
     found, friction = starved.summary()["bearing"], starved.solution.conditions.inner.friction
@@ -184,6 +185,7 @@ def test_speed_of_the_capacitive_regime_follows_the_solved_film():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_an_unconverged_starved_film_has_no_friction(monkeypatch, tmp_path):
     """Films have both factors all the same; a note says what is missing, also of a stored result."""
     monkeypatch.setattr(film_factor, "_starved", lambda *_: None)

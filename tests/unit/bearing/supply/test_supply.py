@@ -99,6 +99,7 @@ def test_summary_of_a_greased_bearing():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_starved_films_are_told():
     starved = solve_bearing(case(bearing__supply=0.3)).summary()
     assert {"supply-low", "film-factor-low"} <= set(starved["warning_codes"])

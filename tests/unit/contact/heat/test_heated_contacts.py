@@ -63,6 +63,7 @@ def test_traction_has_the_sign_of_the_sliding(hot, sheared):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize(("warmer", "drags"), [(0.0, False), (20.0, True)])
 def test_equal_bodies_that_roll_have_no_traction(warmer, drags):
     """Between bodies at different temperatures the oil on both sides is not equally thick."""
@@ -102,6 +103,7 @@ def test_temperatures_of_the_film(hot):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
     for result in (hot, sheared):
         folder = tmp_path / result.film.heated.rheology / str(result.film.heated.thermal)
@@ -249,6 +251,7 @@ def test_the_solver_of_the_paper_has_no_heat():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_sheared_film_whose_surfaces_touch_is_solved():
     """The boundary film of 1 nm carries what the oil does not: together they carry the load."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 5e-4}
@@ -290,6 +293,7 @@ def test_the_heat_of_sliding_spots_needs_their_friction():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_film_that_did_not_converge_has_no_friction(tmp_path, monkeypatch):
     """Neither in Python, summary.json and the table of command and report, nor in the app and in figures."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}

@@ -67,6 +67,7 @@ def test_a_linear_ramp_breaks_down_at_its_time():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=40)
 @given(
     threshold=st.floats(1.0, 9.0),
@@ -129,6 +130,7 @@ def test_voltages_are_measured_while_an_arc_burns(threshold, extinction, resista
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp
@@ -273,6 +275,7 @@ def test_charge_stays_when_elements_move():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_touching_films_conduct_for_their_share_of_time():
     circuit = motor()
     bearings = [element(touching=0.3, touch_resistance=1.0, transit=1e-5), element()]

@@ -152,6 +152,7 @@ def test_a_coating_keeps_its_share_at_the_breakdown(coated, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_the_table_has_its_nodes(over_speed, tmp_path):
     include = written(over_speed, tmp_path, **ARC)
     assert capacitance_of(tmp_path, include) == pytest.approx(over_speed[0].capacitance(), rel=1e-6)

@@ -138,6 +138,7 @@ def test_generalised_reynolds_equation(rheology, gradient, slip):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(
     law=st.sampled_from(LAWS),
     log_gradient=st.floats(-3.0, 0.5),
@@ -200,6 +201,7 @@ def test_stresses_of_a_plane_give_the_slip(seed, law):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @given(seed=st.integers(0, 10_000), law=st.sampled_from([EYRING, CARREAU]))
 def test_stresses_along_one_axis_are_those_of_a_line(seed, law):
     """Without slip and gradient along y the plane has the flux of a line contact, and its derivatives."""
@@ -216,6 +218,7 @@ def test_stresses_along_one_axis_are_those_of_a_line(seed, law):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10_000), law=st.sampled_from([EYRING, CARREAU]))
 def test_derivatives_of_a_plane(seed, law):

@@ -43,6 +43,7 @@ def test_two_spots():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_many_spots_over_a_disc():
     """Equal voltages: the resistance of the disc, rho/(2 alpha). Equal currents: 32/(3 pi^2) of it."""
     count, alpha = 2500, 1e-4

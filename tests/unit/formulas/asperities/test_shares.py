@@ -32,6 +32,7 @@ def test_printed_table(law):
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.parametrize("law", LOAD_SHARE)
 @given(films=st.lists(st.floats(0.0, 50.0), min_size=2, max_size=8))
 def test_share_falls_from_one(law, films):

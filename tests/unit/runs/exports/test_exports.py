@@ -135,7 +135,7 @@ def test_cells_of_a_cube_are_those_of_vtk():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["line", "point", "bearing", "drive"])
+@pytest.mark.parametrize("name", [pytest.param("line", marks=pytest.mark.gate), "point", "bearing", "drive"])
 def test_a_mat_file_has_all_arrays_and_the_summary(name, request, tmp_path):
     result = request.getfixturevalue(name)
     found = loadmat(export(result, tmp_path / "result.mat"), squeeze_me=True, simplify_cells=True)
@@ -181,6 +181,7 @@ def test_names_of_matlab_are_valid_and_different():
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     """Numbers are numbers with their units, and a title that begins like a formula is a text."""
     book = openpyxl.load_workbook(export(bearing, tmp_path / "bearing.xlsx"))

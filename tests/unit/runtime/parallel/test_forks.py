@@ -67,6 +67,7 @@ sys.exit(f"children ended with {statuses}" if any(statuses) else 0)
 
 
 @pytest.mark.slow
+@pytest.mark.gate
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no forks")
 def test_a_child_that_is_forked_beside_a_solution_solves(tmp_path):
     (tmp_path / "case.toml").write_text(CASE)
