@@ -18,9 +18,9 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.input_keys import is_quantity
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import SPEED
 
 # Speed of the inner ring, which is varied where nothing else is.
-_SPEED = "bearing.inner_speed"
 
 # Smallest and largest speed that are looked at, divided by the speed of the case.
 LEAST, MOST = 0.1, 4.0
@@ -65,7 +65,7 @@ def solve_several(case: BearingCase, detail: Detail = "coarse") -> Several:
 
 def at_speeds(case: BearingCase, speeds: Array, detail: Detail = "coarse") -> Several:
     """Solutions of a quick case at speeds of its inner ring [rad/s], shape (n,)."""
-    return solve_several(_alone(case).with_values({_SPEED: np.asarray(speeds, dtype=float)}), detail)
+    return solve_several(_alone(case).with_values({SPEED: np.asarray(speeds, dtype=float)}), detail)
 
 
 def over_parts(case: BearingCase) -> tuple[Array, Several]:
@@ -74,7 +74,7 @@ def over_parts(case: BearingCase) -> tuple[Array, Several]:
     """
     several, speeds = _over_parts(key_of(case, without_effect=(*NOT_IN_FILMS, *UNUSED))), _speeds(case)
     # Inputs on which films do not depend are those of this case.
-    of_case = _alone(case).with_values({_SPEED: speeds})
+    of_case = _alone(case).with_values({SPEED: speeds})
     parts = (
         replace(part, solution=replace(part.solution, case=some_points(of_case, part.points)))
         for part in several.parts
@@ -120,7 +120,7 @@ def alike(cases: Sequence[BearingCase]) -> Iterator[tuple[IntArray, BearingCase]
             for key, value in first.items()
             if _is_varied(key, value)
         }
-        varied = {key: values for key, values in columns.items() if key == _SPEED or np.ptp(values) > 0.0}
+        varied = {key: values for key, values in columns.items() if key == SPEED or np.ptp(values) > 0.0}
         yield np.array(places), _alone(cases[places[0]]).with_values(varied)
 
 

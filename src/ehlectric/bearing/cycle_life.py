@@ -17,6 +17,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.life import LOWEST_RATIO
 from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of, rated_loads
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored import number
@@ -82,7 +83,7 @@ def cycle_life(
     if not speed.size:
         return CycleLife(mean_speed=0.0)
     loads = {f"bearing.{name}": given[name] for name in ("radial_load", "axial_load")}
-    bearing = case.with_values({"bearing.inner_speed": speed, **loads}).bearing
+    bearing = case.with_values({SPEED: speed, **loads}).bearing
     fatigue = Fatigue(**{each.name: values[each.name] for each in fields(Fatigue)})
     lives = lives_of(bearing, life, fatigue, least_ratio=LOWEST_RATIO)
     computed, turns = np.isfinite(fatigue.reference_turns), speed * duration / _TURN

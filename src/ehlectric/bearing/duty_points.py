@@ -22,6 +22,7 @@ from ehlectric.bearing.solution import (
 )
 from ehlectric.bearing.summary import breaks
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.quantities.inputs import TEMPERATURE
 
 # Quantities of a point that rating lives need in addition.
 _OF_LIFE = ("viscosity", "reference_turns")
@@ -100,7 +101,7 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     low, high = table.min(axis=0), table.max(axis=0)
     varied = np.flatnonzero(high > low)
     # Films follow powers of speed and load, which are straight lines in logarithms.
-    log = np.array([key != "bearing.temperature" and low[k] > 0.0 for k, key in enumerate(keys)])
+    log = np.array([key != TEMPERATURE and low[k] > 0.0 for k, key in enumerate(keys)])
     ends = [_scaled(end, log)[varied] for end in (low, high)]
     unit = (_scaled(table, log)[:, varied] - ends[0]) / (ends[1] - ends[0])
     nodes, corners, weights = _design(unit)

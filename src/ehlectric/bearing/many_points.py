@@ -19,6 +19,7 @@ from ehlectric.bearing.warnings import codes_of
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
@@ -26,9 +27,6 @@ from ehlectric.runtime.values import is_number
 
 # Points that are solved together: their arrays fit into the memory, and the calls take little of the time.
 TOGETHER = 1024
-
-# Speed of the inner ring, which is the array of a case of many points that has no other.
-_SPEED = "bearing.inner_speed"
 
 
 # Value and type of a column without results, by whether it has texts.
@@ -114,10 +112,10 @@ def solved_parts(
     given; each error takes the time of a single bearing. Raises InputError where no point has a solution
     for a reason that all share, as an oil that needs solved contacts.
     """
-    if _SPEED not in case.arrays():
+    if SPEED not in case.arrays():
         # Loads of elements then have an axis of points as all other numbers, also where temperatures or
         # voltages alone differ.
-        case = case.with_values({_SPEED: np.full(case.shape, case.bearing.inner_speed)})
+        case = case.with_values({SPEED: np.full(case.shape, case.bearing.inner_speed)})
     for points in np.array_split(np.arange(case.shape[0]), -(-case.shape[0] // TOGETHER)):
         with one_blas_thread():
             part = _solved(case, points, positions, detail)
@@ -171,7 +169,7 @@ def _column(value: Any, count: int) -> list[Any]:
 
 def many_of(case: BearingCase, arrays: Mapping[str, Any], number: int) -> BearingCase:
     """Case of a number of points with arrays by dotted key; all points are equal where there is none."""
-    return case.with_arrays(arrays or {_SPEED: np.full(number, case.bearing.inner_speed)})
+    return case.with_arrays(arrays or {SPEED: np.full(number, case.bearing.inner_speed)})
 
 
 def some_points(case: BearingCase, points: IntArray) -> BearingCase:

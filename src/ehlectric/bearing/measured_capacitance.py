@@ -33,6 +33,7 @@ from ehlectric.cases.measurements import MeasuredCapacitance, Measurement, capac
 from ehlectric.discharge.film_capacitance import LEAST_RATIO
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.rows import value_at
 from ehlectric.readable import readable
@@ -335,7 +336,7 @@ _ROWS = 4
 
 # Keys without effect on the capacitance at a film factor, or that the measurement itself replaces.
 _WITHOUT = (
-    *("discharge.", "motor.", "bearing.inner_speed", "bearing.film_factor", "bearing.supply"),
+    *("discharge.", "motor.", SPEED, "bearing.film_factor", "bearing.supply"),
     PARALLEL,
 )
 
@@ -358,7 +359,7 @@ def shared_effects(
     left_out: list[ResultWarning] = []
     if not rows:
         return effects, ()
-    speeds = np.array([math.log(row["bearing.inner_speed"]) for row in rows])
+    speeds = np.array([math.log(row[SPEED]) for row in rows])
     places = _spread_of_ranges(speeds)
     for one in case.ranges or ():
         if one.key.startswith(_WITHOUT):
@@ -518,7 +519,7 @@ def _changes(case: BearingCase, measured: Measurement) -> tuple[Mapping[str, Any
             f"{measured.source}: entrainment_speed", got="a speed in m/s", takes="a column 'speed [rpm]'"
         )
     speeds = measured.values.get("speed", np.full(measured.size, case.bearing.inner_speed))
-    keys = {"bearing.inner_speed": speeds}
+    keys = {SPEED: speeds}
     if measured.has("temperature"):
         warmer = measured.values["temperature"] - case.bearing.oil_temperature
         for key, own in case.bearing.all_temperatures().items():
@@ -547,7 +548,7 @@ def _result(
     (background, own_background), (searched, reasons) = taken_off, search
     factors, slopes = searched["film_factor"], searched["slope"]
     found, targets = np.isfinite(factors), meter.value - (background or 0.0)
-    speeds = np.array([row["bearing.inner_speed"] for row in rows])
+    speeds = np.array([row[SPEED] for row in rows])
     stated = None if meter.uncertainty is None else meter.uncertainty / targets / -slopes
     used = tuple(row for row, one in zip(rows, found, strict=True) if one)
     shared, left_out = shared_effects(case, used, factors[found], slopes[found], correction.of)

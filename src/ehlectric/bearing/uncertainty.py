@@ -22,6 +22,7 @@ from ehlectric.cases.input_keys import is_quantity
 from ehlectric.discharge.breakdown_rule import UNLIKELY, Chance
 from ehlectric.errors import InputError
 from ehlectric.formulas.variance_shares import variance_shares
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.threads import one_blas_thread
@@ -408,7 +409,7 @@ def _computed(design: Design, margins: QuickMargins, at: Array, speed: Array | N
     """
     arrays = design.arrays(at, margins.lambda_factor)
     if speed is not None:
-        arrays["bearing.inner_speed"] = speed
+        arrays[SPEED] = speed
     many = many_of(margins.quick_case, arrays, len(at))
     margin, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, len(at)))
     return np.asarray(margins.margin_factor * design.film_scale(at) * margin)

@@ -22,6 +22,7 @@ from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
+from ehlectric.quantities.inputs import REPLACED
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
@@ -97,15 +98,16 @@ class DriveCase(CaseFile, book="drive_file"):
 
         Without a table ``motor`` of their own, whose voltage is that of another estimate.
         """
-        changes: dict[str, Any] = {}
-        if self.drive.speed is not None:
-            changes["bearing.inner_speed"] = self.drive.speed
-        if self.drive.temperature is not None:
-            changes["bearing.temperature"] = self.drive.temperature
-        if self.drive.contacts is not None:
-            changes["contacts"] = self.drive.contacts
-        first, second = (_in_drive(one, changes) for one in (self.drive_end, self.non_drive_end))
+        first, second = (
+            _in_drive(bearing, self.replaced) for bearing in (self.drive_end, self.non_drive_end)
+        )
         return first, second
+
+    @property
+    def replaced(self) -> dict[str, Any]:
+        """Values that the drive gives for both bearings, by their keys in a bearing file."""
+        given = {key: getattr(self.drive, above.partition(".")[2]) for key, above in REPLACED.items()}
+        return {key: value for key, value in given.items() if value is not None}
 
     def all_inputs(self) -> dict[str, Any]:
         """Tables in SI units, also with the Rq of both bearings that follows from an Ra."""

@@ -37,11 +37,12 @@ from ehlectric.bearing.duty_points import between_places
 from ehlectric.bearing.solution import touching_ratio
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
+from ehlectric.cases.measurements import CYCLE
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.formats import rpm_text
-from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.inputs import ENDS, key_of_drive
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import Content
@@ -61,12 +62,7 @@ _WARMER = 25.0
 _VOLTAGE = "common_mode_voltage"
 
 # Inputs of a drive in whose place a column of the cycle stands.
-_KEYS = {
-    "speed": "drive.speed",
-    "temperature": "drive.temperature",
-    "radial_load": "bearings.bearing.radial_load",
-    "axial_load": "bearings.bearing.axial_load",
-}
+_KEYS = {name: key_of_drive(one.key) for name, one in CYCLE.columns.items() if one.key and name != _VOLTAGE}
 
 # SI unit and meaning of the columns of duty.csv.
 COLUMNS: Mapping[str, Mapping[str, str]] = data_file("ehlectric.quantities", "measured_columns.toml")[
@@ -389,10 +385,8 @@ class _Found:
 def _at_row(ready: _Ready, place: int, seed: int) -> DriveCase:
     """Drive at a row of its cycle, with a time of whole periods of the fundamental."""
     given = {name: float(values[place]) for name, values in ready.given.items()}
-    changes: dict[str, Any] = {
-        key: given[name] for name, key in _KEYS.items() if name in ready.cycle.values and name != "speed"
-    }
-    changes |= {"drive.seed": seed, "drive.speed": abs(given["speed"])}
+    changes: dict[str, Any] = {key: given[name] for name, key in _KEYS.items() if name in ready.cycle.values}
+    changes |= {"drive.seed": seed, _KEYS["speed"]: abs(given["speed"])}
     factor, source = given[_VOLTAGE] / ready.peak, ready.case.source
     if factor != 1.0:
         key = "scale" if source.measured else "dc_link"

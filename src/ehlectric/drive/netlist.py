@@ -30,6 +30,7 @@ from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.formats import amount, rpm_text
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.units import rpm
@@ -222,9 +223,9 @@ def speeds_of(case: BearingCase, text: str) -> tuple[float, ...]:
 
 def _speed(case: BearingCase, text: str) -> float:
     try:
-        return case.replace({"bearing.inner_speed": text.strip()}).bearing.inner_speed
+        return case.replace({SPEED: text.strip()}).bearing.inner_speed
     except InputError as error:
-        if error.key != "bearing.inner_speed":
+        if error.key != SPEED:
             raise
         raise InputError("--speeds", got=error.got or shown(text.strip()), takes=_TAKES) from None
 
@@ -244,7 +245,7 @@ def solve_at_speeds(
         def tell(done: int, of: int, text: str, at: str = rpm_text(speed)) -> None:
             progress(done, of, f"{text}, {at} rpm")
 
-        changed = case if speed == own else case.replace({"bearing.inner_speed": speed})
+        changed = case if speed == own else case.replace({SPEED: speed})
         results.append(solve_bearing(changed, progress=tell, workers=workers))
     return results
 
@@ -256,20 +257,20 @@ def check_table(results: Sequence[BearingResult]) -> None:
     if len(results) == 1:
         return
     own = results[0].case.bearing.inner_speed
-    inputs = [result.case.replace({"bearing.inner_speed": own}).to_dict() for result in results]
+    inputs = [result.case.replace({SPEED: own}).to_dict() for result in results]
     if any(one != inputs[0] for one in inputs):
         raise InputError("result", got="bearings that differ in other inputs", takes="one bearing, at speeds")
     for low, high in pairwise(sorted(result.case.bearing.inner_speed for result in results)):
         if high < low * _APART:
             told = f"{rpm(low):.6g} rpm and {rpm(high):.6g} rpm"
-            raise InputError("bearing.inner_speed", got=told, takes="speeds that differ by 0.1 % or more")
+            raise InputError(SPEED, got=told, takes="speeds that differ by 0.1 % or more")
     touching = [
         result.case.bearing.inner_speed for result in results if lubrication(result.solution) == "conducting"
     ]
     if touching:
         told = ", ".join(f"{rpm_text(speed)} rpm" for speed in sorted(touching))
         raise InputError(
-            "bearing.inner_speed",
+            SPEED,
             got=f"{told}, whose lambda ratio is so low that surfaces touch, at times at least,",
             takes="in a table over the speed, speeds at which films part the surfaces",
         )
@@ -598,7 +599,7 @@ def _parameters(subcircuit: Subcircuit, motor: Motor) -> Iterator[Parameter]:
     if motor.second_bearing_capacitance is not None:
         yield Parameter("C_second", motor.second_bearing_capacitance, "F", "motor.second_bearing_capacitance")
     if subcircuit.tabulated:
-        yield Parameter("n_shaft", rpm(subcircuit.case.bearing.inner_speed), "rpm", "bearing.inner_speed")
+        yield Parameter("n_shaft", rpm(subcircuit.case.bearing.inner_speed), "rpm", SPEED)
 
 
 def _other_end(subcircuit: Subcircuit, motor: Motor, bearing: str) -> Iterator[str]:

@@ -39,6 +39,7 @@ from ehlectric.figures.sweep_points import (
     voltage_text,
 )
 from ehlectric.quantities.formats import OF_TIME, Scale, time_share_text
+from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.readable import ratio_text, readable
 from ehlectric.sweep.axis_labels import label_of
@@ -268,8 +269,6 @@ def save_sensitivity(
     return save_figure(sensitivity_figure(results, analysis), path, formats)
 
 
-_SPEED = "bearing.inner_speed"
-
 # Functions that draw a value over varied keys, by the first word of the file's name; sizes [inches].
 FIGURES: Mapping[str, Callable[..., Axes]] = {"map": value_map, "lines": value_lines}
 _SIZES = {"map": (6.3, 4.7), "lines": (6.3, 4.3)}
@@ -333,7 +332,7 @@ def save_speeds(
     """Draw capacitance and breakdown voltages of bearings over the speed, as files. Returns files written;
     none where the slice is not over the speed of a bearing alone.
     """
-    if taken.x != _SPEED or taken.y is not None or taken.free:
+    if taken.x != SPEED or taken.y is not None or taken.free:
         return []
     points = [
         (float(speed), dict(point.summary))

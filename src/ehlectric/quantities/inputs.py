@@ -20,12 +20,13 @@ from ehlectric.quantities.quantity import Bounds, Quantity, data_file
 ENDS = ("drive_end", "non_drive_end")
 BOTH = "bearings"
 
-# Keys of a bearing file that a key of a drive replaces at both ends.
-REPLACED = {
-    "bearing.inner_speed": "drive.speed",
-    "bearing.temperature": "drive.temperature",
-    "contacts": "drive.contacts",
-}
+# Speed of the shaft and temperature of the oil in a bearing file.
+SPEED, TEMPERATURE = "bearing.inner_speed", "bearing.temperature"
+
+# Keys of a bearing file that a key of a drive replaces at both ends. Keys that columns of duty cycles replace
+# are in ``measured_columns.toml``.
+REPLACED = {SPEED: "drive.speed", TEMPERATURE: "drive.temperature", "contacts": "drive.contacts"}
+_REPLACING = {above: key for key, above in REPLACED.items()}
 
 # Tables of the keys that stand in no table.
 _FILES = ("case_file", "bearing_file", "drive_file")
@@ -121,6 +122,28 @@ def end_and_key(key: str) -> tuple[str, str]:
     """
     first, _, rest = key.partition(".")
     return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
+
+
+def key_of_drive(key: str) -> str:
+    """Key of a drive file that changes a key of a bearing file at both ends.
+
+    Examples
+    --------
+    >>> key_of_drive("bearing.inner_speed"), key_of_drive("bearing.radial_load")
+    ('drive.speed', 'bearings.bearing.radial_load')
+    """
+    return REPLACED.get(key, f"{BOTH}.{key}")
+
+
+def end_and_replaced(key: str) -> tuple[str, str]:
+    """Name of the bearing of a drive that a dotted key changes, and the key in its bearing file.
+
+    Examples
+    --------
+    >>> end_and_replaced("drive.speed"), end_and_replaced("drive_end.bearing.temperature")
+    (('bearings', 'bearing.inner_speed'), ('drive_end', 'bearing.temperature'))
+    """
+    return (BOTH, _REPLACING[key]) if key in _REPLACING else end_and_key(key)
 
 
 def table_and_key(key: str) -> tuple[str, str, str]:

@@ -115,10 +115,7 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
 def replaced_by(case: SweptCase, key: str) -> str:
     """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
     end, own = end_and_key(key)
-    if not end or own not in REPLACED or not isinstance(case, DriveCase):
-        return ""
-    above = REPLACED[own]
-    return above if getattr(case.drive, above.partition(".")[2]) is not None else ""
+    return REPLACED[own] if end and isinstance(case, DriveCase) and own in case.replaced else ""
 
 
 def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:

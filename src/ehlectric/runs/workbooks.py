@@ -17,7 +17,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import InputError, printable
 from ehlectric.quantities.formats import UNITS, USUAL, Scale, scale_for, scale_of
-from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.inputs import SPEED, end_and_key
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import ELEMENT_KEYS, EVENT_KEYS
 from ehlectric.quantities.units import printed
@@ -175,7 +175,7 @@ def _fill_over_speed(book: Any, case: BearingCase, summary: Mapping[str, Any]) -
     curves = scaled_curves(case, summary)
     if curves is None:
         return
-    values = {"bearing.inner_speed": curves.speed}
+    values = {SPEED: curves.speed}
     names = {} if case.bearing.coating is None else ON_SHAFT
     values |= {f"bearing.{names.get(key, key)}": value for key, value in curves.values.items()}
     values["bearing.margin"] = curves["first_break"] / curves["shaft_voltage"]

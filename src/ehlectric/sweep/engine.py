@@ -35,7 +35,7 @@ from ehlectric.contact.solver import solve
 from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
 from ehlectric.lubricant.python_laws import SampledLaws
-from ehlectric.quantities.inputs import end_and_key
+from ehlectric.quantities.inputs import SPEED, TEMPERATURE, end_and_replaced
 from ehlectric.quantities.result_warnings import texts_and_codes
 from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
@@ -156,10 +156,6 @@ def planned_point(sweep: Sweep, number: int, inputs: Mapping[str, Any]) -> Plann
         return Planned(number, inputs, None, str(error))
 
 
-_SPEEDS = ("drive.speed", "bearing.inner_speed")
-_TEMPERATURES = ("drive.temperature", "bearing.temperature")
-
-
 @dataclass(frozen=True)
 class Lacking:
     """Point of a sweep that cannot be computed."""
@@ -199,14 +195,8 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
 
 def _films(point: Planned) -> tuple[float, float]:
     """Order of points by their films: speed and negative temperature, the thinnest films first."""
-    found = [0.0, 0.0]
-    for key, value in point.inputs.items():
-        own = end_and_key(key)[1]
-        if own in _SPEEDS:
-            found[0] = float(value)
-        elif own in _TEMPERATURES:
-            found[1] = -float(value)
-    return found[0], found[1]
+    values = {end_and_replaced(key)[1]: value for key, value in point.inputs.items()}
+    return float(values.get(SPEED, 0.0)), -float(values.get(TEMPERATURE, 0.0))
 
 
 Task = tuple[str, PointCase]

@@ -15,7 +15,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import is_quantity, key_of_names
 from ehlectric.contact.check import case_with_laws
 from ehlectric.errors import InputError, shown
-from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
 from ehlectric.quantities.results import TEXTS_OF_POINTS
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.version import __version__
@@ -95,10 +95,6 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
     return _dataset(case, columns, found)
 
 
-# Keys of a drive that stand for one of both of its bearings.
-_OF_BEARINGS = {"drive.speed": "bearing.inner_speed", "drive.temperature": "bearing.temperature"}
-
-
 def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Dataset:
     """Dataset of both bearings of a drive, whose variables begin with the end of their bearing."""
     import xarray as xr
@@ -119,12 +115,11 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
 
 def _key_of_end(key: str, end: str) -> str | None:
     """Key of a bearing file that a key of a drive stands for at one of its ends; None for the other end."""
-    name = _OF_BEARINGS.get(key, key)
-    of, own = end_and_key(name)
-    if name == key and not of:
+    of, own = end_and_replaced(key)
+    if not of or key == REPLACED["contacts"]:
         takes = "drive.speed, drive.temperature, or a key of drive_end, non_drive_end or bearings"
         raise InputError(key, got="a key of the drive itself", takes=takes)
-    return own if of in ("", BOTH, end) else None
+    return own if of in (BOTH, end) else None
 
 
 def _values(key: str, values: Any) -> Any:

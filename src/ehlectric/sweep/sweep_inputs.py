@@ -41,7 +41,7 @@ from ehlectric.cases.table import (
     similar_keys,
 )
 from ehlectric.errors import InputError, printable, short, shown, within
-from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key
+from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_key, key_of_drive
 from ehlectric.quantities.sheets import BREAKDOWNS
 from ehlectric.runtime.values import Tabled, headline
 from ehlectric.sweep.points import Range
@@ -82,7 +82,7 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     if end and own.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
     above = REPLACED.get(own) if end else None
-    if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
+    if above is not None and (above in varied or own in case.replaced):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
     both = f"{BOTH}.{own}"
     if end in ENDS and both in varied:
@@ -93,7 +93,7 @@ def _nearest(key: str) -> str:
     """Key of a drive that is nearest to a key of another kind of file; one of a bearing is that of both."""
     if key.partition(".")[0] not in BearingCase.known_keys():
         return nearest_key(key, DriveCase)
-    return any_of([REPLACED.get(one, f"{BOTH}.{one}") for one in meant(key, BearingCase)])
+    return any_of([key_of_drive(meaning) for meaning in meant(key, BearingCase)])
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import TABLES, describe, input_field, input_of, phrase
+from ehlectric.cases.measurements import CYCLE
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import number_of
-from ehlectric.quantities.inputs import form, input_at, inputs
+from ehlectric.quantities.inputs import REPLACED, SPEED, TEMPERATURE, form, input_at, inputs, key_of_drive
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
@@ -99,3 +100,15 @@ def test_ends_of_a_slider_are_allowed_and_have_the_unit_of_the_key(name, key):
             kind.parse(written, written=True)
         elif kind is not None:
             kind.parse(written)
+
+
+@each("key, above", REPLACED.items())
+def test_a_key_of_a_drive_replaces_a_key_of_its_bearings_in_the_same_unit(key, above):
+    assert input_at(key).unit == input_at(above).unit
+    assert key_of_drive(key) == above
+
+
+def test_columns_of_a_duty_cycle_replace_the_operating_point():
+    keys = {name: column.key for name, column in CYCLE.columns.items()}
+    assert (keys["speed"], keys["temperature"]) == (SPEED, TEMPERATURE)
+    assert all(input_at(key).unit == CYCLE.columns[name].unit for name, key in keys.items() if key)

@@ -123,8 +123,9 @@ def test_both_bearings_of_a_drive_are_evaluated():
             alone = solve_bearing(case.replace({"contacts": "atlas"}), workers=1).capacitance()
             assert found[f"{end}.bearing.capacitance"].values[k] == pytest.approx(alone, rel=1e-8)
             assert found[f"{end}.converged"].values[k]
-    with pytest.raises(InputError, match="a key of the drive itself"):
-        evaluate(drive, {"source.dc_link_voltage": ["500 V"]})
+    for key in ("source.dc_link_voltage", "drive.contacts"):
+        with pytest.raises(InputError, match=f"{key}: got a key of the drive itself"):
+            evaluate(drive, {key: ["500 V"]})
 
 
 @pytest.mark.slow

@@ -24,6 +24,7 @@ from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_tex
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.inputs import REPLACED, SPEED, TEMPERATURE
 from ehlectric.quantities.units import in_unit
 from ehlectric.runs.example_files import example_text
 
@@ -58,8 +59,7 @@ def drive_with(bearing: Inputs) -> Inputs:
     strength = {} if own.value("discharge") else _FIRST["strength"]
     changes = {
         "drive_end": dict(own.changed(strength).table),
-        "drive.speed": bearing.value("bearing.inner_speed"),
-        "drive.temperature": bearing.value("bearing.temperature"),
+        **{REPLACED[key]: bearing.value(key) for key in (SPEED, TEMPERATURE)},
         "title": bearing.value("title"),
     }
     motor = {theirs: bearing.value(key) for key, theirs in form_data("motor_in_drive").items()}
