@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ehlectric.arrays import Array, Mask, N, Numbers
-from ehlectric.runtime.stored import stored
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.runtime.values import read_only_property
 
 

@@ -19,8 +19,8 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.formulas import hertz
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.units import to_si
-from ehlectric.runtime.stored import stored
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)

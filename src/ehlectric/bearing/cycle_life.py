@@ -17,10 +17,10 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.life import LOWEST_RATIO
 from ehlectric.bearing.rating_life import Fatigue, life_exponent, lives_of, rated_loads
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.quantities.field_metadata import number
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.stored import number
 
 _TURN = 2.0 * math.pi
 

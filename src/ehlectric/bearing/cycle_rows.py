@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.files import Content, column_head, csv_of
@@ -21,7 +22,6 @@ from ehlectric.runtime.stored import (
     numbers_of,
     read_many_numbers,
     read_numbers,
-    stored,
     values_of,
     warnings_in_tables,
 )

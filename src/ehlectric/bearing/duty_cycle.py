@@ -40,6 +40,7 @@ from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE, void_rows
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.formats import rpm_text, scale_of
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -47,7 +48,6 @@ from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.units import RPM
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runtime.files import Content
-from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
 
 # Speed below which a shaft stands still: sensors and their filters read such speeds at rest [rad/s].

@@ -43,9 +43,9 @@ from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.formulas.hertz import DryContact, dry_contact, line_half_width, line_max_pressure
 from ehlectric.formulas.monotone_cubic import MonotoneCubic, end_slope, inner_slope
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
-from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values, read_only_property
 
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.

@@ -17,9 +17,9 @@ from ehlectric.bearing.quick_contacts import formula_factor, outside_atlas
 from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_kinds import has_rollers
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
-from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values, read_only_property
 from ehlectric.version import __version__
 

@@ -28,9 +28,9 @@ from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import contact_zones
 from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.verdict import Verdict
-from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Shown, Values, read_only_property
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.maps import statistics as of_map

@@ -37,11 +37,11 @@ from ehlectric.formulas.asperities import cluster_resistance, film_resistance, g
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.field_metadata import number
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import formatted, readable
-from ehlectric.runtime.stored import number
 from ehlectric.surfaces.profiles import FLAT
 
 

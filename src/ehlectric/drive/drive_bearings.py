@@ -16,8 +16,8 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.errors import InputError
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.readable import readable
-from ehlectric.runtime.stored import stored
 
 # Contacts in series between both rings, which a touching element closes.
 _IN_SERIES = 2.0

@@ -41,13 +41,13 @@ from ehlectric.cases.measurements import CYCLE
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
 from ehlectric.drive.quick_drive import quick_drive
 from ehlectric.errors import InputError, within
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.formats import rpm_text
 from ehlectric.quantities.inputs import ENDS, key_of_drive
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runtime.files import Content
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
 
 # Rows that are simulated, and groups of them that are left out in turn.

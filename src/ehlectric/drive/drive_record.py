@@ -14,8 +14,8 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.runtime.stored import stored
 
 # Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy
 # [J], largest current [A], and position of the elements.

@@ -20,6 +20,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_cycle import DriveDuty, DriveDutyRows, DriveStretch, Expected
 from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import TEXTS, texts_and_codes
 from ehlectric.runtime.file_rules import (
@@ -34,13 +35,7 @@ from ehlectric.runtime.file_rules import (
     number_of,
     text_of,
 )
-from ehlectric.runtime.stored import (
-    Part,
-    check_parts,
-    stored,
-    values_of,
-    warnings_in_tables,
-)
+from ehlectric.runtime.stored import Part, check_parts, values_of, warnings_in_tables
 
 if TYPE_CHECKING:
     import xarray as xr

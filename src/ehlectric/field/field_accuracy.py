@@ -22,7 +22,7 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.runtime.stored import number, stored
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.values import Values
 
 if TYPE_CHECKING:

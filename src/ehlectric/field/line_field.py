@@ -21,7 +21,7 @@ from ehlectric.field.poisson import (
 )
 from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, part_widths
 from ehlectric.formulas.polynomials import interpolation
-from ehlectric.runtime.stored import stored
+from ehlectric.quantities.field_metadata import stored
 from ehlectric.runtime.threads import one_blas_thread
 
 # Distance from an end of the range within which a node counts as this end [spacings].

@@ -22,7 +22,7 @@ from ehlectric.field.zones import (
     node_areas,
     zone_areas,
 )
-from ehlectric.runtime.stored import number, stored
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.threads import one_blas_thread
 
 # Long name of ``y`` in files of results.

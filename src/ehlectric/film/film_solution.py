@@ -18,7 +18,7 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import COLLAPSED, GridSolution, NewtonStep, State, Status
 from ehlectric.film.problem import Scales
 from ehlectric.film.starved_solver import oil_fraction
-from ehlectric.runtime.stored import number, stored
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.values import Values
 
 # Long names of nodal values in files of results.

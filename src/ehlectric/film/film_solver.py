@@ -31,7 +31,7 @@ from ehlectric.film.starved_solver import (
     isothermal,
     taken_layer,
 )
-from ehlectric.runtime.stored import number
+from ehlectric.quantities.field_metadata import number
 
 # Number of successive grids without an error estimate after which refinement stops. Each grid takes several
 # times as long as the grid before.

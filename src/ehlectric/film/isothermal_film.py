@@ -19,7 +19,7 @@ from ehlectric.film.heated_solution import heated_result, solve_heated_film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
-from ehlectric.runtime.stored import number, stored
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.runtime.threads import quiet_solution
 
 

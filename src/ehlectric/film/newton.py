@@ -22,7 +22,7 @@ from ehlectric.film.multigrid import Linearised, cycled, linearise_levels, with_
 from ehlectric.film.oil_content import Carried
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike, step_length
-from ehlectric.runtime.stored import stored
+from ehlectric.quantities.field_metadata import stored
 
 # A film that did not converge counts as collapsed where it is thinner than this fraction of its central
 # thickness.

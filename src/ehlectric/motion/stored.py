@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.motion.moving_contact import KINDS, Kind
+from ehlectric.quantities.field_metadata import Stored, stored
 from ehlectric.runtime.file_rules import (
     Rule,
     UnfitError,
@@ -25,7 +26,7 @@ from ehlectric.runtime.file_rules import (
     number_of,
     text_of,
 )
-from ehlectric.runtime.stored import Part, Stored, check_parts, stored, warnings_in
+from ehlectric.runtime.stored import Part, check_parts, warnings_in
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,14 +1,14 @@
 """Stored form of dataclasses: the metadata of a field say how a file holds its values.
 
-``stored`` is the metadata of an array, a variable of a NetCDF file, and ``number`` that of a number in an
-attribute. A ``Part`` of a file has the fields of one class: it writes them, checks them and reads them.
+An array is a variable of a NetCDF file, a number is in an attribute. A ``Part`` of a
+file has the fields of one class: it writes them, checks them and reads them.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from operator import attrgetter
 from types import MappingProxyType
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.quantities.field_metadata import Stored, arrays_of, rules_of_numbers
 from ehlectric.quantities.result_warnings import (
     CODES_OF_TEXTS,
     TEXTS,
@@ -40,49 +41,7 @@ from ehlectric.runtime.file_rules import (
 if TYPE_CHECKING:
     import xarray as xr
 
-# Keys of the metadata of a field.
-_ARRAY, _NUMBER = "stored", "stored number"
-
 _EMPTY: Mapping[str, Any] = MappingProxyType({})
-
-
-@dataclass(frozen=True)
-class Stored:
-    """Variable of a file that holds the values of a field."""
-
-    dims: tuple[str, ...]  # its dimensions; a ``Part`` may replace a name by several
-    unit: str | None = None  # its unit; None where the file states none
-    # What its values must be, a key of ``VALUES``. Those of "0 or 1" are read as booleans.
-    rule: str = "finite"
-    text: str = ""
-    name: str = ""  # its name in the file, by default that of the field with the prefix of the part
-    needed: bool = True  # whether a file must have it
-    dtype: str | None = None  # type of its values in the file, by default that of the field
-    unknown: bool = False  # whether None in place of a number is stored as NaN
-    # Where the lengths of the arrays of several objects differ, they follow each other in one variable; this
-    # variable has the lengths.
-    count: str = ""
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """Attributes of the variable: long name and unit."""
-        named = {"long_name": self.text} if self.text else {}
-        return named if self.unit is None else {**named, "units": self.unit}
-
-
-def stored(
-    dims: str = "", unit: str | None = None, rule: str = "finite", text: str = "", **options: Any
-) -> dict[str, Stored]:
-    """Metadata of a field whose values are a variable over the dimensions in a text; see ``Stored``."""
-    return {_ARRAY: Stored(tuple(dims.split()), unit, rule, text, **options)}
-
-
-def number(rule: str | tuple[str, ...] = "finite or null") -> dict[str, Any]:
-    """Metadata of a field that is a number or a text in an attribute.
-
-    The rule is a key of ``VALUES``, perhaps with " or null", or "text", or the texts that are possible.
-    """
-    return {_NUMBER: rule}
 
 
 @dataclass(frozen=True)
@@ -101,11 +60,7 @@ class Part:
     @cached_property
     def fields(self) -> dict[str, Stored]:
         """Variable of each field by the name of the field."""
-        return {
-            each.name: self._placed(each.name, each.metadata[_ARRAY])
-            for each in fields(self.kind)
-            if _ARRAY in each.metadata
-        }
+        return {name: self._placed(name, entry) for name, entry in arrays_of(self.kind).items()}
 
     def _placed(self, name: str, entry: Stored) -> Stored:
         entry = replace(entry, **self.changed.get(name, _EMPTY))
@@ -197,7 +152,7 @@ def many_numbers_of(things: Iterable[Any]) -> str:
 
 
 def _numbers(thing: Any) -> dict[str, Any]:
-    return {name: getattr(thing, name) for name in _rules_of_numbers(type(thing))}
+    return {name: getattr(thing, name) for name in rules_of_numbers(type(thing))}
 
 
 def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> dict[str, Any]:
@@ -217,7 +172,7 @@ def read_many_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str)
 
 def _is_object_of(kind: type[Any]) -> Callable[[Any], bool]:
     """Whether a value of JSON has the numbers of an object of a class."""
-    rules = _rules_of_numbers(kind)
+    rules = rules_of_numbers(kind)
     checks: dict[str, Callable[[Any], bool]] = {key: partial(_fits, rule=rule) for key, rule in rules.items()}
     optional = {key: check for key, check in checks.items() if check(None)}
     needed = {key: check for key, check in checks.items() if key not in optional}
@@ -248,10 +203,6 @@ def _warnings(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
     if len(table[TEXTS]) != len(table[CODES_OF_TEXTS]):
         raise UnfitError(f"{CODES_OF_TEXTS} is not as it was written")
     return warnings_of(table)
-
-
-def _rules_of_numbers(kind: type[Any]) -> dict[str, str | tuple[str, ...]]:
-    return {each.name: each.metadata[_NUMBER] for each in fields(kind) if _NUMBER in each.metadata}
 
 
 def _fits(value: Any, rule: str | tuple[str, ...]) -> bool:

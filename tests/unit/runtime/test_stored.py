@@ -9,15 +9,14 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.result_warnings import CODES, ResultWarning, texts_and_codes, warnings_of
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
-    number,
     numbers_of,
     read_numbers,
-    stored,
     values_of,
     warnings_as_attributes,
     warnings_in,
