@@ -1,6 +1,5 @@
 """The commands that one begins with: init, examples, help, completion, and a start without POSIX."""
 
-import ast
 import json
 import os
 import re
@@ -18,7 +17,7 @@ from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
 from tests.helpers.gate import gated
-from tests.helpers.places import EXAMPLES, ROOT
+from tests.helpers.places import EXAMPLES
 
 KINDS = {
     "moving": "motion",
@@ -183,41 +182,6 @@ def test_the_command_starts_where_posix_is_not(tmp_path, case_file, words):
     done = subprocess.run(program, cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
-
-
-# Names that Windows lacks, by module; ``getattr`` and ``hasattr`` take them as texts.
-LACKING = {
-    "signal": {"SIGHUP", "SIGKILL", "SIGALRM", "SIGUSR1", "SIGCHLD", "SIGQUIT", "setitimer", "alarm"},
-    "os": {
-        "fork",
-        "getuid",
-        "geteuid",
-        "killpg",
-        "mkfifo",
-        "nice",
-        "sched_getaffinity",
-        "setsid",
-        "statvfs",
-        "sysconf",
-        "uname",
-    },
-}
-# Within a try that takes an AttributeError.
-GUARDED = {("memory.py", "sysconf"), ("processes.py", "killpg"), ("processes.py", "SIGKILL")}
-
-
-@pytest.mark.slow
-def test_no_name_that_windows_lacks_is_used_unguarded():
-    found = set()
-    for path in (ROOT / "src").rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            of_module = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
-            if of_module and node.attr in LACKING.get(node.value.id, ()):
-                found.add((path.name, node.attr))
-            if isinstance(node, ast.Import | ast.ImportFrom):
-                names = {alias.name for alias in node.names} | {getattr(node, "module", None)}
-                assert not names & {"fcntl", "resource", "termios", "pwd", "grp", "pty", "tty"}, path
-    assert found == GUARDED
 
 
 @pytest.mark.slow

@@ -1,9 +1,7 @@
 """Errors of a wrong input: their line, and what they know of the key, the value and what is allowed."""
 
-import ast
 import copy
 import pickle
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import ehlectric
 from ehlectric.bearing.ring_contacts import error_of_contact
 from ehlectric.cases import library
 from ehlectric.cases.case import Case
@@ -222,20 +219,3 @@ def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -
 )
 def test_others_than_the_contact_are_not_rewritten(error: InputError) -> None:
     assert error_of_contact(INNER, error) is error
-
-
-@pytest.mark.slow
-def test_no_error_has_its_key_in_its_text() -> None:
-    """An error that is raised with one text alone would not know its key."""
-    keyless = []
-    for path in Path(ehlectric.__file__).parent.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            match node:
-                case ast.Call(
-                    func=ast.Name("InputError" | "MemoryLimitError" | "ValueError"), args=[text], keywords=[]
-                ):
-                    parts = text.values if isinstance(text, ast.JoinedStr) else [text]
-                    line = "".join(str(p.value) if isinstance(p, ast.Constant) else "x" for p in parts)
-                    if re.match(r"got |[\w.-]+(, [\w.-]+)*: ", line):
-                        keyless.append(f"{path.name}:{node.lineno}")
-    assert keyless == []

@@ -1,10 +1,10 @@
 """Scripts in tools/ find what breaks a rule of the repository, with file and line."""
 
 import pytest
-from tools import check_tag, lint_house
 
 from ehlectric.version import __version__
 from tests.helpers.places import ROOT
+from tools import check_tag, lint_house
 
 
 @pytest.mark.parametrize(
@@ -42,6 +42,77 @@ def test_an_action_is_pinned_by_the_hash_of_its_commit_and_names_its_version(tmp
         ".github/workflows/check.yml:2",
         ".github/workflows/check.yml:3",
     ]
+
+
+def package(root, name, line):
+    """Make a package of one module with data files of ours; its second line is the given one."""
+    for file in ("warning_codes", "warning_texts", "verdict_texts"):
+        data = root / lint_house.PACKAGE / f"quantities/{file}.toml"
+        data.parent.mkdir(parents=True, exist_ok=True)
+        data.write_bytes((ROOT / lint_house.PACKAGE / f"quantities/{file}.toml").read_bytes())
+    (root / lint_house.PACKAGE / name).parent.mkdir(parents=True, exist_ok=True)
+    (root / lint_house.PACKAGE / name).write_text(f"\n{line}\n", encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("rule", "name", "line", "message"),
+    [
+        ("codes_of_warnings", "a.py", 'ResultWarning.of("no-such-code")', "no-such-code"),
+        ("codes_of_warnings", "a.py", "ResultWarning.of(name)", "literal"),
+        ("codes_of_warnings", "a.py", 'ResultWarning.of("not-converged")', None),
+        ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line")', "no text"),
+        ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line", regime=1, h=2)', "values h"),
+        ("texts_of_warnings", "a.py", 'ResultWarning.of("regime", "line", **values)', "name the values"),
+        ("texts_of_warnings", "a.py", 'Flag.of(low, "regime", "line", regime=1)', None),
+        ("warnings_with_written_texts", "a.py", 'ResultWarning("regime", "a text")', "warning_texts.toml"),
+        ("warnings_with_written_texts", "a.py", 'ResultWarning(warning.code, "a text")', None),
+        ("keys_in_texts_of_errors", "a.py", 'raise InputError(f"{key}: got {x}")', "give the key"),
+        ("keys_in_texts_of_errors", "a.py", 'raise InputError(key, got=x, takes="more")', None),
+        ("keys_in_texts_of_errors", "a.py", 'raise InputError("no point is solved")', None),
+        ("signs_of_bounds", "app/a.py", 'row(bound="≤")', "result_bounds.py"),
+        ("signs_of_bounds", "tables/a.py", 'row(bound="≤")', None),
+        ("properties_of_the_app", "app/pages/a.py", 'ui.label().props(f"title={title}")', "set title"),
+        ("properties_of_the_app", "app/pages/a.py", "ui.label().props(title)", "set title"),
+        ("properties_of_the_app", "app/pages/a.py", 'ui.label().props(f"data-testid={test_id}")', None),
+        ("texts_of_verdicts", "a.py", 'Statement.of("no-such-statement")', "no-such-statement"),
+        ("texts_of_verdicts", "a.py", 'Statement.of("speeds-below-1")', None),
+        ("names_that_windows_lacks", "a.py", "os.fork()", "os.fork"),
+        ("names_that_windows_lacks", "a.py", "from fcntl import flock", "fcntl"),
+        ("names_that_windows_lacks", "a.py", 'getattr(os, "fork", None)', None),
+    ],
+)
+def test_a_line_of_the_source_breaks_a_rule(tmp_path, rule, name, line, message):
+    package(tmp_path, name, line)
+    place = lint_house.PACKAGE / name
+    faults = [fault for fault in getattr(lint_house, rule)(tmp_path) if fault.file == place]
+    assert [fault.line for fault in faults] == ([] if message is None else [2])
+    assert all(message in fault.message for fault in faults)
+
+
+@pytest.mark.parametrize(
+    ("rule", "name", "entry"),
+    [
+        ("codes_of_warnings", "warning_codes.toml", "not-converged"),
+        ("texts_of_warnings", "warning_texts.toml", "regime.line"),
+        ("texts_of_verdicts", "verdict_texts.toml", "speeds-below-1"),
+    ],
+)
+def test_an_entry_that_no_module_uses_is_found_with_its_line(tmp_path, rule, name, entry):
+    package(tmp_path, "a.py", "x = 0")
+    file = lint_house.PACKAGE / "quantities" / name
+    lines = (ROOT / file).read_text(encoding="utf-8").splitlines()
+    places = [fault.line for fault in getattr(lint_house, rule)(tmp_path) if fault.file == file]
+    assert any(lines[place - 1].lstrip("[").startswith(entry) for place in places)
+
+
+def test_a_publication_without_a_docstring_is_found(tmp_path):
+    package(tmp_path, "a.py", '"""Film after doi:10.1/film."""')
+    texts = 'references = [{citation = "A 1", doi = "10.1/film"}, {citation = "B 2", doi = "10.1/none"}]'
+    (tmp_path / lint_house.PACKAGE / "report").mkdir()
+    file = tmp_path / lint_house.PACKAGE / "report/report_texts.toml"
+    file.write_text(f"{texts}\ndrive_references = []\n", encoding="utf-8")
+    (fault,) = lint_house.publications_of_reports(tmp_path)
+    assert "10.1/none" in fault.message
 
 
 def test_a_tag_is_the_version_of_package_citation_recipe_and_changelog(tmp_path):

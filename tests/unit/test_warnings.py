@@ -1,40 +1,10 @@
-"""Codes of warnings: each known, each used, each with a sentence."""
-
-import ast
-from pathlib import Path
+"""Codes of warnings: each known, each with a text, a sentence and an explanation."""
 
 import pytest
 
-import ehlectric
 from ehlectric.quantities.result_warnings import CODES, ResultWarning
 from tests.helpers.places import ROOT
-
-SOURCE = Path(ehlectric.__file__).parent
-# The codes themselves.
-OF_ALL = {SOURCE / "quantities" / "result_warnings.py"}
-# Codes that only files of later versions give.
-FOREIGN = {"not-usable", "unclassified"}
-
-
-def syntax_trees():
-    for path in sorted(set(SOURCE.rglob("*.py")) - OF_ALL):
-        yield ast.parse(path.read_text(encoding="utf-8"))
-
-
-def literals(tree):
-    return {
-        node.value
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    }
-
-
-@pytest.mark.slow
-@pytest.mark.gate
-def test_every_code_is_used():
-    """A code that no generator gives any more is taken out of the table."""
-    used = set().union(*map(literals, syntax_trees()))
-    assert set(CODES) - used <= FOREIGN
+from tools.lint_house import FOREIGN_CODES, data
 
 
 def test_every_code_is_explained():
@@ -43,22 +13,9 @@ def test_every_code_is_explained():
     assert [code for code in CODES if f"`{code}`" not in page] == []
 
 
-@pytest.mark.slow
-@pytest.mark.gate
-def test_every_generator_gives_a_known_code():
-    """Branches that no other test reaches too: the code is a literal, or a name for literals."""
-    calls = [
-        node
-        for tree in syntax_trees()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("ResultWarning", "ResultWarning.of")
-    ]
-    assert len(calls) > 40
-    given = [call.args[0] for call in calls]
-    assert {node.value for node in given if isinstance(node, ast.Constant)} <= set(CODES)
-    # A warning and its severe form, and those that are handed on.
-    others = {ast.unparse(node) for node in given if not isinstance(node, ast.Constant)}
-    assert others <= {"code", "warning.code"}
+def test_every_code_has_its_text():
+    """All but the codes that only files of later versions give."""
+    assert data(ROOT, "quantities/warning_texts.toml").keys() == set(CODES) - FOREIGN_CODES
 
 
 def test_every_code_has_a_sentence():

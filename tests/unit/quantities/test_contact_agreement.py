@@ -1,7 +1,6 @@
 """Terminal, notebook, report and page say the same about each quantity of a contact: that of the book."""
 
 from html import unescape
-from pathlib import Path
 
 import pytest
 
@@ -87,14 +86,3 @@ def test_every_key_of_a_sheet_is_in_the_book_with_a_label(geometry):
     assert {*CONTACT_CARDS, *TOUCHING_CARDS, *SPOT_CARDS} <= {
         key for section in CONTACT for key in section.keys
     }
-
-
-def test_signs_of_bounds_stand_in_the_book_alone():
-    """Other places would give a bound that the book does not know."""
-    source = ROOT / "src/ehlectric"
-    found = {
-        path.relative_to(source).as_posix()
-        for path in source.rglob("*.py")
-        if any(f'bound="{sign}"' in path.read_text(encoding="utf-8") for sign in "≤≥")
-    }
-    assert {Path(path).parts[0] for path in found} <= {"quantities", "tables"}
