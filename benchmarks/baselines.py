@@ -12,7 +12,7 @@ from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.film import film_solution as stationary
 from ehlectric.film import newton
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import Film, solve_film
 from ehlectric.film.levels import Level

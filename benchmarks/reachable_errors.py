@@ -3,7 +3,7 @@
 python -m benchmarks.reachable_errors    (half an hour)
 python -m benchmarks.reachable_errors --seed 4 --contacts 6 --most 513    (contacts from 100 on of the table)
 
-``benchmarks/data/reachable_errors.csv`` has both tables, and ``ehlectric.film.film_error`` is a fit to
+``benchmarks/data/reachable_errors.csv`` has both tables, and ``ehlectric.film.film_errors`` is a fit to
 that of seed 3. The contacts have M log-uniform in [10, 3e5], a Hertz pressure log-uniform in [0.4, 3.5] GPa
 and an ellipse ratio log-uniform in [0.6, 6]; those whose L is outside [1, 25] are left out.
 """

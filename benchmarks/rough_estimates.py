@@ -23,7 +23,7 @@ import numpy as np
 from ehlectric import Case
 from ehlectric.contact.check import check_case
 from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.film.film_error import discretisation_error, max_pressure_error, rough_film_error
+from ehlectric.film.film_errors import discretisation_error, max_pressure_error, rough_film_error
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution

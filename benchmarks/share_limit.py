@@ -36,7 +36,7 @@ from benchmarks.mixed import head, percent, row
 from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
 from ehlectric.arrays import Array
-from ehlectric.film.flow import (
+from ehlectric.film.face_flow import (
     Coefficients,
     FaceFlow,
     Flow,

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact.result import PointResult, Result
-    from ehlectric.drive.drive_netlist import write_drive_netlist
+    from ehlectric.drive.drive_netlist_files import write_drive_netlist
     from ehlectric.drive.netlist_files import write_netlist
     from ehlectric.drive.result import DriveResult, solve_drive
     from ehlectric.errors import ConvergenceError, InputError, LostError
@@ -126,7 +126,7 @@ _HOMES = {
     "save_figures": "figures.result_figures",
     "write_report": "report.written_report",
     "export": "runs.exports",
-    "write_drive_netlist": "drive.drive_netlist",
+    "write_drive_netlist": "drive.drive_netlist_files",
     "write_netlist": "drive.netlist_files",
     "Result": "contact.result",
     "PointResult": "contact.result",

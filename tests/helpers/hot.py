@@ -13,7 +13,7 @@ from ehlectric.film.energy_equation import (
     solve_energy,
     stream_of,
 )
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Body, HotOil, Physics, Thermal
 from ehlectric.film.mesh import Mesh, Width, at_centre
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter

@@ -11,7 +11,7 @@ import numpy as np
 import sympy
 from numpy.polynomial import chebyshev, polynomial
 
-from ehlectric.film.flow import MEAN_MOBILITY, Fluid
+from ehlectric.film.face_flow import MEAN_MOBILITY, Fluid
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands

@@ -14,7 +14,7 @@ import numpy as np
 import sympy
 
 from ehlectric.film.deflection import point_geometry
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import dowson_higginson

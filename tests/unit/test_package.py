@@ -45,7 +45,7 @@ def test_files_of_results_are_named_without_the_compiler_of_drives():
 @pytest.mark.slow
 def test_a_sweep_of_contacts_begins_without_the_compiler_of_drives():
     loaded = modules_after("import ehlectric.sweep.engine, ehlectric.sweep.run")
-    assert "ehlectric.drive.quick_drive" in loaded
+    assert "ehlectric.drive.quick_estimate" in loaded
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 

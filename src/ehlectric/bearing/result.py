@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.bearing_discharges import shaft_voltage
 from ehlectric.bearing.bearing_kinds import kind_of
-from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.duty_cycle import DutyResult, check_duty, run_duty
 from ehlectric.bearing.margin import MarginAnalysis, QuickMargins, analyse_margin
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
@@ -25,6 +24,7 @@ from ehlectric.bearing.uncertainty import (
     uncertainty_of_result,
     without_spread,
 )
+from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError, shown

@@ -96,7 +96,7 @@ def _draw(
 
 def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequence[str], style: str) -> Drawn:
     """Draw the maps and lines of a sweep over one or two keys, or the sensitivity of a Sobol design."""
-    from ehlectric.sweep.sensitivity import sensitivity
+    from ehlectric.sweep.sensitivity_indices import sensitivity
     from ehlectric.sweep.slices import take
     from ehlectric.sweep.sweep_inputs import main_value, ranked_value
     from ehlectric.sweep.warnings import sensitivity_warnings

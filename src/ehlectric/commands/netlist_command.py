@@ -112,7 +112,7 @@ def _bearing(
 
 def _drive(path: Path, contacts: str, progress: Progress) -> Netlist:
     """Netlist of a drive file."""
-    from ehlectric.drive.drive_netlist import drive_netlist
+    from ehlectric.drive.drive_netlist_files import drive_netlist
     from ehlectric.runs import by_kind
 
     case = by_kind.read_drive(path)

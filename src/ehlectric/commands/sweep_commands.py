@@ -86,7 +86,7 @@ def sweep(
         wanted = (plots or bool(formats)) and outcome.converged
         drawn, why = _drawn(outcome.result, output, look) if wanted else (Drawn(()), "")
     if not quiet:
-        from ehlectric.sweep.sweep_verdict import sweep_verdict
+        from ehlectric.sweep.verdict_rule import sweep_verdict
         from ehlectric.tables.sweep_summary import sweep_rows
 
         print_rows(sweep_rows(outcome.result))
@@ -311,7 +311,7 @@ def sensitivity(
         from ehlectric.runs.result_folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
+        from ehlectric.sweep.sensitivity_indices import sensitivity as sensitivity_of
         from ehlectric.sweep.store import read_sweep
         from ehlectric.sweep.sweep_inputs import ranked_value
 

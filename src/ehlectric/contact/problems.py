@@ -24,7 +24,7 @@ from ehlectric.field.line_field import columns_within, thinned
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
-from ehlectric.film.flow import MEAN_MOBILITY, Fluid, FluidLaw
+from ehlectric.film.face_flow import MEAN_MOBILITY, Fluid, FluidLaw
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem, OilSupply, Scales

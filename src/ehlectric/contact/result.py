@@ -17,7 +17,7 @@ from ehlectric.contact.summary import formulas_of, summary_of
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.zones import Zone, contact_zones
-from ehlectric.film.film_error import pressure_error_text
+from ehlectric.film.film_errors import pressure_error_text
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.quantities.formats import amount

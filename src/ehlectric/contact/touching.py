@@ -29,7 +29,7 @@ from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.discharge.film_verdict import unusable
 from ehlectric.field.zones import areas, areas_by_zone
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import residual, wedge_stencil

@@ -22,7 +22,7 @@ from ehlectric.contact.problems import Setup
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
-from ehlectric.film.film_error import UNRESOLVED
+from ehlectric.film.film_errors import UNRESOLVED
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas

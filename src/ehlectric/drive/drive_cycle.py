@@ -39,7 +39,7 @@ from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.duty_inputs import Cycle, read_cycle
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.drive.drive_record import CONFIDENCE, ENERGY, DriveSolution, event_rate
-from ehlectric.drive.quick_drive import quick_drive
+from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import InputError, within
 from ehlectric.quantities.field_metadata import number, stored
 from ehlectric.quantities.formats import rpm_text

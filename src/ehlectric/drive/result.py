@@ -14,9 +14,9 @@ import numpy as np
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.drive_cycle import DriveDuty, run_drive_cycle
 from ehlectric.drive.drive_record import FILM, OFF, ON, VALUES, DriveSolution
-from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary, with_cycle
+from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import within
 from ehlectric.quantities.inputs import ENDS

@@ -26,8 +26,8 @@ from ehlectric.drive.drive_record import (
     event_rate,
     spread,
 )
-from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.inverter import edge_rate
+from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.runtime.files import plain

@@ -44,7 +44,7 @@ from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.readable import ratio_text, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
+from ehlectric.sweep.sensitivity_indices import LEVEL, Sensitivity, sensitivity
 from ehlectric.sweep.slices import Slice, known_values, numbers_of, spaced_log, take
 from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
 

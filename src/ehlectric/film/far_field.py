@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.arrays import Array, Numbers, as_float
-from ehlectric.film.film_error import reduced_pressure
+from ehlectric.film.film_errors import reduced_pressure
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import FilmProblem
 

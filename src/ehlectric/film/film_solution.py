@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.far_field import load_deficit, pressure_deficit
-from ehlectric.film.film_error import max_pressure_error, upstream_deficits
+from ehlectric.film.film_errors import max_pressure_error, upstream_deficits
 from ehlectric.film.film_solver import RefinedSolution, Starvation, StarvedSolution
 from ehlectric.film.hot_oil import HeatedFilm
 from ehlectric.film.mesh import Mesh, at_centre

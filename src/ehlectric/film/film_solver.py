@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.far_field import side_deficit
-from ehlectric.film.film_error import (
+from ehlectric.film.film_errors import (
     LEAST_UNSEEN,
     UNSEEN,
     expected_error,

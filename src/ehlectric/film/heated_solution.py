@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.film.across_film import Across
 from ehlectric.film.energy_equation import FrozenTemperature, energy_imbalance
-from ehlectric.film.film_error import key_thicknesses
+from ehlectric.film.film_errors import key_thicknesses
 from ehlectric.film.film_solver import (
     RefinedSolution,
     StarvedSolution,

@@ -100,7 +100,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Examples
     --------
     >>> import numpy as np
-    >>> from ehlectric.film.flow import Fluid
+    >>> from ehlectric.film.face_flow import Fluid
     >>> incompressible = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> fluid = Fluid(incompressible, isoviscous, velocity_parameter=0.01, ambient_pressure=0.0)
@@ -253,7 +253,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     --------
     >>> from ehlectric.film.deflection import point_geometry
     >>> from ehlectric.film.mesh import Width
-    >>> from ehlectric.film.flow import Fluid
+    >>> from ehlectric.film.face_flow import Fluid
     >>> constant = lambda p: (np.ones_like(p), np.zeros_like(p))
     >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
     >>> problem = FilmProblem(

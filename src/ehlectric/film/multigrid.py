@@ -21,7 +21,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import lapack
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.flow import Flow, Fluid, flow
+from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Distribution, Level
 from ehlectric.film.reynolds import ALONG, OFFSETS, Stencil, linearise, poiseuille_weight

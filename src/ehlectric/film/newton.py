@@ -15,7 +15,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
-from ehlectric.film.flow import Coefficients, Flow, Fluid, flow
+from ehlectric.film.face_flow import Coefficients, Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.multigrid import Linearised, cycled, linearise_levels, with_kept_preconditioner

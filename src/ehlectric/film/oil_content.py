@@ -24,7 +24,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes
-from ehlectric.film.flow import Flow
+from ehlectric.film.face_flow import Flow
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import ALONG, Stencil, residual

@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Numbers
 from ehlectric.film.deflection import LINE, Geometry
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Physics
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.newton import Asperities

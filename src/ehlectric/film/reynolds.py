@@ -6,8 +6,8 @@ Dimensionless, with X = x/b, Y = y/b, P = p/p_h and H = h R/b^2:
 
 The first term is the wedge (Couette) term, the others are the Poiseuille term. A line contact has no term in
 Y. Arrays have the shape (nx, ny), with x along entrainment. The Poiseuille term is a central difference of
-second order; its flux is computed in ``ehlectric.film.flow``. The wedge term is an upstream difference of
-first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087), of second or of third order.
+second order; its flux is computed in ``ehlectric.film.face_flow``. The wedge term is an upstream difference
+of first order (eq. 7 of Morris et al. (2022), doi:10.3390/lubricants10050087), of second or of third order.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from scipy import sparse
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.flow import Flow
+from ehlectric.film.face_flow import Flow
 from ehlectric.film.mesh import Mesh
 
 # Nodes that a row of a stencil couples, as steps along x and y: four nodes along x and, in a point contact,

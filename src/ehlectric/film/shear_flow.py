@@ -2,9 +2,9 @@
 film, and traction.
 
 A face has the mean film thickness and density of its two nodes and the logarithmic mean of their fluidities,
-as for a Newtonian oil (``ehlectric.film.flow.mean_fluidity``). Where the viscosity varies across the film,
-the logarithm of its ratio to the viscosity of the reference temperature is the mean of the two nodes. The
-mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column
+as for a Newtonian oil (``ehlectric.film.face_flow.mean_fluidity``). Where the viscosity varies across the
+film, the logarithm of its ratio to the viscosity of the reference temperature is the mean of the two nodes.
+The mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column
 (``ehlectric.film.shear_stress``),
 
     F = (12/lambda) H^2 S flux(a, w, q, g),    q = H dP/dX/S,    g = lambda SRR/(12 H S)
@@ -36,7 +36,7 @@ from ehlectric.film.across_film import (
     over_columns,
     to_points,
 )
-from ehlectric.film.flow import (
+from ehlectric.film.face_flow import (
     Coefficients,
     FaceFlow,
     Flow,

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.linalg import lapack
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.flow import Flow, Fluid, flow
+from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import Stencil, linearise, residual

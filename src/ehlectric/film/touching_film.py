@@ -35,7 +35,7 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
-from ehlectric.film.flow import Flow, Fluid, flow
+from ehlectric.film.face_flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.multigrid import Linearised, cycled

@@ -30,7 +30,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.dry_contact import dry_contact, relieved
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.newton import Asperities, GridProblem, GridSolution, Guess, NewtonStep, State
 from ehlectric.film.oil_content import Carried, Supply, carried_rows

@@ -43,7 +43,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.energy_equation import Heat, Mixing
-from ehlectric.film.flow import Undrifted
+from ehlectric.film.face_flow import Undrifted
 from ehlectric.film.heated_film import HeatedGrid
 from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.moving_heat import MOST_TURNS, MovingHeat, Warmth

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.film_error import lowest
+from ehlectric.film.film_errors import lowest
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import History, Instant

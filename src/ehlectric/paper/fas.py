@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlectric.errors import InputError
 from ehlectric.film.deflection import LINE
-from ehlectric.film.film_error import film_error, upstream_deficits
+from ehlectric.film.film_errors import film_error, upstream_deficits
 from ehlectric.film.film_solution import film_status
 from ehlectric.film.film_solver import UNKNOWN
 from ehlectric.film.isothermal_film import Film

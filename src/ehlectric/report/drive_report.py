@@ -13,8 +13,8 @@ import numpy as np
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
+from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
 from ehlectric.quantities.formats import amount

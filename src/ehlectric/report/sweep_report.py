@@ -26,7 +26,7 @@ from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.drive_sweep_verdict import swept_verdict
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity import sensitivity
+from ehlectric.sweep.sensitivity_indices import sensitivity
 from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
 from ehlectric.sweep.warnings import sweep_warnings
 from ehlectric.tables.sweep_summary import indices_table, spread_rows, sweep_rows

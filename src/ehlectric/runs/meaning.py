@@ -177,7 +177,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
 
 @check.register
 def _check_drive(case: DriveCase) -> Meaning:
-    from ehlectric.drive.quick_drive import quick_drive
+    from ehlectric.drive.quick_estimate import quick_drive
     from ehlectric.drive.solver import prepare
     from ehlectric.drive.summary import checked_summary
     from ehlectric.drive.warnings import bearing_warnings, machine_warnings

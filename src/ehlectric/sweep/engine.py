@@ -32,7 +32,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.contact.check import portable
 from ehlectric.contact.solver import solve
-from ehlectric.drive.quick_drive import quick_drive
+from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.inputs import SPEED, TEMPERATURE, end_and_replaced

@@ -30,7 +30,7 @@ from ehlectric.runtime.result_names import OF_SWEEPS, SWEEP_CSV, SWEEP_NETCDF, S
 from ehlectric.runtime.values import Shown, headline, is_number, read_only
 from ehlectric.sweep.axis_labels import label_of, result_keys
 from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat, kinds_of
-from ehlectric.sweep.sweep_verdict import sweep_verdict
+from ehlectric.sweep.verdict_rule import sweep_verdict
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from ehlectric.sweep.point_groups import Inputs, plan_together
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
 from ehlectric.sweep.sweep_inputs import Sweep, check_own_laws
-from ehlectric.sweep.sweep_verdict import sweep_verdict
+from ehlectric.sweep.verdict_rule import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
 # Weight of batches below which they are solved in this process, in the time that others take to begin.

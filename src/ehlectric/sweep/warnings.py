@@ -10,7 +10,7 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity import Sensitivity
+from ehlectric.sweep.sensitivity_indices import Sensitivity
 from ehlectric.version import __version__
 
 # Half-width of a confidence interval above which a sensitivity index says little.

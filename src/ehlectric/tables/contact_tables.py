@@ -16,7 +16,7 @@ from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.summary import case_summary
 from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
-from ehlectric.film.film_error import pressure_error_text
+from ehlectric.film.film_errors import pressure_error_text
 from ehlectric.quantities.formats import amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK

@@ -13,7 +13,7 @@ from ehlectric.quantities.rows import Row
 from ehlectric.readable import ONE_NUMBER, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity import Sensitivity
+from ehlectric.sweep.sensitivity_indices import Sensitivity
 from ehlectric.sweep.sweep_inputs import breakdown_of
 from ehlectric.tables.measured_tables import columns_table
 

@@ -8,8 +8,8 @@ import pytest
 from ehlectric.film.atlas.atlas_films import OilGroups, reference_laws
 from ehlectric.film.atlas.atlas_groups import Groups, film_problem
 from ehlectric.film.deflection import point_geometry
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.far_field import load_outside, with_far_field
-from ehlectric.film.flow import Fluid
 from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem

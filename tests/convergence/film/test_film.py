@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.flow import MEAN_MOBILITY
+from ehlectric.film.face_flow import MEAN_MOBILITY
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.paper import fas
 from tests.reference import film as exact

@@ -5,7 +5,7 @@ import pytest
 
 from ehlectric import Case
 from ehlectric.contact.check import check_case
-from ehlectric.film.film_error import max_pressure_error
+from ehlectric.film.film_errors import max_pressure_error
 from ehlectric.film.nested import nested_iteration
 from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.share import share

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.reynolds import residual
 from tests.helpers.mixed_films import central_film, gaussian, mixed_film, rough_line, rough_point
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from ehlectric import Case
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.problem import FilmProblem, OilSupply

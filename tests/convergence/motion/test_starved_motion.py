@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film import unsteady
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.runtime.threads import quiet_solution

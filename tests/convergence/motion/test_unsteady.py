@@ -8,7 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ehlectric import ConvergenceError
 from ehlectric.film import unsteady
-from ehlectric.film.flow import evaluate
+from ehlectric.film.face_flow import evaluate
 from ehlectric.film.unsteady import Effort, UnsteadyFilm
 from tests.helpers.transient_films import histories, last, problem_of, ridge, steady
 

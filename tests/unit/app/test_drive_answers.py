@@ -10,7 +10,7 @@ from ehlectric.app.compute.drive_answers import quick_answer, simulate
 from ehlectric.app.pages.frame import DRIVE
 from ehlectric.app.session import SURFACES
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.quick_drive import expected, quick_drive
+from ehlectric.drive.quick_estimate import expected, quick_drive
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS

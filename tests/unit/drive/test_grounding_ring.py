@@ -12,9 +12,9 @@ from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.drive_inputs import RingTable
 from ehlectric.drive.drive_cycle import run_drive_cycle
-from ehlectric.drive.drive_netlist import drive_netlist
+from ehlectric.drive.drive_netlist_files import drive_netlist
 from ehlectric.drive.drive_record import COLUMNS
-from ehlectric.drive.quick_drive import expected
+from ehlectric.drive.quick_estimate import expected
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
 from ehlectric.drive.warnings import machine_warnings

@@ -8,8 +8,8 @@ import pytest
 
 from ehlectric import solve_drive
 from ehlectric.drive.drive_record import event_rate
-from ehlectric.drive.drive_verdict import SELDOM, drive_verdict, most_by_law
 from ehlectric.drive.result import DriveResult
+from ehlectric.drive.verdict_rule import SELDOM, drive_verdict, most_by_law
 from ehlectric.quantities.result_warnings import ResultWarning
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each

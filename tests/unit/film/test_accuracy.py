@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ehlectric.film.film_error import (
+from ehlectric.film.film_errors import (
     between_nodes,
     change_near,
     change_of_minimum,

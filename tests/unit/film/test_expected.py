@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from ehlectric.film.deflection import point_geometry
-from ehlectric.film.film_error import UNSEEN, expected_error, expected_nodes
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
+from ehlectric.film.film_errors import UNSEEN, expected_error, expected_nodes
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
 from tests.helpers.places import ROOT

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film import flow as flows
+from ehlectric.film import face_flow as flows
 from ehlectric.film import reynolds
-from ehlectric.film.flow import FaceFlow, Flow, Fluid, Sides, evaluate, flow
+from ehlectric.film.face_flow import FaceFlow, Flow, Fluid, Sides, evaluate, flow
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.problem import FilmProblem

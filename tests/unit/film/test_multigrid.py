@@ -10,7 +10,7 @@ from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
 from ehlectric.film import multigrid, reynolds
 from ehlectric.film.deflection import LINE, Deflection
-from ehlectric.film.flow import Fluid, flow
+from ehlectric.film.face_flow import Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.levels import COARSEST, DIPOLE, SECOND_DIFFERENCE, hierarchy, interpolation

@@ -10,7 +10,7 @@ from ehlectric import Case
 from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.film import multigrid
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.mesh import Width
 from ehlectric.film.nested import levels_of, nested_iteration

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film import reynolds
-from ehlectric.film.flow import Fluid, evaluate, flow
+from ehlectric.film.face_flow import Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film import reynolds
-from ehlectric.film.flow import MEAN_MOBILITY, Fluid, evaluate, flow
+from ehlectric.film.face_flow import MEAN_MOBILITY, Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands

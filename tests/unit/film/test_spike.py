@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.levels import hierarchy

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.newton import Asperities, State

@@ -9,7 +9,7 @@ import pytest
 from ehlectric.app.charts import motion_charts
 from ehlectric.arrays import Array
 from ehlectric.figures.motion_figures import figure, of_history
-from ehlectric.film.flow import flow
+from ehlectric.film.face_flow import flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.newton import State

@@ -11,7 +11,7 @@ from ehlectric import InputError, read_sweep
 from ehlectric.errors import DamagedError
 from ehlectric.sweep.engine import Outcome, plan
 from ehlectric.sweep.result import write_tables
-from ehlectric.sweep.sensitivity import sensitivity
+from ehlectric.sweep.sensitivity_indices import sensitivity
 from ehlectric.sweep.slices import take
 from ehlectric.sweep.store import NAME, Store, saved_points
 from ehlectric.sweep.sweep_inputs import breakdown_of

@@ -20,7 +20,7 @@ from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_points import held_text
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.points import Range
-from ehlectric.sweep.sensitivity import sensitivity
+from ehlectric.sweep.sensitivity_indices import sensitivity
 from ehlectric.sweep.slices import take
 from ehlectric.sweep.sweep_inputs import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
 from tests.helpers.bearings import BALLS, bearing_case

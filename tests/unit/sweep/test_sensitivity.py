@@ -12,7 +12,7 @@ from scipy.stats import sobol_indices
 from ehlectric import InputError
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sensitivity import LEVEL, indices, intervals, sensitivity
+from ehlectric.sweep.sensitivity_indices import LEVEL, indices, intervals, sensitivity
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol
 
 VALUE = "model.y"

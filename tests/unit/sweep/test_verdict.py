@@ -8,7 +8,7 @@ import pytest
 from ehlectric import Case
 from ehlectric.sweep.points import Point, Range
 from ehlectric.sweep.result import SweepResults
-from ehlectric.sweep.sweep_verdict import crossing, sweep_verdict, value_text
+from ehlectric.sweep.verdict_rule import crossing, sweep_verdict, value_text
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 

@@ -49,7 +49,7 @@ from ehlectric.figures.contact_profiles import (
     touches,
 )
 from ehlectric.figures.data import Along
-from ehlectric.film.film_error import pressure_error_text
+from ehlectric.film.film_errors import pressure_error_text
 from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable

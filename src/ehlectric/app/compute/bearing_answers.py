@@ -45,7 +45,6 @@ from ehlectric.app.compute.answer_parts import (
     unknown,
 )
 from ehlectric.app.compute.duty_answers import shown_duty
-from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.loads.totals import around_in_rows
 from ehlectric.bearing.margin import MarginAnalysis
@@ -56,6 +55,7 @@ from ehlectric.bearing.solving import CaseKey, key_of
 from ehlectric.bearing.speed_curves import over_speed
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import quick_chance
+from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.errors import InputError

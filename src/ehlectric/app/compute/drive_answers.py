@@ -27,10 +27,10 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
-from ehlectric.drive.drive_verdict import drive_verdict
-from ehlectric.drive.quick_drive import expected, quick_drive
+from ehlectric.drive.quick_estimate import expected, quick_drive
 from ehlectric.drive.solver import SIMULATING, prepare
 from ehlectric.drive.summary import checked_summary
+from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import ENDS

@@ -27,8 +27,8 @@ from scipy.special import elliprd
 
 from ehlectric.arrays import Array, Numbers, as_float
 from ehlectric.film.deflection import point_geometry
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.far_field import with_far_field
-from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas.film_line import LineContact, moes

@@ -7,10 +7,10 @@ import re
 import pytest
 
 from ehlectric import BearingCase, solve_bearing
-from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.margin import MarginAnalysis, QuickMargins
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.uncertainty import has_chance, uncertainty_of
+from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.errors import InputError
 from ehlectric.readable import chance_text
 from ehlectric.runtime.files import plain

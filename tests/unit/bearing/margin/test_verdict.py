@@ -4,12 +4,12 @@ import dataclasses
 
 import pytest
 
-from ehlectric.bearing.bearing_verdict import bearing_verdict
 from ehlectric.bearing.margin import MarginAnalysis, SpeedRange
 from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio
 from ehlectric.bearing.summary import summary_of
+from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.quantities.result_warnings import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

@@ -25,7 +25,7 @@ from ehlectric.figures.sweep_maps import value_map
 from ehlectric.figures.sweep_points import LESS_ACCURATE
 from ehlectric.quantities.result_warnings import CODES, ResultWarning, texts_and_codes
 from ehlectric.sweep.points import Range
-from ehlectric.sweep.sensitivity import sensitivity
+from ehlectric.sweep.sensitivity_indices import sensitivity
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol
 from tests.helpers.titles import title_of

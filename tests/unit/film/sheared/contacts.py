@@ -6,7 +6,7 @@ import numpy as np
 
 from ehlectric.film.across_film import Across, Properties
 from ehlectric.film.deflection import point_geometry
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.mesh import Mesh, Width, on_mesh
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter

@@ -6,7 +6,7 @@ import numpy as np
 
 from ehlectric.film import reynolds
 from ehlectric.film.across_film import Across
-from ehlectric.film.flow import Undrifted, flow, mean_fluidity
+from ehlectric.film.face_flow import Undrifted, flow, mean_fluidity
 from ehlectric.film.mesh import Mesh, Width, on_mesh
 from ehlectric.film.shear_flow import ShearedFlow
 from ehlectric.film.shear_laws import Rheology

@@ -9,7 +9,7 @@ from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.breakdown_rule import STRENGTH_UNKNOWN
 from ehlectric.discharge.film_verdict import no_verdict
-from ehlectric.drive.drive_verdict import CODES_OF_LEVELS, SELDOM, most_by_law, weakest_part
+from ehlectric.drive.verdict_rule import CODES_OF_LEVELS, SELDOM, most_by_law, weakest_part
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.quantities.statement import Fact, Level, Statement

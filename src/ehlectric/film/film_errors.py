@@ -12,7 +12,7 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
-from ehlectric.film.flow import Fluid
+from ehlectric.film.face_flow import Fluid
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import accurate_film
 from ehlectric.film.newton import GridSolution, State
