@@ -25,18 +25,13 @@ from ehlectric.bearing.gaps import (
     missing_gap,
     outside_capacitance,
 )
+from ehlectric.contact.film_domain import DomainRule, Ends
 from ehlectric.formulas.capacitances import matched_offset
 from ehlectric.formulas.hertz import DryContact, axis_ratio
 from ehlectric.formulas.hertz_outside import unit_deflection
 
 # Largest relative difference of ends of domains that are alike up to rounding.
 _ALIKE = 1e-12
-
-# Largest relative difference of ends of domains that are alike up to rounding.
-_ALIKE = 1e-12
-
-# Distances of the ends of domains from the middle in semi-axes: inlet, outlet and side.
-Ends = tuple[Numbers, Numbers, Numbers]
 
 
 @dataclass(frozen=True)
@@ -47,12 +42,7 @@ class DomainLaw:
     inlet: float
     outlet: float
     side: Callable[[Numbers], Numbers]
-    # Inlet, outlet, and side beyond the ellipse over the lengths sqrt(2 R h) along and across in semi-axes.
-    along: float
-    behind: float
-    across: float
-    # Largest inlet, outlet and side.
-    most: tuple[float, float, float]
+    rule: DomainRule  # further ends
     coarseness: float = 1.0  # factor on the errors of polynomials in place of integrals
     nodes: Nodes = FINE  # nodes of the integrals around films
 
@@ -61,29 +51,29 @@ class DomainLaw:
 
         ``length``, sqrt(2 Rx h)/b, shape (...).
         """
-        across = length * np.sqrt(unit.radius_ratio) / unit.ratio
+        rule, across = self.rule, length * np.sqrt(unit.radius_ratio) / unit.ratio
         return (
-            (self.inlet, self.along * length, self.most[0])[state[0]],
-            (self.outlet, self.behind * length, self.most[1])[state[1]],
-            (self.side(unit.ratio), 1.0 + self.across * across, self.most[2])[state[2]],
+            (self.inlet, rule.inlet(length), rule.most[0])[state[0]],
+            (self.outlet, rule.downstream * length, rule.most[1])[state[1]],
+            (self.side(unit.ratio), rule.side(across), rule.most[2])[state[2]],
         )
 
     def states(self, ends: Ends, unit: UnitContact) -> IntArray:
         """States of the ends of domains, as digits of a number to the base of three."""
         least = (self.inlet, self.outlet, self.side(unit.ratio))
         total: IntArray = np.zeros((), dtype=np.intp)
-        for end, near, most in zip(ends, least, self.most, strict=True):
+        for end, near, most in zip(ends, least, self.rule.most, strict=True):
             total = 3 * total + np.where(end >= most, 2, np.where(end > near * (1.0 + _ALIKE), 1, 0))
         return total
 
     def length(self, state: tuple[int, ...], ends: Ends, unit: UnitContact) -> Numbers:
         """Length sqrt(2 Rx h)/b from which ends follow; 1 where none does."""
         if state[0] == 1:
-            return ends[0] / self.along
+            return ends[0] / self.rule.upstream
         if state[1] == 1:
-            return ends[1] / self.behind
+            return ends[1] / self.rule.downstream
         if state[2] == 1:
-            return (ends[2] - 1.0) / self.across * unit.ratio / np.sqrt(unit.radius_ratio)
+            return (ends[2] - 1.0) / self.rule.sideways * unit.ratio / np.sqrt(unit.radius_ratio)
         return np.ones_like(ends[0])
 
 

@@ -23,7 +23,6 @@ from scipy.constants import epsilon_0
 from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.bearing.ball_gaps import (
     DomainLaw,
-    Ends,
     UnitContact,
     around_directly,
     around_ellipse_directly,
@@ -36,6 +35,7 @@ from ehlectric.bearing.gaps import (
     roller_capacitance,
     roller_tail,
 )
+from ehlectric.contact.film_domain import Ends
 from ehlectric.formulas.hertz import line_gap, reduced_radius
 from ehlectric.formulas.smooth_tables import Function, SmoothTable, smooth_table
 from ehlectric.runtime.values import read_only_property

@@ -25,7 +25,6 @@ from ehlectric.bearing.gaps import (
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid, Solver, point_grid
-from ehlectric.contact.check import FARTHEST
 from ehlectric.contact.conditions import (
     Conditions,
     PointConditions,
@@ -35,6 +34,7 @@ from ehlectric.contact.conditions import (
     least_pressure,
 )
 from ehlectric.contact.contact_memory import check_grid
+from ehlectric.contact.film_domain import FARTHEST_LINE, FARTHEST_POINT, WIDEST_POINT, DomainRule, Ends
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.atlas_groups import Ellipse
@@ -51,32 +51,34 @@ from ehlectric.runtime.values import Values, read_only_property
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.
 REFINE = 0.02
 
-# Domain of a ball's contact ahead of it, beside it and behind it, in lengths sqrt(2 R h) over which the
-# pressure builds up, and the most that a grid holds ahead and beside, in semi-axes. The domain costs below
-# 1 % of the film, or 15 % where a ball hardly presses.
-_ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, FARTHEST["point"]
-
-# The same as a law of the domains of many balls: the default domain of solved contacts is the shortest one.
+# Domains of balls: the default domain of solved contacts is the shortest one. The domain costs below 1 % of
+# the film, or 15 % where a ball hardly presses.
 BALL_DOMAINS = DomainLaw(
     inlet=-DEFAULT_ENDS[True][0],
     outlet=DEFAULT_ENDS[True][1],
     side=default_side,
-    along=_ALONG,
-    behind=_BEHIND,
-    across=_ACROSS,
-    most=(_MOST[0], 0.1 * _MOST[0], _MOST[1]),
+    rule=DomainRule(
+        upstream=10.0,
+        downstream=1.0,
+        sideways=4.0,
+        most=(FARTHEST_POINT, 0.1 * FARTHEST_POINT, WIDEST_POINT),
+    ),
 )
 
 # The same for contacts of which only ratios of results are used: errors of polynomials are about 1e-5, and
 # those of integrals below 1e-6.
 _COARSE_DOMAINS = replace(BALL_DOMAINS, coarseness=1e3, nodes=COARSE)
 
-# Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
-# film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
-# which costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded
-# rollers often did not converge.
-_LINE_INLET, _LINE_OUTLET = 10.0, 2.0
-_LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
+# Domains of rollers cost 0.3 to 1.2 % of the film. Beyond a hundred half-widths the inlet has eight lengths,
+# and three hundred half-widths at the most, which costs 2.5 % of the film and 1.3 % of the capacitance: with
+# longer inlets the films of hardly loaded rollers often did not converge.
+_ROLLER_DOMAINS = DomainRule(
+    upstream=10.0,
+    downstream=2.0,
+    far=100.0,
+    upstream_far=8.0,
+    most=(FARTHEST_LINE, FARTHEST_LINE, 1.0),
+)
 
 
 @lru_cache(maxsize=128)
@@ -289,16 +291,13 @@ class BallContact:
         return along, across
 
     @read_only_property
-    def domain(self) -> tuple[Numbers, Numbers, Numbers]:
+    def domain(self) -> Ends:
         """Inlet, outlet and side in semi-axes of a domain wide enough for the thick film of a light load.
 
         Heavy loads have the default domain of point contacts.
         """
-        along, across = self._lengths
-        inlet = np.maximum(4.5, np.minimum(_ALONG * along, _MOST[0]))
-        outlet = np.maximum(1.5, np.minimum(_BEHIND * along, 0.1 * _MOST[0]))
-        side = np.maximum(self.conditions.side, np.minimum(1.0 + _ACROSS * across, _MOST[1]))
-        return as_float(inlet), as_float(outlet), as_float(side)
+        law = self.domains
+        return law.rule.ends((law.inlet, law.outlet, self.conditions.side), *self._lengths)
 
     @property
     def grid(self) -> Grid:
@@ -310,8 +309,7 @@ class BallContact:
     @property
     def fits(self) -> Mask:
         """Whether the domain holds the lengths over which the film builds up, along and across."""
-        along, across = self._lengths
-        return np.asarray((_ALONG * along <= _MOST[0]) & (1.0 + _ACROSS * across <= _MOST[1]))
+        return self.domains.rule.holds(*self._lengths)
 
     def conditions_on(self, grid: Grid) -> PointConditions:
         """Operating conditions of a film on the domain of a grid."""
@@ -404,25 +402,17 @@ class RollerContact:
         return np.sqrt(2.0 * conditions.reduced_radius * self.film) / conditions.half_width
 
     @read_only_property
-    def _inlets(self) -> tuple[Numbers, Numbers]:
-        """Inlet that the film needs, and the longest one, in half-widths.
-
-        The longest one is as far as a parabola describes the roller, or what a grid holds.
-        """
-        length = self._build_up
-        longest = np.minimum(0.5 * self.ring.radii.element_x / self.conditions.half_width, _LINE_MOST)
-        return np.minimum(_LINE_INLET * length, np.maximum(_LINE_FAR, _LINE_SHORTER * length)), longest
+    def _domains(self) -> DomainRule:
+        """Rule of the domain, whose ends are at most as far as a parabola describes the roller."""
+        parabola = 0.5 * self.ring.radii.element_x / self.conditions.half_width
+        longest = np.minimum(parabola, _ROLLER_DOMAINS.most[0])
+        return replace(_ROLLER_DOMAINS, most=(longest, longest, 1.0))
 
     @read_only_property
-    def domain(self) -> tuple[Numbers, Numbers, float]:
+    def domain(self) -> Ends:
         """Inlet and outlet in half-widths, long enough for the thick film of a light load; and 1."""
-        needed, most = self._inlets
-        inlet = np.maximum(4.0, np.minimum(needed, most))
-        return (
-            as_float(inlet),
-            as_float(np.maximum(2.0, np.minimum(_LINE_OUTLET * self._build_up, most))),
-            1.0,
-        )
+        inlet, outlet = DEFAULT_ENDS[False]
+        return self._domains.ends((-inlet, outlet, 1.0), self._build_up)
 
     @property
     def grid(self) -> Grid:
@@ -446,8 +436,7 @@ class RollerContact:
     @property
     def fits(self) -> Mask:
         """Whether the domain holds the length over which the film builds up."""
-        needed, longest = self._inlets
-        return np.asarray(needed <= longest)
+        return self._domains.holds(self._build_up)
 
     def conditions_on(self, _: Grid) -> Conditions:
         """Operating conditions of a film on the domain of a grid."""

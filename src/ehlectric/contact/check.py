@@ -21,6 +21,7 @@ from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
 from ehlectric.contact.contact_refinement import Reach, reach_of
+from ehlectric.contact.film_domain import LARGER
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
 from ehlectric.contact.summary import breakdown_by_formula
 from ehlectric.contact.warnings import case_warnings
@@ -167,13 +168,7 @@ def portable(case: Case) -> Case:
 # Part of the error asked for at which a longer domain aims, and bounds of the factor of one step.
 _AIM, _LEAST, _MOST = 0.3, 1.25, 4.0
 
-# Least domain upstream, downstream and sideways once the first one is too small, in lengths sqrt(2 R h) over
-# which the pressure builds up.
-_UPSTREAM, _DOWNSTREAM, _SIDEWAYS = 6.0, 2.0, 3.0
-
-# Largest domain upstream and sideways, in half-widths or semi-axes, and largest number of larger domains.
-# Films of hardly loaded contacts often do not converge on longer ones.
-FARTHEST = {"line": (300.0, 0.0), "point": (48.0, 24.0)}
+# Largest number of larger domains.
 MOST_STEPS = 3
 
 # Nodes in a half-width or semi-axis of the first grid, along and across, and the least number of nodes.
@@ -208,26 +203,25 @@ def _larger(
     """Grid and side of a larger domain; None where the film has the largest one."""
     grid, conditions = contact.case.grid, contact.conditions
     geometry = conditions.geometry
-    upstream, sideways = FARTHEST[geometry]
+    rule, wide = LARGER[geometry], getattr(conditions, "side", 0.0)
     factor = min(_MOST, max(_LEAST, math.cbrt(loss / (_AIM * target))))
     if geometry == "point":
         # The load outside of the domain falls with its size.
         factor = max(factor, (film.load_deficit or 0.0) / (_AIM * MOST_OUTSIDE))
     length = math.sqrt(2.0 * film.central_thickness / film.scales.thickness)
     start, end = grid.ends
-    inlet = min(upstream, max(factor * -start, _UPSTREAM * length))
-    outlet = max(end, min(_DOWNSTREAM * length, 0.5 * upstream))
-    side = 0.0
-    table = grid.model_dump(mode="json", exclude_none=True) | {"inlet": -_rounded(inlet)}
+    across = 0.0
     if isinstance(conditions, PointConditions):
         across = length * math.sqrt(conditions.radius_y / conditions.radius_x) / conditions.ratio
-        side = _rounded(min(sideways, max(factor * conditions.side, 1.0 + _SIDEWAYS * across)))
-        table["side"] = side
-    if inlet <= -start and side <= getattr(conditions, "side", 0.0):
+    least = min(rule.most[0], factor * -start), end, min(rule.most[2], factor * wide)
+    inlet, outlet, side = rule.ends(least, length, across)
+    outlet, side = _rounded(outlet), _rounded(side)
+    if inlet <= -start and side <= wide:
         return None
-    along, wide, least = _DENSITY[geometry]
-    table["outlet"] = outlet = _rounded(outlet)
-    nodes = max(least, along * math.ceil(inlet + outlet) + 1, wide * math.ceil(side) + 1)
+    ends = {"inlet": -_rounded(inlet), "outlet": outlet} | ({"side": side} if side else {})
+    table = grid.model_dump(mode="json", exclude_none=True) | ends
+    along, sideways, fewest = _DENSITY[geometry]
+    nodes = max(fewest, along * math.ceil(inlet + outlet) + 1, sideways * math.ceil(side) + 1)
     table["nodes"] = max(nodes, table.get("nodes", 0))
     table["refine"] = table.pop("error", target)
     try:
