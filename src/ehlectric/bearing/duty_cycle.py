@@ -41,7 +41,7 @@ from ehlectric.cases.measurements import CYCLE, void_rows
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
 from ehlectric.errors import InputError
 from ehlectric.quantities.field_metadata import number, stored
-from ehlectric.quantities.formats import rpm_text, scale_of
+from ehlectric.quantities.formats import scale_of, speed_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.statement import Statement
@@ -546,7 +546,7 @@ def _text(column: str, value: float) -> str:
     """Input of a column with its unit."""
     unit = CYCLE.columns[column].unit
     if unit == "rad/s":
-        return f"{rpm_text(value)} rpm"
+        return speed_text(value)
     scale = scale_of(_SHOWN[unit])
     return f"{readable(scale.of(value), 4)} {scale.unit}"
 

@@ -44,8 +44,7 @@ from ehlectric.bearing.solution import (
 from ehlectric.bearing.solving import NOT_IN_FILMS, quick_solution
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
-from ehlectric.quantities.units import rpm
-from ehlectric.readable import readable
+from ehlectric.quantities.formats import speed_text
 
 # Inputs of strength laws that only solved contacts have: others replace them by a constant strength.
 ONLY_SOLVED = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -277,8 +276,7 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     own = margins.case.bearing.inner_speed
     speeds, points, reasons = margins.over_parts()
     left_out = tuple(
-        f"speed {readable(rpm(own * PARTS[place]), 4)} rpm: {reason}"
-        for place, reason in sorted(reasons.items())
+        f"speed {speed_text(own * PARTS[place], 4)}: {reason}" for place, reason in sorted(reasons.items())
     )
     known = np.isfinite(points[1])
     # The bearing itself has a result, which is exact.

@@ -28,10 +28,9 @@ from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError, shown
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, speed_text
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
 from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
-from ehlectric.quantities.units import rpm
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
 from ehlectric.runtime.files import plain
@@ -299,7 +298,7 @@ class BearingResult(Shown):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return (
             self.case.bearing.name or self.case.bearing.kind,
-            f"{readable(rpm(self.case.bearing.inner_speed), 4)} rpm",
+            speed_text(self.case.bearing.inner_speed, 4),
             f"capacitance {capacitance}",
             None if breaks is None else f"first breakdown {breaks}",
             None if shaft is None else f"shaft voltage {readable(shaft, 4)} V",

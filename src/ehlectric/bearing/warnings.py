@@ -55,7 +55,7 @@ from ehlectric.discharge.discharge_laws import known, known_of
 from ehlectric.discharge.film_breakdown import field_flags, strength_flags
 from ehlectric.discharge.film_verdict import breakdown_flag
 from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
-from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.formats import CELSIUS, time_share_text
 from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
@@ -75,8 +75,8 @@ _LEAST_LOAD = 1e-3
 # Viscosity above which an oil is near its pour point [Pa s].
 _MOST_VISCOUS = PLAUSIBLE["viscosity"].high
 
-# Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [K].
-_COLD = 273.15
+# Temperature below which the viscosity, extrapolated from 40 and 100 degC, may be far off [degC].
+_COLD = 0.0
 
 
 def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
@@ -140,7 +140,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
         "viscosity-of-base",
         viscosity=known(mul, 1e3, base),
         base=case.lubricant.base,
-        temperature=lambda: f"{readable(case.bearing.oil_temperature - 273.15, 4)} °C",
+        temperature=lambda: CELSIUS.text(case.bearing.oil_temperature),
     )
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
     yield Flag.of(
@@ -153,8 +153,8 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     if follows and case.lubricant.temperature_range is None:
         for key, temperature in case.bearing.temperatures().items():
             # The viscosity is extrapolated far.
-            cold = np.logical_and(own, temperature < _COLD)
-            yield Flag.of(cold, "temperature-low", key=key, celsius=temperature - 273.15)
+            celsius = CELSIUS.of(temperature)
+            yield Flag.of(np.logical_and(own, celsius < _COLD), "temperature-low", key=key, celsius=celsius)
     yield from fit_flags(solution.conditions.clearance)
     geometry = solution.conditions.geometry
     if not geometry.follows_films:
@@ -181,7 +181,7 @@ def input_flags(case: BearingCase, viscosity: Numbers) -> Iterator[Flag]:
     bearing = case.bearing
     turns, celsius, pitch = (
         rpm(bearing.inner_speed),
-        bearing.oil_temperature - 273.15,
+        CELSIUS.of(bearing.oil_temperature),
         1e3 * bearing.pitch_diameter,
     )
     factor, most = turns * pitch, _most_speed(bearing)

@@ -53,10 +53,8 @@ from ehlectric.cases.table import (
 )
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.rows import value_at
-from ehlectric.quantities.units import rpm
-from ehlectric.readable import readable
 from ehlectric.runtime.values import headline, is_number
 
 # Tables and keys of a bearing file that a case of a contact does not have.
@@ -449,8 +447,7 @@ class BearingCase(CaseFile, book="bearing_file"):
             self.title,
             bearing.name or bearing.kind,
             *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
-            f"{readable(rpm(bearing.inner_speed), 4)} rpm",
-            f"{readable(bearing.oil_temperature - 273.15, 4)} degC",
+            *operating_point(bearing.inner_speed, bearing.oil_temperature, "degC"),
         )
 
     @classmethod

@@ -41,12 +41,11 @@ from ehlectric.lubricant.law import Law, is_many, over_points, required, same
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
 from ehlectric.lubricant.over_temperature import density, interpolated
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import ResultWarning
 
 # Difference of temperatures over which the slope of the viscosity is taken [K].
 _STEP = 1e-3
-
-CELSIUS = 273.15
 
 
 @contextmanager
@@ -196,8 +195,8 @@ def check_range(oil: Properties, temperature: float | None) -> None:
         whose = f"{oil.base!r}" if oil.base else "the oil"
         raise InputError(
             "temperature",
-            got=f"{temperature - CELSIUS:.4g} degC",
-            takes=f"{low - CELSIUS:.4g} to {high - CELSIUS:.4g} degC, for which the laws of {whose} hold "
+            got=f"{CELSIUS.of(temperature):.4g} degC",
+            takes=f"{CELSIUS.of(low):.4g} to {CELSIUS.of(high):.4g} degC, for which the laws of {whose} hold "
             "(lubricant.temperature_range)",
         )
 

@@ -20,11 +20,10 @@ from ehlectric.cases.roughness_inputs import find_files
 from ehlectric.cases.table import CaseFile, Table, Title, read_toml
 from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
 from ehlectric.quantities.inputs import REPLACED
-from ehlectric.quantities.units import rpm
-from ehlectric.readable import readable
 from ehlectric.runtime.values import headline
 
 
@@ -148,8 +147,7 @@ class DriveCase(CaseFile, book="drive_file"):
         return headline(
             self.title,
             self.source.modulation or self.source.file or "",
-            f"{readable(rpm(bearing.inner_speed), 4)} rpm",
-            f"{readable(bearing.oil_temperature - 273.15, 4)} degC",
+            *operating_point(bearing.inner_speed, bearing.oil_temperature, "degC"),
         )
 
     @classmethod

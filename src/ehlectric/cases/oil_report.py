@@ -16,13 +16,14 @@ import numpy as np
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.case_oil import CELSIUS, KnownOil, NamedOil, kelvin_of, known_oil, named_oil
+from ehlectric.cases.case_oil import KnownOil, NamedOil, kelvin_of, known_oil, named_oil
 from ehlectric.cases.library.library_oils import KINDS, Source
 from ehlectric.cases.oil_inputs import ALPHA, LAWS, SHEET_VISCOSITY, Properties, of_base_oil
 from ehlectric.errors import InputError, within
 from ehlectric.lubricant.data_sheet import BASE_OILS
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import ResultWarning
 
 # Publication of the relation between coefficient, exponent and viscosity.
@@ -526,7 +527,7 @@ def celsius(temperature: float | None) -> str:
     >>> celsius(313.15)
     '40 °C'
     """
-    return "" if temperature is None else f"{round(temperature - CELSIUS, 6):g} °C"
+    return "" if temperature is None else f"{round(CELSIUS.of(temperature), 6):g} °C"
 
 
 def _pascal(pressure: str | float) -> float:

@@ -15,11 +15,9 @@ import numpy as np
 from ehlectric.arrays import Mask, Numbers
 from ehlectric.cases.mean_heights import GAUSSIAN, rq_of
 from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import CELSIUS, amount
 from ehlectric.quantities.result_warnings import Flag
 from ehlectric.readable import readable
-
-_CELSIUS = 273.15
 
 
 @dataclass(frozen=True)
@@ -203,12 +201,12 @@ def extreme(key: str, temperature: Numbers) -> Flag:
 
     A temperature in kelvin that is given in degrees Celsius also has it.
     """
-    own = temperature - _CELSIUS
+    celsius = CELSIUS.of(temperature)
     return Flag.of(
-        (own < _COLDEST) | (own > _HOTTEST),
+        (celsius < _COLDEST) | (celsius > _HOTTEST),
         "temperature-extreme",
         key=key,
-        celsius=own,
+        celsius=celsius,
         coldest=_COLDEST,
         hottest=_HOTTEST,
     )

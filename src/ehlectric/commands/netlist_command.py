@@ -131,7 +131,7 @@ def _named_as_options() -> Iterator[None]:
 
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
     """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
-    from ehlectric.quantities.formats import amount, rpm_text
+    from ehlectric.quantities.formats import amount, speed_text
     from ehlectric.quantities.rows import Row
 
     yield Row("subcircuit", f"{subcircuit.name} shaft housing")
@@ -141,4 +141,4 @@ def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
         yield Row(parameter.name, shown, "", f", {parameter.meaning}")
     for one in subcircuit.found if subcircuit.tabulated else ():
         breaks = "" if one.threshold is None else f", breakdown at {readable(one.threshold, 4)} V"
-        yield Row(f"at {rpm_text(one.speed)} rpm", amount(one.capacitance, "F"), "", breaks)
+        yield Row(f"at {speed_text(one.speed)}", amount(one.capacitance, "F"), "", breaks)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.case_oil import CELSIUS, Lubricant
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.film_inputs import thermal_properties
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
 from ehlectric.contact.problems import Setup
@@ -18,6 +18,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.shear_laws import UNBOUNDED, Rheology
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import OwnLaws, SampledLaws
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
@@ -215,7 +216,7 @@ def _thicker_from(oil: HotOil, pressure: float) -> float | None:
 def _thicker(temperature: float, pressure: float) -> str:
     return (
         f"at {readable(pressure / 1e9)} GPa the laws of the oil make it thicker with temperature above "
-        f"{readable(temperature - CELSIUS)} °C, which no oil does"
+        f"{readable(CELSIUS.of(temperature))} °C, which no oil does"
     )
 
 
@@ -252,7 +253,7 @@ def _temperatures(
 
 
 def _celsius(low: float, high: float) -> str:
-    return f"{readable(low - CELSIUS, 4)} to {readable(high - CELSIUS, 4)} °C"
+    return f"{readable(CELSIUS.of(low), 4)} to {CELSIUS.text(high)}"
 
 
 def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarning]:
@@ -379,7 +380,7 @@ def _no_values(
 ) -> InputError:
     """Error of a temperature [K] from which the film reaches ``beyond`` [K], where an oil has no values."""
     needed = start + beyond
-    what = f"has no viscosity, density or thermal properties at {readable(needed - CELSIUS, 4)} °C"
+    what = f"has no viscosity, density or thermal properties at {CELSIUS.text(needed)}"
     if key is None:
         text = f"{what}, a temperature that the film may reach; choose other laws for a thermal film"
         return InputError.worded("lubricant", text)
@@ -388,13 +389,11 @@ def _no_values(
     end = next((at for at in known if _has_values(oil_at, at, max_pressure)), None)
     takes = "other laws of the lubricant"
     if end is not None:
-        takes = (
-            f"at {'least' if towards > 0.0 else 'most'} {readable(end - beyond - CELSIUS, 4)} °C, or {takes}"
-        )
+        takes = f"at {'least' if towards > 0.0 else 'most'} {CELSIUS.text(end - beyond)}, or {takes}"
     return InputError(
         key,
-        f"got {readable(start - CELSIUS, 4)} °C, with which the film may reach "
-        f"{readable(needed - CELSIUS, 4)} °C, where the "
+        f"got {CELSIUS.text(start)}, with which the film may reach "
+        f"{CELSIUS.text(needed)}, where the "
         "lubricant has no viscosity, density or thermal properties",
         takes=takes,
     )

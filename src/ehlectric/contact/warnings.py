@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases import library
 from ehlectric.cases.case import Case
-from ehlectric.cases.case_oil import CELSIUS, viscosity_over_temperature
+from ehlectric.cases.case_oil import viscosity_over_temperature
 from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
@@ -27,6 +27,7 @@ from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.result_warnings import Flag, ResultWarning, raised
 from ehlectric.readable import readable
 
@@ -105,7 +106,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
             "temperature-unused",
             "contact",
             viscosity=1e3 * setup.oil.viscosity,
-            temperature=f"{readable(setup.contact.temperature - CELSIUS, 4)} °C",
+            temperature=CELSIUS.text(setup.contact.temperature),
         )
 
 

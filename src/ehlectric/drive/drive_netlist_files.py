@@ -41,7 +41,7 @@ from ehlectric.drive.netlist_files import check_targets, write_files
 from ehlectric.drive.source_pieces import edges
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
-from ehlectric.quantities.formats import rpm_text
+from ehlectric.quantities.formats import speed_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
@@ -198,8 +198,8 @@ def _about(source: Source) -> str:
 def _about_ring(case: DriveCase) -> str:
     """Words for a grounding ring whose resistance follows the speed."""
     resistance = case.running_circuit.grounding_ring_resistance
-    speed = rpm_text(case.running_speed)
-    return f"grounding ring: {resistance:.4g} Ohm at {speed} rpm, from its table over the speed"
+    speed = speed_text(case.running_speed)
+    return f"grounding ring: {resistance:.4g} Ohm at {speed}, from its table over the speed"
 
 
 def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float, float]], float]:

@@ -29,7 +29,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import InputError, printable, shown
-from ehlectric.quantities.formats import amount, rpm_text
+from ehlectric.quantities.formats import amount, operating_point, rpm_text, speed_text
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -184,7 +184,7 @@ def _metal_resistance(solution: BearingSolution) -> float:
     if resistance is None:
         raise InputError.missing(
             "bearing.contact_resistance",
-            f"a value: at {rpm_text(solution.case.bearing.inner_speed)} rpm the surfaces touch (lambda ratio "
+            f"a value: at {speed_text(solution.case.bearing.inner_speed)} the surfaces touch (lambda ratio "
             f"{lambda_text(solution)}), so that the bearing is a resistance; or a film that parts them",
         )
     shares = [
@@ -242,8 +242,8 @@ def solve_at_speeds(
     results = []
     for speed in (own, *others):
 
-        def tell(done: int, of: int, text: str, at: str = rpm_text(speed)) -> None:
-            progress(done, of, f"{text}, {at} rpm")
+        def tell(done: int, of: int, text: str, at: str = speed_text(speed)) -> None:
+            progress(done, of, f"{text}, {at}")
 
         changed = case if speed == own else case.replace({SPEED: speed})
         results.append(solve_bearing(changed, progress=tell, workers=workers))
@@ -268,7 +268,7 @@ def check_table(results: Sequence[BearingResult]) -> None:
         result.case.bearing.inner_speed for result in results if lubrication(result.solution) == "conducting"
     ]
     if touching:
-        told = ", ".join(f"{rpm_text(speed)} rpm" for speed in sorted(touching))
+        told = ", ".join(speed_text(speed) for speed in sorted(touching))
         raise InputError(
             SPEED,
             got=f"{told}, whose lambda ratio is so low that surfaces touch, at times at least,",
@@ -315,8 +315,6 @@ def interpolated(name: str, letter: str, count: int) -> Iterator[str]:
 
 # Resistance of an open switch over that of the leak beside it.
 _OPEN_SWITCH = 1e6
-
-_CELSIUS = 273.15
 
 
 @dataclass(frozen=True)
@@ -432,9 +430,9 @@ class Subcircuit:
         case, bearing, solution = self.case, self.case.bearing, self.results[0].solution
         yield f"title: {case.title or '(none)'}"
         yield f"bearing: {bearing.name or 'own dimensions'}, {bearing.kind}, {bearing.elements} elements"
+        at = ", ".join(operating_point(bearing.inner_speed, bearing.oil_temperature, "degC"))
         yield (
-            f"operating point: {rpm_text(bearing.inner_speed)} rpm, "
-            f"{bearing.oil_temperature - _CELSIUS:.4g} degC, radial load {amount(bearing.radial_load, 'N')}, "
+            f"operating point: {at}, radial load {amount(bearing.radial_load, 'N')}, "
             f"axial load {amount(bearing.axial_load, 'N')}; lambda ratio {lambda_text(solution)}, "
             f"{lubrication(solution)}"
         )
@@ -456,10 +454,10 @@ class Subcircuit:
         for result in self.results:
             new = [warning for warning in result.warnings if warning.code not in codes]
             codes.update(warning.code for warning in new)
-            at = rpm_text(result.case.bearing.inner_speed)
+            at = speed_text(result.case.bearing.inner_speed)
             for warning in new:
                 own = result is self.results[0]
-                yield warning if own else ResultWarning(warning.code, f"at {at} rpm: {warning}")
+                yield warning if own else ResultWarning(warning.code, f"at {at}: {warning}")
 
     def _table(self) -> Iterator[str]:
         """Nodes over the speed, and the quantities at the speed of the instance."""

@@ -52,7 +52,7 @@ from ehlectric.figures.bearing_figures import (
 )
 from ehlectric.figures.breakdown_over_speed import breakdown_over_speed as draw_breakdown_over_speed
 from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as draw_capacitance_over_speed
-from ehlectric.figures.breakdown_over_speed import margin_over_speed, rpm_text
+from ehlectric.figures.breakdown_over_speed import margin_over_speed
 from ehlectric.figures.data import Panel
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.duty_panels import cycle_lines, duty_panels, time_axis
@@ -66,9 +66,8 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
-from ehlectric.quantities.formats import time_share_text
+from ehlectric.quantities.formats import operating_point, speed_text, time_share_text
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.quantities.units import rpm
 from ehlectric.readable import ratio_text, readable
 
 _TOUCHING = ("conducting", "touching")
@@ -139,7 +138,7 @@ def margin(result: BearingResult) -> str:
     if chance.failed:
         interval = f"{chance.failed} of {chance.samples} points have no result"
     lead = result.verdict.lead
-    return f"{lead} at {rpm_text(result.case.bearing.inner_speed)}: probability {chance.text}, {interval}"
+    return f"{lead} at {speed_text(result.case.bearing.inner_speed)}: probability {chance.text}, {interval}"
 
 
 def duty_cycle(result: BearingResult) -> str:
@@ -170,9 +169,9 @@ def duty_lines(result: BearingResult) -> list[str]:
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
     """Sentence: the capacitance at the lowest and the highest speed, and at the speed of the bearing."""
     values = curves["capacitance"]
-    ends = [f"{prefixed(float(values[k]), 'F')} at {rpm_text(curves.speed[k])}" for k in (0, -1)]
+    ends = [f"{prefixed(float(values[k]), 'F')} at {speed_text(curves.speed[k])}" for k in (0, -1)]
     if own is not None:
-        ends[1] += f"; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {rpm_text(own[0])}"
+        ends[1] += f"; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {speed_text(own[0])}"
     return f"Capacitance {', '.join(ends)}"
 
 
@@ -184,12 +183,12 @@ def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
     if own is not None and (value := value_of(own[1], "first_break")) is not None:
         shaft = own[1]["bearing"]["shaft_voltage"]
         at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
-        at_own += f" at {rpm_text(own[0])}"
+        at_own += f" at {speed_text(own[0])}"
     opening = opening_speed_of(curves)
-    below = "" if opening is None else f"; contacts open and close below {rpm_text(opening)}"
+    below = "" if opening is None else f"; contacts open and close below {speed_text(opening)}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))
-        ends = [f"{volts(curves['first_break'][k])} at {rpm_text(curves.speed[k])}" for k in first[[0, -1]]]
+        ends = [f"{volts(curves['first_break'][k])} at {speed_text(curves.speed[k])}" for k in first[[0, -1]]]
         span = f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
         return f"{span}{below}"
     text = f"{_where(curves, margin[known], curves.speed[known])}{below}"
@@ -200,15 +199,15 @@ def _where(curves: Curves, margin: Array, speed: Array) -> str:
     """Clause: the speeds at which the margin is below 1."""
     critical = critical_speed_of(curves)
     lowest = curves.touching or max(float(speed[0]), opening_speed_of(curves) or 0.0)
-    span = f"from {rpm_text(lowest)} to {rpm_text(float(speed[-1]))}"
+    span = f"from {speed_text(lowest)} to {speed_text(float(speed[-1]))}"
     if critical is None:
         if np.all(margin >= 1.0):
             return f"Margin above 1 {span}"
         if np.all(margin < 1.0):
             return f"Margin below 1 at all speeds {span}"
-        return f"Margin below 1 above {rpm_text(float(speed[margin >= 1.0][-1]))}"
+        return f"Margin below 1 above {speed_text(float(speed[margin >= 1.0][-1]))}"
     some = "" if np.all(margin[speed < critical] < 1.0) else " at some speeds"
-    return f"Margin below 1{some} up to about {rpm_text(critical)}"
+    return f"Margin below 1{some} up to about {speed_text(critical)}"
 
 
 def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
@@ -219,10 +218,7 @@ def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
         for load, way in ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
         if load
     ]
-    duty += [
-        f"{readable(rpm(bearing.inner_speed), 4)} rpm",
-        f"{readable(bearing.oil_temperature - 273.15, 4)} °C",
-    ]
+    duty += operating_point(bearing.inner_speed, bearing.oil_temperature)
     parts = [part for part in duty if part not in title]
     line = ", ".join([*filter(None, [textwrap.shorten(title, 70, placeholder=" ...")]), *parts])
     return [line, film_line(result, voltages=voltages)]
@@ -250,7 +246,7 @@ def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
     if not factors:
         return text
     values = " and ".join(readable(factor) for factor in factors)
-    return f"{text}, scaled by {values} to the solved contacts at {rpm_text(own[0])} (star)"
+    return f"{text}, scaled by {values} to the solved contacts at {speed_text(own[0])} (star)"
 
 
 Draw = Callable[[BearingResult, Axes], Axes]

@@ -21,7 +21,8 @@ from ehlectric.figures.data import Along, Panel
 from ehlectric.figures.draw import draw_panel
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, margin_panel, speed_axis
 from ehlectric.figures.style import axes_or_new, figure_of, legend_above, note, outlined
-from ehlectric.quantities import formats, units
+from ehlectric.quantities import units
+from ehlectric.quantities.formats import speed_text
 from ehlectric.quantities.palette import GREY, ORANGE
 from ehlectric.readable import ratio_text
 
@@ -94,18 +95,7 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
     along, up = (ax.transData + ax.transAxes.inverted()).transform(crossing)
     side = "left" if along < _RIGHTMOST else "right"
     height, end = (0.03, "bottom") if up > 0.5 else (0.97, "top")
-    note(ax, at, height, f" {rpm_text(critical)} ", data_axis="x", ha=side, va=end, color=ORANGE)
-
-
-def rpm_text(speed: float) -> str:
-    """Text: speed [rad/s] in rpm with three digits, as an interpolated speed deserves.
-
-    Examples
-    --------
-    >>> rpm_text(144.9)
-    '1380 rpm'
-    """
-    return f"{formats.rpm_text(speed)} rpm"
+    note(ax, at, height, f" {speed_text(critical)} ", data_axis="x", ha=side, va=end, color=ORANGE)
 
 
 def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:

@@ -36,6 +36,7 @@ from ehlectric.figures.style import (
     note,
     outlined,
 )
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.palette import BLUE, BODY, GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -320,7 +321,7 @@ def _map(result: AnyContact, ax: Axes) -> None:
     shown = (x >= _WINDOW[0]) & (x <= _WINDOW[1])
     factor, unit = unit_for(float(np.median(thickness[np.abs(x) < 1.0])), "m")
     heights = factor * thickness[:, np.newaxis] * (heated.zeta - 0.5)
-    values = _along(result, heated.temperature).T - contact_profiles.CELSIUS
+    values = CELSIUS.of(_along(result, heated.temperature).T)
     limits = float(values[shown].min()), float(values[shown].max())
     limits = limits[0], max(limits[1], limits[0] + _LEAST_RANGE)
     fill_section(ax, x[shown], heights[shown], values[shown], limits=limits, colours=_HEAT)

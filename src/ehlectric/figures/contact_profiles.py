@@ -17,6 +17,7 @@ from ehlectric.field.point_field import PointField
 from ehlectric.figures.contact_findings import AnyContact, strength_limit
 from ehlectric.figures.data import WIDTH, Curve, Panel
 from ehlectric.formulas.hertz import line_pressure, point_pressure
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, LIGHT_GREY, MIDDLE_GREY, ORANGE, STRENGTH
 from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
@@ -37,8 +38,8 @@ _SMOOTH = (LIGHT_GREY, "solid", 2.6)
 # Part of the Hertz zone [%] whose field lies within the scale of a film with spots.
 _WITHIN = 90.0
 
-# Absolute temperature of 0 degC [K], and smallest range of an axis of temperatures [K].
-CELSIUS, _LEAST_RANGE = 273.15, 0.1
+# Smallest range of an axis of temperatures [K].
+_LEAST_RANGE = 0.1
 
 
 def shown_range(x: Array) -> tuple[float, float]:
@@ -274,14 +275,14 @@ def temperature(line: Line) -> Panel:
     heated, case = line.result.film.heated, line.result.case
     assert heated is not None and heated.mid_temperature is not None
     assert heated.surface_temperatures is not None
-    first, second = heated.surface_temperatures - CELSIUS
+    first, second = CELSIUS.of(heated.surface_temperatures)
     curves = [
-        line.curve("mid-film", heated.mid_temperature - CELSIUS, GREEN),
+        line.curve("mid-film", CELSIUS.of(heated.mid_temperature), GREEN),
         line.curve("surface 1", first, BLUE, "dash"),
         line.curve("surface 2", second, ORANGE, "longdash"),
     ]
     if isinstance(case, Case) and case.contact.temperature is not None:
-        inlet = np.full(line.x.size, case.contact.temperature - CELSIUS)
+        inlet = np.full(line.x.size, CELSIUS.of(case.contact.temperature))
         curves.append(Curve("oil in the inlet", line.x, inlet, MIDDLE_GREY, "dot", 1.0))
     return Panel("temperature", "°C", curves, *_ends(curves, _LEAST_RANGE))
 

@@ -38,11 +38,11 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
-from ehlectric.quantities.units import rpm, unit_for
+from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 
 # Names of both bearings in titles and legends, and their colours.
@@ -168,8 +168,7 @@ def case_lines(result: DriveResult) -> list[str]:
     bearing, title = result.case.bearings[0].bearing, result.case.title
     parts = [
         textwrap.shorten(title, 70, placeholder=" ..."),
-        f"{readable(rpm(bearing.inner_speed), 4)} rpm",
-        f"{readable(bearing.oil_temperature - 273.15, 4)} °C",
+        *operating_point(bearing.inner_speed, bearing.oil_temperature),
         f"{_duration(result)} simulated",
     ]
     return [", ".join(filter(None, parts))]

@@ -15,7 +15,7 @@ from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
-from ehlectric.cases.case_oil import CELSIUS, KnownOil, known_oil
+from ehlectric.cases.case_oil import KnownOil, known_oil
 from ehlectric.cases.oil_report import (
     PROPERTIES,
     OilProperty,
@@ -36,6 +36,7 @@ from ehlectric.figures.style import (
     scale_axis,
     style,
 )
+from ehlectric.quantities.formats import CELSIUS
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.runtime.undrawn import drawing
 
@@ -190,11 +191,11 @@ def over_temperature(report: OilReport) -> list[Axes]:
         for name, (colour, dashes) in zip(panel.names, _LOOKS, strict=False):
             one = PROPERTIES[name]
             values = panel.factor * np.array([_value(one, oil, 0.0) for oil in oils])
-            ax.plot(kelvins - CELSIUS, values, color=colour, ls=dashes, label=_NAMES.get(name, ""))
+            ax.plot(CELSIUS.of(kelvins), values, color=colour, ls=dashes, label=_NAMES.get(name, ""))
             marked = [panel.factor * _value(one, oil, 0.0) for oil in report.oils]
-            ax.plot(np.array(known) - CELSIUS, marked, color=colour, clip_on=False, **_DOT)
+            ax.plot(CELSIUS.of(np.array(known)), marked, color=colour, clip_on=False, **_DOT)
         _finish(ax, panel, _title(report, panel.names[0], 0.0), values)
-        ax.set(xlabel="temperature [°C]", xlim=(kelvins[0] - CELSIUS, kelvins[-1] - CELSIUS))
+        ax.set(xlabel="temperature [°C]", xlim=CELSIUS.of(kelvins[[0, -1]]))
         if len(panel.names) > 1:
             ax.legend(frameon=False)
     name_over(axes[0], _heading(report, "over temperature, at ambient pressure", 0.0))

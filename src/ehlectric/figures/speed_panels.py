@@ -20,7 +20,7 @@ from ehlectric.bearing.speed_curves import (
 )
 from ehlectric.bearing.uncertainty import MarginBand
 from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
-from ehlectric.quantities.formats import rpm_text as text_of_speed
+from ehlectric.quantities.formats import speed_text
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, MIDDLE_GREY, OCHRE, ORANGE
 from ehlectric.quantities.units import RPM, unit_for
 
@@ -79,7 +79,7 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
     if critical is not None:
         at = critical / RPM
         drawn.append(_mark(critical, curves.at("shaft_voltage", critical), ORANGE, "ring"))
-        marked.append(Upright(f"critical speed {text_of_speed(critical)} rpm", at, ORANGE, "dot"))
+        marked.append(Upright(f"critical speed {speed_text(critical)}", at, ORANGE, "dot"))
     if own is not None and value is not None:
         drawn.append(_mark(own[0], value, BLACK, "star"))
     nodes, low = curves.between("first_break")

@@ -8,11 +8,8 @@ from types import MappingProxyType
 from typing import Any
 
 from ehlectric.quantities.quantity import data_file
-from ehlectric.quantities.units import printed, rpm, unit_for
+from ehlectric.quantities.units import ZERO_CELSIUS, printed, rpm, unit_for
 from ehlectric.readable import readable
-
-# Zero point of the scale of Celsius [K].
-_CELSIUS = 273.15
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class Scale:
 
 
 # Absolute temperatures.
-CELSIUS = Scale(1.0, "°C", -_CELSIUS)
+CELSIUS = Scale(1.0, "°C", -ZERO_CELSIUS)
 
 _READ = data_file("ehlectric.quantities", "shown_units.toml")
 
@@ -79,6 +76,30 @@ def rpm_text(speed: float) -> str:
     '1380'
     """
     return readable(rpm(speed))
+
+
+def speed_text(speed: float, digits: int = 3) -> str:
+    """Speed [rad/s] as text with its unit, rounded to three digits, as an interpolated speed deserves.
+
+    Examples
+    --------
+    >>> speed_text(144.9)
+    '1380 rpm'
+    """
+    return f"{readable(rpm(speed), digits)} rpm"
+
+
+def operating_point(speed: float, temperature: float, degree: str = "°C") -> tuple[str, str]:
+    """Speed [rad/s] and temperature [K] of an operating point as texts, with four digits.
+
+    ``degree`` is the unit of the temperature; lines of Python use "degC", which can be typed.
+
+    Examples
+    --------
+    >>> operating_point(314.159265, 343.15)
+    ('3000 rpm', '70 °C')
+    """
+    return speed_text(speed, 4), f"{readable(CELSIUS.of(temperature), 4)} {degree}"
 
 
 def amount(value: float, unit: str) -> str:

@@ -40,11 +40,14 @@ _HINTS = {
     "N": ("kg", "a mass is not a force: write N, lbf or kgf"),
 }
 
+# Zero point of the scale of Celsius [K].
+ZERO_CELSIUS = 273.15
+
 # Temperature scales, in the spelling of ``plain``: minus the number of the scale at 0 K, and size of
 # a degree [K].
 _SCALES = {
     "K": (0.0, 1.0),
-    "degC": (273.15, 1.0),
+    "degC": (ZERO_CELSIUS, 1.0),
     "degF": (459.67, 5.0 / 9.0),
     "degR": (0.0, 5.0 / 9.0),
 }

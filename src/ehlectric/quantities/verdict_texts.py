@@ -7,11 +7,10 @@ from functools import cache
 from string import Formatter
 from typing import Any
 
-from ehlectric.quantities.formats import amount, rpm_text, time_share_text
+from ehlectric.quantities.formats import CELSIUS, amount, rpm_text, speed_text, time_share_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.statement import Bound, Level, Statement
-from ehlectric.quantities.units import rpm
 from ehlectric.readable import bounds_text, chance_text, mean_text, ratio_text, readable
 
 
@@ -39,10 +38,10 @@ _WAYS: Mapping[str, Callable[[Any], str]] = {
     "V/µm2": lambda value: f"{readable(1e-6 * value, 2)} V/µm",
     "V/µm number": lambda value: readable(1e-6 * value),
     "A/mm²": lambda value: f"{readable(1e-6 * value)} A/mm²",
-    "rpm": lambda value: f"{rpm_text(value)} rpm",
+    "rpm": speed_text,
     "rpm number": rpm_text,
-    "rpm4": lambda value: f"{readable(rpm(value), 4)} rpm",
-    "°C": lambda value: f"{readable(value - 273.15)} °C",
+    "rpm4": lambda value: speed_text(value, 4),
+    "°C": CELSIUS.text,
     "%": _per_cent(3),
     "%2": _per_cent(2),
     "%0": lambda share: f"{100.0 * share:.0f} %",

@@ -17,7 +17,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.drive.verdict_rule import drive_verdict
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import drive_bounds
@@ -25,7 +25,7 @@ from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_DRIVE, SWEEPS, at_ends
-from ehlectric.quantities.units import rpm, unit_for
+from ehlectric.quantities.units import unit_for
 from ehlectric.readable import readable
 from ehlectric.report.background import input_text, inputs_of, named, parts_of, varied_keys
 from ehlectric.report.first_page import life_texts, machine_of, measure_first_table, numbers_of, usual_range
@@ -328,8 +328,7 @@ def _lead(summary: Mapping[str, Any]) -> str:
     if source["edges_per_second"] is not None:
         edges = readable(source["edges_per_second"] * drive["duration"])
         parts.append(f"{edges} edges of the common-mode voltage")
-    speed, temperature = rpm(drive["speed"]), drive["temperature"] - 273.15
-    return f"{readable(speed, 4)} rpm, {readable(temperature, 4)} °C; {', '.join(parts)}."
+    return f"{', '.join(operating_point(drive['speed'], drive['temperature']))}; {', '.join(parts)}."
 
 
 def _sections(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Section]:

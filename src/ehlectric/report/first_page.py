@@ -16,7 +16,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.formats import amount
+from ehlectric.quantities.formats import amount, operating_point
 from ehlectric.quantities.inputs import ENDS, end_and_key
 from ehlectric.quantities.quantity import unbroken
 from ehlectric.quantities.result_bounds import bearing_bounds
@@ -24,7 +24,6 @@ from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.results import BEARING_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Summary, placed
 from ehlectric.quantities.sheets import FIRST_PAGE_OF_BEARING, FIRST_PAGE_OF_LIFE
-from ehlectric.quantities.units import rpm
 from ehlectric.readable import chance_text, ratio_text, readable
 from ehlectric.report.background import given_inputs, input_text, named
 from ehlectric.report.report_content import Block, Light, Numbers, Part, Picture, Section, Table, Text
@@ -344,6 +343,5 @@ def _bearing(case: BearingCase, viscosity: float | None = None) -> str:
     if bearing.supply == "grease":
         lubricant = f"grease with {lubricant}"
     at = "" if viscosity is None else f" ({readable(1e3 * viscosity)} mPa s in operation)"
-    speed, temperature = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
-    running = f"at {readable(speed, 4)} rpm and {readable(temperature, 4)} °C"
+    running = f"at {' and '.join(operating_point(bearing.inner_speed, bearing.oil_temperature))}"
     return ", ".join([name, *materials, f"{load} load", running, f"{lubricant}{at}"])

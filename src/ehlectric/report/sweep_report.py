@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, printable
-from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.formats import Scale, scale_of
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import BOUNDS
 from ehlectric.quantities.rows import value_at
@@ -38,7 +38,7 @@ _LISTED = 100
 _SHOWN = 12
 
 # Units of columns, whatever their values: engineers' units, and volts, whose values may span decades.
-_SCALES: Mapping[str, Scale] = MappingProxyType({"rad/s": Scale(30.0 / np.pi, "rpm"), "V": Scale(1.0, "V")})
+_SCALES: Mapping[str, Scale] = MappingProxyType({"rad/s": scale_of("rpm"), "V": Scale(1.0, "V")})
 
 
 def sweep_part(results: SweepResults) -> Part:

@@ -12,7 +12,16 @@ from ehlectric.bearing.uncertainty import FILMS
 from ehlectric.cases.defaults import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.mean_heights import GAUSSIAN
-from ehlectric.quantities.formats import SELDOM, UNITS, amount, rpm_text, scale_for, scale_of, time_share_text
+from ehlectric.quantities.formats import (
+    SELDOM,
+    UNITS,
+    amount,
+    rpm_text,
+    scale_for,
+    scale_of,
+    speed_text,
+    time_share_text,
+)
 from ehlectric.quantities.result_bounds import bearing_bounds, breakdown_words
 from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import (
@@ -472,7 +481,7 @@ def _stretches(summary: Summary) -> Iterator[Row]:
         name = "lambda_ratio" if one["least_margin"] is None else "least_margin"
         about = BEARING_BOOK[key := f"duty.stretches.{name}"]
         span = f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s"
-        at = f", {one['why']}" if one["why"] else f", at {rpm_text(one['speed'])} rpm"
+        at = f", {one['why']}" if one["why"] else f", at {speed_text(one['speed'])}"
         yield Row(
             span,
             one[name],

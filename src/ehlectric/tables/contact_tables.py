@@ -17,7 +17,7 @@ from ehlectric.contact.summary import case_summary
 from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.film_errors import pressure_error_text
-from ehlectric.quantities.formats import amount, scale_of
+from ehlectric.quantities.formats import CELSIUS, amount, scale_of
 from ehlectric.quantities.result_bounds import bound_words, contact_bounds
 from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Noted, Row, Summary, Words, row_of, sheet_rows, value_at
@@ -206,7 +206,7 @@ def _inlet(case: object) -> str:
     contact = case.contact
     found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
     known = {name: value for name, value in found.items() if value is not None}
-    return "".join(f", {name} at {readable(value - 273.15, 4)} °C" for name, value in known.items())
+    return "".join(f", {name} at {CELSIUS.text(value)}" for name, value in known.items())
 
 
 def _temperature(summary: Summary) -> str | None:

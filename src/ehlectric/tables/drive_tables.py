@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import printable
-from ehlectric.quantities.formats import amount, rpm_text
+from ehlectric.quantities.formats import amount, speed_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.result_bounds import drive_bounds
 from ehlectric.quantities.results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
@@ -215,7 +215,7 @@ def _stretches(summary: Summary) -> Iterator[Row]:
         yield Row(
             f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s",
             one["discharges"],
-            note=f", {amount(one['energy'], 'J')}, mean {rpm_text(one['speed'])} rpm",
+            note=f", {amount(one['energy'], 'J')}, mean {speed_text(one['speed'])}",
             digits=about.digits,
             key=key.replace("stretches.", f"stretches.{place}."),
         )

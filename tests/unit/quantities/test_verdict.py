@@ -1,6 +1,7 @@
 """Verdicts as data: texts of all codes, and levels that no words change."""
 
 import json
+import math
 from string import Formatter
 
 import pytest
@@ -9,6 +10,7 @@ from ehlectric import BearingCase, Case, solve, solve_bearing
 from ehlectric.app.compute.bearing_answers import answer_of as bearing_page
 from ehlectric.app.compute.contact_answers import answer_of as contact_page
 from ehlectric.quantities import verdict_texts
+from ehlectric.quantities.formats import operating_point
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
@@ -118,3 +120,10 @@ def test_lines_have_the_numbers_of_the_sentences():
         ("measure", "winding-rotor capacitance first (45 % of the spread of the margin)"),
         ("model", "best estimate: fully flooded, rough film"),
     ]
+
+
+def test_a_verdict_names_the_operating_point_with_the_digits_of_titles():
+    speed, temperature = 2995.0 * math.pi / 30.0, 335.7
+    assert operating_point(speed, temperature) == ("2995 rpm", "62.55 °C")
+    at = verdict_texts.statement_text(Statement.of("at", speed=speed, temperature=temperature))
+    assert at == "at 2995 rpm, 62.55 °C"

@@ -15,7 +15,7 @@ from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of, lis
 from ehlectric.cases.defaults import OF_CONTACTS
 from ehlectric.figures.data import Panel, Upright, is_wide
 from ehlectric.figures.speed_panels import breakdown_panel, capacitance_panel, speed_axis
-from ehlectric.quantities.formats import rpm_text
+from ehlectric.quantities.formats import rpm_text, speed_text
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
 from ehlectric.quantities.units import rpm
 from ehlectric.readable import readable
@@ -219,7 +219,7 @@ def capacitance_figure(over: OverSpeed) -> Plot:
 def _figure(over: OverSpeed, panel: Panel) -> Plot:
     """Panel with a line at the speed of the bearing itself."""
     at = over.own[0]
-    own = Upright(f"speed of this case, {rpm_text(at)} rpm", rpm(at), MIDDLE_GREY)
+    own = Upright(f"speed of this case, {speed_text(at)}", rpm(at), MIDDLE_GREY)
     return stack(speed_axis(over.curves), [replace(panel, uprights=(*panel.uprights, own))], **_LAYOUT)
 
 

@@ -43,7 +43,7 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
 from ehlectric.errors import InputError
-from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
 from ehlectric.quantities.quantity import key_of
@@ -496,7 +496,7 @@ def _in_si(value: float, key: str) -> tuple[float, str]:
     """Number and unit of an SI value that a file lacks; speeds and temperatures in the usual units."""
     unit, entry = unit_of(key), input_of(key)
     if entry is not None and entry.absolute:
-        return value - 273.15, "degC"
+        return CELSIUS.of(value), "degC"
     if unit == "rad/s":
         return rpm(value), "rpm"
     if unit == "m":
