@@ -71,8 +71,8 @@ def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
     tables = _tables(case, apart=apart)
     of_library = {
         f"{before}{key}": value
-        for before, own in parts_of(case, apart=apart).items()
-        for key, value in _library_values(own).items()
+        for before, table in parts_of(case, apart=apart).items()
+        for key, value in _library_values(table).items()
     }
     for key, value in flattened(_numbered(tables)).items():
         if end_and_key(key)[1] == "title" or value == {}:
@@ -114,8 +114,8 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
 
 def replaced_by(case: SweptCase, key: str) -> str:
     """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
-    end, own = end_and_key(key)
-    return REPLACED[own] if end and isinstance(case, DriveCase) and own in case.replaced else ""
+    end, inner = end_and_key(key)
+    return REPLACED[inner] if end and isinstance(case, DriveCase) and inner in case.replaced else ""
 
 
 def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
@@ -128,11 +128,11 @@ def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _equal(one: Any, other: Any) -> bool:
+def _equal(value: Any, other: Any) -> bool:
     """Whether two values are equal, numbers within their rounding."""
-    if isinstance(one, float | int) and isinstance(other, float | int):
-        return abs(one - other) <= 1e-12 * abs(one)
-    return bool(one == other)
+    if isinstance(value, float | int) and isinstance(other, float | int):
+        return abs(value - other) <= 1e-12 * abs(value)
+    return bool(value == other)
 
 
 def _is_default(key: str, value: Any) -> bool:
@@ -149,7 +149,7 @@ def _is_default(key: str, value: Any) -> bool:
 
 def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | None, Any]]:
     """Values of the bases that a case names, by dotted key: name of the file, source, and value."""
-    found: dict[str, tuple[str, Source | None, Any]] = {}
+    values: dict[str, tuple[str, Source | None, Any]] = {}
     given = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
     for table, folder in _BASES:
         base = value_at(given, f"{table}.base")
@@ -162,9 +162,9 @@ def _library_values(case: Case | BearingCase) -> dict[str, tuple[str, Source | N
         for key, value in _values(folder, base, file[folder]).items():
             if key == "base":
                 continue
-            source = next((one for one in sources if key in one.keys), whole)
-            found[f"{table}.{key}"] = (base, source, value)
-    return found
+            source = next((candidate for candidate in sources if key in candidate.keys), whole)
+            values[f"{table}.{key}"] = (base, source, value)
+    return values
 
 
 def _file_of(folder: str, base: str, given: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -229,7 +229,7 @@ _PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name
 
 def varied_keys(varied: Sequence[str]) -> tuple[set[str], bool]:
     """Varied keys, with the keys of both bearings that one stands for; whether only one bearing varies."""
-    keys = {one for key in varied for one in (key, *of_both_ends(key))}
+    keys = {either_end for key in varied for either_end in (key, *of_both_ends(key))}
     return keys, any(end_and_key(key)[0] in ENDS for key in varied)
 
 
@@ -241,16 +241,16 @@ def input_sections(
     """
     either, apart = varied_keys(varied)
     inputs = [
-        replace(one, origin="varied", source=None) if one.key in either else one
-        for one in inputs_of(case, apart=apart)
+        replace(entry, origin="varied", source=None) if entry.key in either else entry
+        for entry in inputs_of(case, apart=apart)
     ]
     yield Section("What it rests on", (*rests, *_assumptions(case, inputs)))
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
     blocks: list[Block] = [Text(SENTENCES["input_values"])]
     if either:
         blocks.append(Text(SENTENCES["varied_inputs"]))
-    for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
-        rows = tuple(_input_cells(case, one, numbers) for one in group)
+    for name, group in groupby(inputs, key=lambda entry: entry.key.partition(".")[0]):
+        rows = tuple(_input_cells(case, entry, numbers) for entry in group)
         blocks.append(Table(f"Inputs: {_PLACES.get(name, name)}", _HEADS, rows, shares=_SHARES))
     yield Section("Inputs", tuple(blocks))
 
@@ -263,9 +263,9 @@ def named(key: str) -> Named:
     >>> named("circuit.winding_rotor_capacitance").text, named("bearings.bearing.radial_load").text
     ('winding-rotor capacitance', 'radial load, both bearings')
     """
-    end, own = end_and_key(key)
-    entry = input_of(own)
-    label = own.rpartition(".")[2].replace("_", " ") if entry is None else entry.label
+    end, inner = end_and_key(key)
+    entry = input_of(inner)
+    label = inner.rpartition(".")[2].replace("_", " ") if entry is None else entry.label
     return Named(", ".join(filter(None, [label, _PLACES.get(end, "").removeprefix("bearing at the ")])), key)
 
 
@@ -290,8 +290,8 @@ _TABLES = (
 )  # fmt: skip
 
 
-def _name_of_key(found: re.Match[str]) -> str:
-    word = found[0]
+def _name_of_key(match: re.Match[str]) -> str:
+    word = match[0]
     if word in NAMES_OF_ENDS:
         return NAMES_OF_ENDS[word]
     known = (input_at(key) for key in (word, *(f"{table}.{word}" for table in _TABLES)))
@@ -304,11 +304,11 @@ def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
     """
     left_out = varied_keys(varied)[0]
     given = [
-        one
-        for one in inputs_of(case)
-        if one.origin == "given" and one.key not in left_out and _is_used(case, one.key)
+        entry
+        for entry in inputs_of(case)
+        if entry.origin == "given" and entry.key not in left_out and _is_used(case, entry.key)
     ]
-    groups = groupby(given, key=lambda one: end_and_key(one.key)[0])
+    groups = groupby(given, key=lambda entry: end_and_key(entry.key)[0])
     return "; ".join(
         (f"{_PLACES[end]}: " if end else "") + "; ".join(_given(case, [*group])) for end, group in groups
     )
@@ -316,36 +316,36 @@ def given_inputs(case: SweptCase, varied: Sequence[str] = ()) -> str:
 
 def _is_used(case: SweptCase, key: str) -> bool:
     """Whether a drive uses an input of one of its bearings; their motor and their duty cycle are its own."""
-    end, own = end_and_key(key)
-    return not (replaced_by(case, key) or (end and own.startswith(("motor.", "duty."))))
+    end, inner = end_and_key(key)
+    return not (replaced_by(case, key) or (end and inner.startswith(("motor.", "duty."))))
 
 
 def _given(case: SweptCase, inputs: Sequence[Input]) -> Iterator[str]:
     """Names and values of inputs of one machine part."""
-    own = any("lubricant.viscosity" in one.key for one in inputs)
-    for one in inputs:
-        key = end_and_key(one.key)[1]
+    from_data_sheet = any("lubricant.viscosity" in entry.key for entry in inputs)
+    for entry in inputs:
+        key = end_and_key(entry.key)[1]
         # The folder of a file is that of one machine.
-        value = Path(one.value).name if key.endswith(".file") else input_text(case, one.key, one.value)
-        if key == "lubricant.base" and own:
+        value = Path(entry.value).name if key.endswith(".file") else input_text(case, entry.key, entry.value)
+        if key == "lubricant.base" and from_data_sheet:
             value = f"from a data sheet, with what that lacks from {value} of the library"
         yield f"{named(key).text} =\xa0{value}"
 
 
 def _sources(inputs: Iterable[Input]) -> list[Source]:
     """Sources of inputs, each once."""
-    return list(dict.fromkeys(one.source for one in inputs if one.source is not None))
+    return list(dict.fromkeys(entry.source for entry in inputs if entry.source is not None))
 
 
-def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> tuple[Cell, ...]:
-    origin = one.origin if one.origin in WORDS else f"library {one.origin}"
-    if one.source is not None:
-        origin = f"{origin}: {one.source.kind} [{numbers[one.source]}]"
-    name, other = named(end_and_key(one.key)[1]), replaced_by(case, one.key)
-    meaning = _meaning(one.key).removeprefix(f"{name.text}, ")
+def _input_cells(case: SweptCase, entry: Input, numbers: Mapping[Source, int]) -> tuple[Cell, ...]:
+    origin = entry.origin if entry.origin in WORDS else f"library {entry.origin}"
+    if entry.source is not None:
+        origin = f"{origin}: {entry.source.kind} [{numbers[entry.source]}]"
+    name, other = named(end_and_key(entry.key)[1]), replaced_by(case, entry.key)
+    meaning = _meaning(entry.key).removeprefix(f"{name.text}, ")
     if other:
         meaning = f"not used: the {named(other).text} of the drive takes its place"
-    return name, input_text(case, one.key, one.value), origin, meaning
+    return name, input_text(case, entry.key, entry.value), origin, meaning
 
 
 def _meaning(key: str) -> str:
@@ -362,12 +362,12 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     which is seldom measured, grouped by their sources.
     """
     groups: dict[tuple[str, str], list[str]] = {}
-    for one in inputs:
-        text = f"{named(one.key).text} = {input_text(case, one.key, one.value)}"
-        if one.assumed and one.source is not None:
-            why = printable(one.source.note or one.source.citation)
-            groups.setdefault((one.source.kind, why), []).append(text)
-        elif end_and_key(one.key)[1].startswith(_STRENGTHS):
+    for entry in inputs:
+        text = f"{named(entry.key).text} = {input_text(case, entry.key, entry.value)}"
+        if entry.assumed and entry.source is not None:
+            why = printable(entry.source.note or entry.source.citation)
+            groups.setdefault((entry.source.kind, why), []).append(text)
+        elif end_and_key(entry.key)[1].startswith(_STRENGTHS):
             groups.setdefault(("given", SENTENCES["no_strength_measured"]), []).append(text)
     rows = tuple(("; ".join(texts), kind, why) for (kind, why), texts in groups.items())
     if rows:
@@ -402,8 +402,11 @@ def source_section(case: SweptCase) -> Section:
     if solids:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
-        (one.topic, Link(f"{one.citation}, ", DOI + one.doi) if one.doi else one.citation)
-        for one in references_of(case)
+        (
+            reference.topic,
+            Link(f"{reference.citation}, ", DOI + reference.doi) if reference.doi else reference.citation,
+        )
+        for reference in references_of(case)
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))

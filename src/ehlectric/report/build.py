@@ -58,7 +58,9 @@ def report_of(path: str | Path, *, summary: bool = False) -> Report:
     name = _title(result) or part.kind[0].upper() + part.kind.partition(" over ")[0][1:]
     first = first_section(result, part, path)
     shown = {block.name for block in first.blocks if isinstance(block, Picture)}
-    further = () if summary else _appendix(result, part, [one for one in part.figures if one not in shown])
+    further = (
+        () if summary else _appendix(result, part, [figure for figure in part.figures if figure not in shown])
+    )
     return Report(name, part.kind, date, (first, *further))
 
 
@@ -69,7 +71,7 @@ def _title(result: Any) -> str:
 
 def _appendix(result: Any, part: Part, figures: Sequence[str]) -> Iterator[Section]:
     """Sections behind the first page, in the order of the question, with the figures of these names."""
-    yield Section("What was asked", (Text(TEXTS["questions"][part.command]), Text(part.asked or part.lead)))
+    yield Section("What was asked", (Text(TEXTS["questions"][part.command]), Text(part.machine or part.lead)))
     yield Section("Result", tuple(_answer(part)))
     yield Section("Key numbers", part.numbers)
     drawn = tuple(pictures_of(result, converged=is_solved(result), names=figures))
@@ -129,7 +131,7 @@ def _bearing(result: BearingResult) -> Part:
         summary,
         kind=f"{case.bearing.kind} bearing{f' {name}' if name else ''}, contacts {HOW[case.contacts]}",
         command="bearing",
-        asked=machine_of(case, summary),
+        machine=machine_of(case, summary),
         first=tuple(bearing_blocks(case, summary, rows)),
         numbers=(*row_tables(rows, "Overview"), *densities),
         further=(Section("Contacts", contacts),),

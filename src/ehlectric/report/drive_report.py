@@ -66,7 +66,7 @@ def _deciding(
 ) -> Iterator[tuple[str, str, str, str]]:
     """Key, value, origin and effect of each value that decides the result."""
     _, apart = varied_keys(varied)
-    origins = {one.key: one.origin for one in inputs_of(case, apart=apart) if one.origin != "given"}
+    origins = {entry.key: entry.origin for entry in inputs_of(case, apart=apart) if entry.origin != "given"}
     for key, value, origin, why in (
         *_of_inputs(case, apart=apart), *_renewal(case, summary)
     ):  # fmt: skip
@@ -173,12 +173,15 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     heads, changes = ("remedy", "input", AS_IT_IS, "with the remedy"), tuple(_changes(result))
     yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
     drives = [(AS_IT_IS, result, summary)]
-    drives += [(one.title, one.result, one.result.summary()) for one in result.variants]
+    drives += [(variant.title, variant.result, variant.result.summary()) for variant in result.variants]
     known = {warning.code for warning in result.warnings}
-    verdicts = tuple((printable(title), _words(one, own), _further(one, known)) for title, one, own in drives)
+    verdicts = tuple(
+        (printable(title), _words(variant, of_drive), _further(variant, known))
+        for title, variant, of_drive in drives
+    )
     judged = ("drive", "verdict", "further warnings")
     yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
-    columns, *cells = remedy_cells([(title, own) for title, _, own in drives])
+    columns, *cells = remedy_cells([(title, of_drive) for title, _, of_drive in drives])
     rows = tuple((title, place, *map(unbroken, values)) for title, place, *values in cells)
     shares = (0.18, 0.12, *(0.7 / (len(columns) - 2) for _ in columns[2:]))
     yield Table("Remedies side by side", columns, rows, tuple(range(2, len(columns))), shares=shares)
@@ -199,8 +202,8 @@ def _further(result: DriveResult, known: set[str]) -> str:
 
 def _changes(result: DriveResult) -> Iterator[tuple[str, Named, str, str]]:
     """Rows of the changes of all remedies: title, input, and its value in the drive and with the remedy."""
-    for title, changes, found in result.remedies:
-        for row in changed_inputs(result.case, found.case, changes):
+    for title, changes, solved in result.remedies:
+        for row in changed_inputs(result.case, solved.case, changes):
             yield printable(title), *row
 
 
@@ -228,11 +231,12 @@ def _leaves(changed: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> lis
 def _value_at(case: DriveCase, key: str, tables: Mapping[str, Any]) -> str:
     """Value of an input; the values of both ends if the input of both bearings has two."""
     texts = {
-        one: input_text(case, one, tables[one]) if one in tables else "not given" for one in of_both_ends(key)
+        end_key: input_text(case, end_key, tables[end_key]) if end_key in tables else "not given"
+        for end_key in of_both_ends(key)
     }
     if len(set(texts.values())) == 1:
         return next(iter(texts.values()))
-    return "; ".join(f"{text}, {NAMES_OF_ENDS[end_and_key(one)[0]]}" for one, text in texts.items())
+    return "; ".join(f"{text}, {NAMES_OF_ENDS[end_and_key(end_key)[0]]}" for end_key, text in texts.items())
 
 
 def swept_values(results: SweepResults) -> tuple[str, ...]:
@@ -263,7 +267,7 @@ def drive_part(result: DriveResult) -> Part:
         summary,
         kind=_kind(case),
         command="drive",
-        asked=machine_of(case, summary),
+        machine=machine_of(case, summary),
         lead=_lead(summary),
         verdict=result.verdict,
         first=tuple(_first_blocks(result, summary)),
@@ -276,22 +280,24 @@ def drive_part(result: DriveResult) -> Part:
 def _first_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
     """Numbers and rating lives of both bearings, remedies, and the three values that decide most."""
     rows = {place: tuple(end_rows(summary, end)) for end, place in NAMES_OF_ENDS.items()}
-    numbers = [numbers_of(own, FIRST_PAGE_OF_DRIVE, summary, place) for place, own in rows.items()]
+    numbers = [
+        numbers_of(rows_of_end, FIRST_PAGE_OF_DRIVE, summary, place) for place, rows_of_end in rows.items()
+    ]
     # A row for each bearing.
     yield Numbers(tuple(chain.from_iterable(numbers)), columns=max(map(len, numbers)))
     yield from life_texts(rows)
     if result.remedies:
         yield _remedy_table(result, summary)
     case = result.case
-    found: dict[str, tuple[str, str, str]] = {}
+    decisive: dict[str, tuple[str, str, str]] = {}
     for key, value, _, why in _deciding(case, summary):
-        end, own = end_and_key(key)
+        end, inner = end_and_key(key)
         # Ceramic elements do not break down.
         if summary.get(end, {"breakdown_voltage": 0.0})["breakdown_voltage"] is not None:
-            found.setdefault(own, (key, value, why))
+            decisive.setdefault(inner, (key, value, why))
     yield measure_first_table(
         (named(key).text, value, usual_range(case, key), why)
-        for key, value, why in (found[key] for key in TEXTS["first_page"]["drive"] if key in found)
+        for key, value, why in (decisive[key] for key in TEXTS["first_page"]["drive"] if key in decisive)
     )
 
 
@@ -300,9 +306,10 @@ def _remedy_table(result: DriveResult, summary: Summary) -> Table:
     heads, *cells = remedy_rates(summary)
     changes = ["none"] + [
         "; ".join(
-            f"{name.text} =\xa0{value}" for name, _, value in changed_inputs(result.case, found.case, changed)
+            f"{name.text} =\xa0{value}"
+            for name, _, value in changed_inputs(result.case, solved.case, changed)
         )
-        for _, changed, found in result.remedies
+        for _, changed, solved in result.remedies
     ]
     rows = tuple((title, change, *rates) for (title, *rates), change in zip(cells, changes, strict=True))
     heads = ("remedy", "change", *heads[1:])
@@ -313,7 +320,7 @@ def _remedy_table(result: DriveResult, summary: Summary) -> Table:
 
 def _kind(case: DriveCase) -> str:
     """Phrase for a drive: its source and its bearings."""
-    names = dict.fromkeys(one.bearing.name or f"{one.bearing.kind} bearing" for one in case.bearings)
+    names = dict.fromkeys(end.bearing.name or f"{end.bearing.kind} bearing" for end in case.bearings)
     source = "a measured voltage" if case.source.measured else f"{case.source.modulation} modulation"
     return f"drive with {source}, bearings {' and '.join(names)}"
 

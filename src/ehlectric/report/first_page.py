@@ -47,13 +47,13 @@ _IN_VERDICT = ("breakdown-expected",)
 
 def first_section(result: Any, part: Part, path: Path) -> Section:
     """First page of a report of a stored result: all that a reader needs who reads nothing else."""
-    return Section("Summary", tuple(_blocks(result, part, path)), one_page=True)
+    return Section("Summary", tuple(_blocks(result, part, path)), single_page=True)
 
 
 def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
     alarms = tuple(alarms_of(part.warnings, part.failure))
     yield from alarms
-    yield Text(part.asked or part.lead)
+    yield Text(part.machine or part.lead)
     if part.verdict is None:
         yield Text(SENTENCES["no_verdict"])
     else:
@@ -70,13 +70,13 @@ def _blocks(result: Any, part: Part, path: Path) -> Iterator[Block]:
             picture.figure.set_size_inches(_WIDE, _LOW * picture.figure.get_figheight())
         yield picture
     yield from tables
-    told = dict.fromkeys(
-        CODES[one.code].meaning
-        for one in part.warnings
-        if one.severity == "warning" and one.code not in _IN_VERDICT
+    meanings = dict.fromkeys(
+        CODES[warning.code].meaning
+        for warning in part.warnings
+        if warning.severity == "warning" and warning.code not in _IN_VERDICT
     )
-    if told:
-        yield Text(f"Warnings: {' '.join(told)}", "small")
+    if meanings:
+        yield Text(f"Warnings: {' '.join(meanings)}", "small")
     given = f"Inputs of the file: {given_inputs(result.case, part.varied)}. {SENTENCES['all_others']}"
     yield Text(with_units_kept(given), "small")
     made = (
@@ -135,26 +135,26 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
     yield Numbers(numbers_of(shown, FIRST_PAGE_OF_BEARING, summary))
     yield from life_texts({"": totals})
     given = flattened(case.to_dict())
-    own = summary["bearing"]["margin"]
+    margin = summary["bearing"]["margin"]
     deciding = tuple(_deciding(case, summary))
     if deciding:
-        caption = f"Inputs that decide the margin of {ratio_text(own)}"
+        caption = f"Inputs that decide the margin of {ratio_text(margin)}"
         caption = f"{placed(caption, 'margin.effects', summary)}, one changed at a time"
         heads, shares = ("input", "value", "range", "margin at these ends"), (0.42, 0.16, 0.2, 0.22)
         yield Table(caption, heads, deciding, (3,), shares=shares)
-    elif own is None:
+    elif margin is None:
         yield Text(SENTENCES["no_effects"])
-    found = (summary.get("uncertainty") or {}).get("indices", ())[:_ASSUMPTIONS]
-    if found:
+    indices = (summary.get("uncertainty") or {}).get("indices", ())[:_ASSUMPTIONS]
+    if indices:
         yield measure_first_table(
             (
                 (
-                    _name(one),
-                    _value(case, one["key"], given.get(one["key"])),
-                    "scatters" if one["low"] is None else with_units_kept(input_range(one)),
-                    f"{readable(100.0 * one['total'], 2)}\xa0% of the spread of the margin; {_basis(one)}",
+                    _name(index),
+                    _value(case, index["key"], given.get(index["key"])),
+                    "scatters" if index["low"] is None else with_units_kept(input_range(index)),
+                    f"{_share_text(index)} of the spread of the margin; {_basis(index)}",
                 )
-                for one in found
+                for index in indices
             ),
             ranked=True,
         )
@@ -169,14 +169,14 @@ def bearing_blocks(case: BearingCase, summary: Mapping[str, Any], totals: Iterab
 
 def _deciding(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
     """Rows of the inputs that change the margin most, with the margins at both ends of their ranges."""
-    given, own = flattened(case.to_dict()), summary["bearing"]["margin"]
+    given, margin = flattened(case.to_dict()), summary["bearing"]["margin"]
     bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
-    for one in (summary.get("margin") or {}).get("effects", ())[:_CHANGES]:
-        margins = one["low_margin"], one["high_margin"]
-        if max(margins) > _WORTH * own or own > _WORTH * min(margins):
+    for effect in (summary.get("margin") or {}).get("effects", ())[:_CHANGES]:
+        margins = effect["low_margin"], effect["high_margin"]
+        if max(margins) > _WORTH * margin or margin > _WORTH * min(margins):
             ends = " to ".join(map(ratio_text, margins))
-            value = _value(case, one["key"], given.get(one["key"]))
-            yield _name(one), value, with_units_kept(input_range(one)), f"{bound} {ends}".strip()
+            value = _value(case, effect["key"], given.get(effect["key"]))
+            yield _name(effect), value, with_units_kept(input_range(effect)), f"{bound} {ends}".strip()
 
 
 def life_texts(bearings: Mapping[str, Iterable[Row]]) -> Iterator[Text]:
@@ -186,16 +186,18 @@ def life_texts(bearings: Mapping[str, Iterable[Row]]) -> Iterator[Text]:
     ``bearings``, rows of each bearing by its place, which the sentence names; bearings with equal numbers
     share a sentence.
     """
-    rows = {place: {_own_key(row.key): row for row in own} for place, own in bearings.items()}
+    rows = {
+        place: {_bearing_key(row.key): row for row in of_bearing} for place, of_bearing in bearings.items()
+    }
     for name, keys in FIRST_PAGE_OF_LIFE.items():
-        texts = {place: _life_text(own, keys) for place, own in rows.items()}
+        texts = {place: _life_text(of_bearing, keys) for place, of_bearing in rows.items()}
         for text in filter(None, dict.fromkeys(texts.values())):
             places = " and ".join(place for place, other in texts.items() if place and other == text)
             about = ", ".join(filter(None, [SENTENCES[f"rating_life_{name}"], places]))
             yield Text(with_units_kept(f"{about}: {text}."), "small")
 
 
-def _own_key(key: str) -> str:
+def _bearing_key(key: str) -> str:
     """Key of a number of a bearing for the number of a bearing at an end of a drive."""
     return key.removeprefix("end.").replace("duty_", "duty.", 1) if key.startswith("end.") else key
 
@@ -206,7 +208,7 @@ def _life_text(rows: Mapping[str, Row], keys: Iterable[str]) -> str:
     texts = [f"{symbol} {_equals(row)}" for symbol, row in known.items()]
     notes = {symbol: row.note.lstrip(", ") for symbol, row in known.items() if symbol in ("C", "C0")}
     for source in dict.fromkeys(notes.values()):
-        texts.append(f"{', '.join(symbol for symbol, own in notes.items() if own == source)} {source}")
+        texts.append(f"{', '.join(symbol for symbol, note in notes.items() if note == source)} {source}")
     return "; ".join(texts)
 
 
@@ -227,21 +229,25 @@ def _with_chance(summary: Mapping[str, Any], row: Row) -> Row:
     """Row of a bearing; its probability as a sentence has it, which is not 0."""
     if row.key != "uncertainty.breakdown_probability":
         return row
-    found = summary["uncertainty"]
-    if found.get("failed"):
+    uncertainty = summary["uncertainty"]
+    if uncertainty.get("failed"):
         return row
-    text = chance_text(found["breakdown_probability"], found["breakdown_probability_error"])
+    text = chance_text(uncertainty["breakdown_probability"], uncertainty["breakdown_probability_error"])
     return replace(row, value=text.partition(" (")[0], unit="")
 
 
-def _name(one: Mapping[str, Any]) -> str:
+def _name(entry: Mapping[str, Any]) -> str:
     """Name of an input of the analysis of a margin."""
-    return printable(one["label"])
+    return printable(entry["label"])
 
 
-def _basis(one: Mapping[str, Any]) -> str:
+def _share_text(index: Mapping[str, Any]) -> str:
+    return f"{readable(100.0 * index['total'], 2)}\xa0%"
+
+
+def _basis(entry: Mapping[str, Any]) -> str:
     """Where the range of an uncertain input comes from, in a few words."""
-    reason: str = one["reason"]
+    reason: str = entry["reason"]
     return f"range: {reason.partition(':')[0]}" if reason else "range of the file"
 
 
@@ -258,15 +264,15 @@ def usual_range(case: BearingCase | DriveCase, key: str) -> str:
     """Usual range of an input of a bearing; a capacitance of the circuit of a drive has that of the motor of
     a bearing.
     """
-    end, own = end_and_key(key)
+    end, inner = end_and_key(key)
     bearing = case.bearings[ENDS.index(end) if end in ENDS else 0] if isinstance(case, DriveCase) else case
-    ends = {change.key: change.ends for change in changes_of(bearing)}.get(own)
-    given = flattened(case.to_dict()).get(own)
-    if ends is None and given and own.startswith("circuit.") and own.endswith("_capacitance"):
+    ends = {change.key: change.ends for change in changes_of(bearing)}.get(inner)
+    given = flattened(case.to_dict()).get(inner)
+    if ends is None and given and inner.startswith("circuit.") and inner.endswith("_capacitance"):
         ends = (1.0 - MOTOR) * given, (1.0 + MOTOR) * given
     if ends is None:
         return "none known"
-    return with_units_kept(input_range({"key": own, "low": ends[0], "high": ends[1]}))
+    return with_units_kept(input_range({"key": inner, "low": ends[0], "high": ends[1]}))
 
 
 def measure_first_table(rows: Iterable[tuple[str, str, str, str]], *, ranked: bool = False) -> Table:
@@ -299,7 +305,8 @@ def machine_of(case: BearingCase | DriveCase, summary: Mapping[str, Any]) -> str
         both = f"two bearings: {first}"
         if first != second:
             both = "; ".join(
-                f"{place}: {one}" for place, one in zip(NAMES_OF_ENDS.values(), (first, second), strict=True)
+                f"{place}: {bearing}"
+                for place, bearing in zip(NAMES_OF_ENDS.values(), (first, second), strict=True)
             )
         sentence = f"{source}, {_motor(*motor)}; {both}"
     if "duty" in summary:

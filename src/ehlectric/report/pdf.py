@@ -73,7 +73,7 @@ _PAD, _LINE_LENGTH = 3.0, 96
 _ROOM = 130.0
 
 # Height of a figure beside the numbers of the first page [pt]: with its caption it is as high as they are.
-_BESIDE = 235.0
+_ROOM_NEXT_TO_PICTURE = 235.0
 
 # Sizes of the first page, of which the largest is taken at which its contents fit.
 _SCALES = (1.0, 0.98, 0.95, 0.92, 0.9, 0.85, 0.8, 0.75, 0.7)
@@ -98,8 +98,8 @@ def fonts() -> str:
 def style(name: str, size: float = 9.0) -> ParagraphStyle:
     """Style of paragraphs: "body", "title", "section", "caption", "cell", "number", "head" or "alarm"."""
     base: dict[str, Any] = {"fontName": fonts(), "fontSize": size, "leading": 1.35 * size, "textColor": INK}
-    own = {key: _COLOURS.get(value, value) for key, value in _STYLES[name].items()}
-    return ParagraphStyle(name, **{**base, **own})
+    changes = {key: _COLOURS.get(value, value) for key, value in _STYLES[name].items()}
+    return ParagraphStyle(name, **{**base, **changes})
 
 
 def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
@@ -147,18 +147,18 @@ def _code(text: str) -> Flowable:
 _LAMPS = {"green": "\u25cf", "yellow": "\u25c6", "red": "\u25a0", "grey": "\u25cb"}
 
 
-def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, beside: int) -> Flowable:
-    """Large numbers, so many ``beside`` each other, with their labels above and their notes below."""
+def _numbers(numbers: Sequence[tuple[str, str, str]], width: float, columns: int) -> Flowable:
+    """Large numbers, ``columns`` of them in a row, with their labels above and their notes below."""
     cells = [
         [Paragraph(marked(label), style("label", 7.5)), Paragraph(marked(value), style("value"))]
         + ([Paragraph(marked(note), style("label", 7.0))] if note else [])
         for label, value, note in numbers
     ]
-    rows = [cells[k : k + beside] for k in range(0, len(cells), beside)]
-    rows[-1] += [[]] * (beside - len(rows[-1]))
+    rows = [cells[k : k + columns] for k in range(0, len(cells), columns)]
+    rows[-1] += [[]] * (columns - len(rows[-1]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (-1, -1), 0.0)]
     look += [("TOPPADDING", (0, 0), (-1, -1), 0.0), ("BOTTOMPADDING", (0, 0), (-1, -1), 4.0)]
-    return LongTable(rows, colWidths=[width / beside] * beside, hAlign="LEFT", style=look)
+    return LongTable(rows, colWidths=[width / columns] * columns, hAlign="LEFT", style=look)
 
 
 def _light(light: Light, width: float) -> Flowable:
@@ -278,9 +278,9 @@ def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[fl
     def extent(text: str) -> float:
         return float(stringWidth(text, "Sans-Bold", size))
 
-    wanted = [max(extent(text) for text in column) + pad for column in columns]
-    if sum(wanted) <= width:
-        return wanted
+    extents = [max(extent(text) for text in column) + pad for column in columns]
+    if sum(extents) <= width:
+        return extents
     least = [
         min(
             max(max((extent(word) for word in text.split()), default=0.0) for text in column) + pad,
@@ -289,9 +289,9 @@ def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[fl
         for column in columns
     ]
     # The square root keeps a column of sentences from taking the room of all others.
-    free, further = width - sum(least), [max(0.0, a - b) ** 0.5 for a, b in zip(wanted, least, strict=True)]
+    free, further = width - sum(least), [max(0.0, a - b) ** 0.5 for a, b in zip(extents, least, strict=True)]
     if free <= 0.0 or not sum(further):
-        return [width * one / sum(least) for one in least]
+        return [width * least_of / sum(least) for least_of in least]
     return [low + free * more / sum(further) for low, more in zip(least, further, strict=True)]
 
 
@@ -318,7 +318,7 @@ def pdf_of(report: Report) -> bytes:
 def _story(report: Report) -> Iterator[Flowable]:
     """Flowables of a report."""
     first, *others = report.sections
-    if first.one_page:
+    if first.single_page:
         yield first_page(report)
         if others:
             yield PageBreak()
@@ -372,7 +372,7 @@ def _first_parts(report: Report, width: float) -> Iterator[Flowable]:
     while blocks:
         match blocks:
             case [Numbers(columns=1) as numbers, Picture() as picture, *blocks]:
-                yield _beside(numbers, picture, width)
+                yield _side_by_side(numbers, picture, width)
                 yield Spacer(1.0, 4.0)
             case [Picture() as picture, *blocks]:
                 yield from _loose([_picture(picture, width, _HEIGHT, most=2.0)])
@@ -380,10 +380,10 @@ def _first_parts(report: Report, width: float) -> Iterator[Flowable]:
                 yield from _loose(parts_of(block, width, _HEIGHT))
 
 
-def _beside(numbers: Numbers, picture: Picture, width: float) -> Flowable:
+def _side_by_side(numbers: Numbers, picture: Picture, width: float) -> Flowable:
     """Numbers below each other, and a figure beside them."""
     left, right = (share * width for share in (0.36, 0.64))
-    shown = list(_loose([_picture(picture, right - 6.0, _BESIDE)]))
+    shown = list(_loose([_picture(picture, right - 6.0, _ROOM_NEXT_TO_PICTURE)]))
     look = [("VALIGN", (0, 0), (-1, -1), "TOP"), ("LEFTPADDING", (0, 0), (0, 0), 0.0)]
     look += [("RIGHTPADDING", (0, 0), (-1, -1), 0.0)]
     return LongTable([[_numbers(numbers.numbers, left, 1), shown]], colWidths=[left, right], style=look)

@@ -19,7 +19,7 @@ from ehlectric.runtime.progress import MACHINE
 
 # Folder of the fonts that Matplotlib carries, and the font whose letters all texts have.
 FOLDER = Path(mpl.get_data_path()) / "fonts" / "ttf"
-_OWN = str(FOLDER / "DejaVuSans.ttf")
+_BUNDLED = str(FOLDER / "DejaVuSans.ttf")
 
 # Letter whose shape is a box.
 _BOX = 0x25A1
@@ -40,8 +40,8 @@ def marked(text: str) -> str:
 def runs_of(text: str) -> Iterator[tuple[str, str]]:
     """Parts of a text with the names of their fonts; an empty name is the font of the text itself."""
     _tell_direction(text)
-    families_for(text, _OWN)  # a note names letters that no font has
-    faces = _faces(frozenset(text) - characters_of(_OWN))
+    families_for(text, _BUNDLED)  # a note names letters that no font has
+    faces = _faces(frozenset(text) - characters_of(_BUNDLED))
     for font, letters in groupby(text, key=lambda letter: faces.get(letter, "")):
         yield font, "".join(letters)
 
@@ -63,7 +63,7 @@ def _faces(lacking: frozenset[str]) -> Mapping[str, str]:
 @cache
 def _boxes() -> TTFont:
     """Font of boxes for letters that no other font has."""
-    font = TTFont("Boxes", _OWN)
+    font = TTFont("Boxes", _BUNDLED)
     registerFont(font)
     return font
 
@@ -78,13 +78,13 @@ def _registered(name: str, file: str, index: int) -> str:
     return name
 
 
-_told: set[str] = set()
+_noted: set[str] = set()
 
 
 def _tell_direction(text: str) -> None:
     """Write one note about letters that a PDF shows in the wrong order, because reportlab knows none."""
-    if not _told and any(unicodedata.bidirectional(letter) in _LEFTWARD for letter in text):
-        _told.add(text)
+    if not _noted and any(unicodedata.bidirectional(letter) in _LEFTWARD for letter in text):
+        _noted.add(text)
         MACHINE.warning(
             "the texts of the PDF show %s from left to right with unjoined letters: its figures and the HTML "
             "report show it correctly",

@@ -142,7 +142,7 @@ class Section:
 
     title: str
     blocks: tuple[Block, ...]
-    one_page: bool = False  # whether it has a page of its own, on which all of it stands
+    single_page: bool = False  # whether it has a page of its own, on which all of it stands
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class Part:
 
     kind: str  # what the result is, in a few words
     command: str  # command that solves the input file
-    asked: str = ""  # machine in a sentence; empty for contacts and sweeps, of which the lead says it
+    machine: str = ""  # machine in a sentence; empty for contacts and sweeps, of which the lead says it
     lead: str  # main numbers in a sentence
     failure: str  # what is not solved; empty where all is
     verdict: Verdict | None  # answer of the result; None where it has none

@@ -38,9 +38,9 @@ _SEVERITIES = ("severe", "warning", "note")
 _DECIDING = ("bearing_duty", "drive_duty", "breakdown_over_speed", "drive_remedies")
 
 
-def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: Any) -> Part:
+def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **fields: Any) -> Part:
     """Part of a report of a result that is no sweep. ``date`` is that of the result, empty where it is not
-    known; ``own`` are fields that depend on the kind of the result.
+    known; ``fields`` are those that depend on the kind of the result.
     """
     names, default = figure_names(result), default_figure(result)[0].removesuffix(".png")
     first = next((name for name in (*_DECIDING, default) if name in names), "")
@@ -53,7 +53,7 @@ def part_of(result: Any, summary: Mapping[str, Any], *, date: str = "", **own: A
         "details": _details(summary, date),
         "toml": result.case.described_toml(),
     }
-    return Part(**shared | own)
+    return Part(**shared | fields)
 
 
 def _details(summary: Mapping[str, Any], date: str) -> dict[str, str]:
@@ -133,7 +133,7 @@ def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
     known = {place: density for place, density in densities.items() if density}
     if not known:
         return
-    told = zip(CURRENT_DENSITY_LIMITS, TEXTS["density_limits"], strict=True)
+    limits = zip(CURRENT_DENSITY_LIMITS, TEXTS["density_limits"], strict=True)
     rows = tuple(
         (
             f"{1e-6 * limit:g} A/mm²",
@@ -141,7 +141,7 @@ def density_tables(densities: Mapping[str, float | None]) -> Iterator[Table]:
             about["text"],
             Link(f"{about['citation']}, ", DOI + about["doi"]),
         )
-        for limit, about in told
+        for limit, about in limits
     )
     places = (f"{place}, {readable(1e-6 * density)} A/mm²" for place, density in known.items())
     heads = ("published limit", *places, "what is published", "source")
@@ -155,8 +155,8 @@ def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
         return Text("The result has no warnings.")
     ordered = sorted(warnings, key=lambda warning: _SEVERITIES.index(warning.severity))
     kinds: dict[tuple[Severity, str], list[str]] = {}
-    for one in ordered:
-        kinds.setdefault((one.severity, one.code), []).append(worded(printable(one.text)))
+    for warning in ordered:
+        kinds.setdefault((warning.severity, warning.code), []).append(worded(printable(warning.text)))
     return Warnings(
         tuple(
             WarningLine(severity, code, CODES[code].meaning, tuple(texts))
@@ -171,7 +171,7 @@ def alarms_of(warnings: Iterable[ResultWarning], failure: str) -> Iterator[Text]
     """
     if failure:
         yield Text(failure, "alarm")
-    severe = dict.fromkeys(one.code for one in warnings if one.severity == "severe")
+    severe = dict.fromkeys(warning.code for warning in warnings if warning.severity == "severe")
     for code in severe:
         yield Text(f"Do not use the numbers: {CODES[code].meaning}", "alarm")
 
@@ -225,8 +225,8 @@ def pictures_of(
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:
     """Names of the figures of a sweep that a report has, for these keys of the summary."""
     names = figure_names(result)
-    wanted = [f"{way}{value}" for value in dict.fromkeys(values) for way in ("map_", "lines_")]
-    return [name for name in ("sensitivity", *wanted) if name in names]
+    of_values = [f"{way}{value}" for value in dict.fromkeys(values) for way in ("map_", "lines_")]
+    return [name for name in ("sensitivity", *of_values) if name in names]
 
 
 def title_of(drawn: Figure) -> str:

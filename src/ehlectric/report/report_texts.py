@@ -66,23 +66,25 @@ def references_of(case: SweptCase) -> Iterator[Reference]:
     """Publications behind the equations of a case; of a drive, those of its bearings follow, each once."""
     if isinstance(case, DriveCase):
         simulation = list(_holding(DRIVE_REFERENCES, case))
-        known = {one.doi for one in simulation if one.doi}
+        known = {reference.doi for reference in simulation if reference.doi}
         yield from simulation
-        yield from (one for one in _of_bearings(case, REFERENCES) if one.doi not in known)
+        yield from (reference for reference in _of_bearings(case, REFERENCES) if reference.doi not in known)
     else:
         yield from _holding(REFERENCES, case)
 
 
 def _of_bearings(case: DriveCase, entries: tuple[T, ...]) -> Iterator[T]:
     """Entries that hold for a bearing of a drive, each once."""
-    yield from dict.fromkeys(one for bearing in case.bearings for one in _holding(entries, bearing))
+    yield from dict.fromkeys(
+        reference for bearing in case.bearings for reference in _holding(entries, bearing)
+    )
 
 
 def conditions_of(case: SweptCase) -> dict[str, bool]:
     """Conditions of the file by name, and whether each of them holds for a case."""
     if isinstance(case, DriveCase):
         return _of_drive(case)
-    own = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
+    conditions = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
     oil, discharge = case.lubricant, case.discharge
     replaced = case.own_laws.names if isinstance(case, Case) and case.own_laws is not None else {}
     laws = [
@@ -90,7 +92,7 @@ def conditions_of(case: SweptCase) -> dict[str, bool]:
         for name in ("viscosity", "density", "permittivity")
         if name not in replaced
     ]
-    return own | {
+    return conditions | {
         "strength": discharge is not None and discharge.has_strength,
         "weibull": discharge is not None and discharge.weibull is not None,
         # The viscosity over temperature follows from two kinematic viscosities.
@@ -105,7 +107,7 @@ def _holding(entries: tuple[T, ...], case: SweptCase) -> Iterator[T]:
     holds = conditions_of(case)
     for entry in entries:
         names = ((name.removeprefix("not "), not name.startswith("not ")) for name in entry.when)
-        if all(holds.get(name, False) is wanted for name, wanted in names):
+        if all(holds.get(name, False) is needed for name, needed in names):
             yield entry
 
 
@@ -155,7 +157,10 @@ def _of_bearing(case: BearingCase) -> dict[str, bool]:
 
 
 def _of_drive(case: DriveCase) -> dict[str, bool]:
-    scattered = any(one.discharge is not None and one.discharge.weibull for one in case.bearings)
+    scattered = any(
+        bearing_case.discharge is not None and bearing_case.discharge.weibull
+        for bearing_case in case.bearings
+    )
     return {
         "motor": True,
         # The voltages at which the films break down scatter.
@@ -165,5 +170,5 @@ def _of_drive(case: DriveCase) -> dict[str, bool]:
         "measured source": case.source.measured,
         "space-vector": case.source.modulation == "space-vector",
         "pole pairs": case.source.pole_pairs is not None,
-        "rough bearing": any(one.bearing.composite_rq is not None for one in case.bearings),
+        "rough bearing": any(bearing_case.bearing.composite_rq is not None for bearing_case in case.bearings),
     }

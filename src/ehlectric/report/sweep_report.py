@@ -118,28 +118,26 @@ def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
     further = listed_values(results) if isinstance(results.case, DriveCase) else SWEEPS["listed"]
-    wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
-    values = [
-        key for key in wanted if any(is_number(value_at(point.usable, key)) for point in results.points)
-    ]
+    shown = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
+    values = [key for key in shown if any(is_number(value_at(point.usable, key)) for point in results.points)]
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
     ]
     # Real films are thinner than those of a sweep, and break down earlier.
     bounded = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
-    found = []
+    columns = []
     for key in values:
         head, cells = _column(results, key, [value_at(point.usable, key) for point in results.points])
         sign = label_of(key, results.case).bound if key in bounded else ""
-        found.append((f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, cells))
-    heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
+        columns.append((f"{head}, {BOUNDS[sign]} ({sign})" if sign else head, cells))
+    heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in columns))
     listed = results.points[:_LISTED]
     rows = tuple(
         (
             str(point.number),
             *(cells[n] for _, cells in inputs),
             _status(point),
-            *(cells[n] for _, cells in found),
+            *(cells[n] for _, cells in columns),
         )
         for n, point in enumerate(listed)
     )

@@ -120,8 +120,8 @@ def write_report(
     ...     [path.name for path in write_report(folder, Path(folder) / "report.html")]
     ['report.html']
     """
-    targets = [Path(one) for one in (target, *further)]
-    endings = [_ending_of(one) for one in targets]
+    targets = [Path(file) for file in (target, *further)]
+    endings = [_ending_of(file) for file in targets]
     from ehlectric.report.build import report_of
 
     report = report_of(result, summary=summary)
