@@ -36,12 +36,15 @@ SEVERITIES = ("severe", "warning", "note")
 
 def concerning(warnings: Iterable[PageWarning], number: str) -> tuple[PageWarning, ...]:
     """Warnings that concern a number."""
-    return tuple(one for one in warnings if number in one.concerns)
+    return tuple(warning for warning in warnings if number in warning.concerns)
 
 
 def limited_to(warnings: Iterable[PageWarning], keys: Collection[str]) -> tuple[PageWarning, ...]:
     """Warnings whose ``concerns`` are limited to the quantities that a page shows."""
-    return tuple(replace(one, concerns=tuple(key for key in one.concerns if key in keys)) for one in warnings)
+    return tuple(
+        replace(warning, concerns=tuple(key for key in warning.concerns if key in keys))
+        for warning in warnings
+    )
 
 
 def counts(warnings: Iterable[PageWarning]) -> str:
@@ -54,10 +57,10 @@ def counts(warnings: Iterable[PageWarning]) -> str:
     >>> counts([])
     'no warnings'
     """
-    severities = [one.severity for one in warnings]
+    severities = [warning.severity for warning in warnings]
     names = {"severe": "severe warning", "warning": "warning", "note": "note"}
-    found = [(severities.count(one), names[one]) for one in SEVERITIES if one in severities]
-    return ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for n, name in found) or "no warnings"
+    numbers = [(severities.count(kind), names[kind]) for kind in SEVERITIES if kind in severities]
+    return ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for n, name in numbers) or "no warnings"
 
 
 @dataclass(frozen=True)
@@ -311,13 +314,13 @@ class Result:
         """Number and its unit, also of a result that is a text such as "12.1 nJ"; None of other texts."""
         if self.value is not None:
             return self.value, ""
-        found = split(self.text)
-        if found is None:
+        parts = split(self.text)
+        if parts is None:
             return None, ""
-        unit = found[1] or self.unit
+        unit = parts[1] or self.unit
         base = si_unit(unit)
         factor = known_factor(unit, base)
-        return (found[0], unit) if factor is None else (factor * found[0], base)
+        return (parts[0], unit) if factor is None else (factor * parts[0], base)
 
     @property
     def shown(self) -> str:
@@ -385,10 +388,10 @@ class Effect:
     @property
     def either(self) -> Result:
         """The result of a case that has it."""
-        found = self.first or self.second
-        if found is None:
+        result = self.first or self.second
+        if result is None:
             raise ValueError("an effect has a result")
-        return found
+        return result
 
     @property
     def same(self) -> bool:
@@ -430,36 +433,38 @@ def input_rows(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[Inpu
     >>> [row.sign for row in input_rows({"a": 1, "b": 2}, {"a": 1, "b": 3, "c": 4})]
     ['≠', 'only B', '=']
     """
-    one, two = Inputs(first).flat(), Inputs(second).flat()
-    rows = [_input_row(key, one, two) for key in {**one, **two}]
+    inputs_a, inputs_b = Inputs(first).flat(), Inputs(second).flat()
+    rows = [_input_row(key, inputs_a, inputs_b) for key in {**inputs_a, **inputs_b}]
     return sorted(rows, key=lambda row: row.sign == "=")
 
 
-def _input_row(key: str, one: Mapping[str, Any], two: Mapping[str, Any]) -> InputRow:
-    first, second = (str(table[key]) if key in table else "" for table in (one, two))
-    if key not in two:
+def _input_row(key: str, inputs_a: Mapping[str, Any], inputs_b: Mapping[str, Any]) -> InputRow:
+    first, second = (str(table[key]) if key in table else "" for table in (inputs_a, inputs_b))
+    if key not in inputs_b:
         return InputRow(key, first, second, "only A")
-    if key not in one:
+    if key not in inputs_a:
         return InputRow(key, first, second, "only B")
-    same = one[key] == two[key] and type(one[key]) is type(two[key])
+    same = inputs_a[key] == inputs_b[key] and type(inputs_a[key]) is type(inputs_b[key])
     return InputRow(key, first, second, "=" if same else "≠")
 
 
 def effects(first: Side, second: Side) -> list[Effect]:
     """Effects on every result, in the order of the cases, under their headings."""
-    one, two = ({row.key or (row.group, row.name): row for row in side.results} for side in (first, second))
-    found = [_effect(one.get(key), two.get(key)) for key in {**one, **two}]
-    groups = list(dict.fromkeys(effect.either.group for effect in found))
-    return sorted(found, key=lambda effect: groups.index(effect.either.group))
+    first_rows, second_rows = (
+        {row.key or (row.group, row.name): row for row in side.results} for side in (first, second)
+    )
+    changes = [_effect(first_rows.get(key), second_rows.get(key)) for key in {**first_rows, **second_rows}]
+    groups = list(dict.fromkeys(effect.either.group for effect in changes))
+    return sorted(changes, key=lambda effect: groups.index(effect.either.group))
 
 
 def _effect(first: Result | None, second: Result | None) -> Effect:
     if first is None or second is None:
         return Effect(first, second, None)
-    (one, unit), (two, other) = first.number, second.number
-    if one is None or two is None or one == 0.0 or unit != other:
+    (before, unit), (after, other_unit) = first.number, second.number
+    if before is None or after is None or before == 0.0 or unit != other_unit:
         return Effect(first, second, None)
-    change = 100.0 * (two - one) / abs(one)
+    change = 100.0 * (after - before) / abs(before)
     return Effect(first, second, change if math.isfinite(change) else None)
 
 
@@ -525,21 +530,21 @@ def notes_of(
     --------
     >>> thin = PageWarning("partial-film", "warning", "thin", ("bearing.margin",))
     >>> numbers = [Number("bearing.margin", "Margin (voltages)", "1.2", warnings=(thin,))]
-    >>> [(one.letter, one.names) for one in notes_of(numbers, [PageWarning("other", "note", ""), thin])]
+    >>> [(note.letter, note.names) for note in notes_of(numbers, [PageWarning("other", "note", ""), thin])]
     [('', ()), ('a', ('margin',))]
     """
     groups: dict[tuple[str, str], list[PageWarning]] = {}
-    for one in warnings:
-        if one.code not in said:
-            groups.setdefault((one.code, one.meaning or one.text), []).append(one)
+    for warning in warnings:
+        if warning.code not in said:
+            groups.setdefault((warning.code, warning.meaning or warning.text), []).append(warning)
     letters = iter(ascii_lowercase)
-    found = []
-    for one, *others in groups.values():
-        near = [number for number in numbers if one.code in {each.code for each in number.warnings}]
+    notes = []
+    for warning, *others in groups.values():
+        near = [number for number in numbers if warning.code in {each.code for each in number.warnings}]
         names = tuple(f"{number.name[:1].lower()}{number.name[1:]}" for number in near)
         letter = next(letters) if names else ""
-        found.append(Note(one, letter, names, tuple(other.text for other in others)))
-    return tuple(found)
+        notes.append(Note(warning, letter, names, tuple(other.text for other in others)))
+    return tuple(notes)
 
 
 @dataclass(frozen=True)
@@ -623,7 +628,7 @@ class PageAnswer:
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""
-        return next((one for one in self.shown if one.key == key), None)
+        return next((number for number in self.shown if number.key == key), None)
 
 
 @dataclass(frozen=True)

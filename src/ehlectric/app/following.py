@@ -62,55 +62,55 @@ class Following(Generic[I, T]):
         self._quick, self._fuller, self._refuse = quick, tuple(later), refuse
         self._show, self._pass = show, passing
         self._behind = behind
-        self._asked = 0
-        self._wanted: tuple[int, I] | None = None
+        self._request = 0
+        self._pending: tuple[int, I] | None = None
         self._running: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
 
     def ask(self, inputs: I) -> asyncio.Task[None]:
         """Ask for the answers to new inputs; the task ends when the latest inputs have their quick answer."""
         self.drop()
-        self._wanted = (self._asked, inputs)
+        self._pending = (self._request, inputs)
         if self._running is None or self._running.done():
             self._running = asyncio.create_task(self._run())
         return self._running
 
     def drop(self) -> None:
         """Want no answers any more to the inputs so far."""
-        self._asked += 1
-        self._wanted = None
+        self._request += 1
+        self._pending = None
 
     async def _run(self) -> None:
-        while self._wanted is not None:
-            (asked, inputs), self._wanted = self._wanted, None
-            answer = await self._answer(asked, inputs, self._quick)
-            if answer is not None and asked == self._asked:
+        while self._pending is not None:
+            (request, inputs), self._pending = self._pending, None
+            answer = await self._answer(request, inputs, self._quick)
+            if answer is not None and request == self._request:
                 if self._fuller:
-                    self._later = asyncio.create_task(self._when_quiet(asked, inputs))
+                    self._later = asyncio.create_task(self._when_quiet(request, inputs))
                 self._show(inputs, answer)
             elif answer is not None and self._waits():
                 self._pass(inputs, answer)
 
     def _waits(self) -> bool:
-        """Whether newer inputs wait for their answer; they do not where nothing is wanted any more."""
-        return self._wanted is not None
+        """Whether newer inputs wait for their answer."""
+        return self._pending is not None
 
-    async def _answer(self, asked: int, inputs: I, compute: Callable[[I], Awaitable[T]]) -> T | None:
+    async def _answer(self, request: int, inputs: I, compute: Callable[[I], Awaitable[T]]) -> T | None:
         """Answer to inputs; None for an error, which is shown if they are still the latest."""
         try:
             return await compute(inputs)
         except (InputError, ConvergenceError, LostError) as error:
-            if asked == self._asked:
+            if request == self._request:
                 self._refuse(error)
             return None
 
-    async def _when_quiet(self, asked: int, inputs: I) -> None:
+    async def _when_quiet(self, request: int, inputs: I) -> None:
         await asyncio.sleep(_QUIET)
         for fuller in self._fuller:
             async with self._behind:
-                if asked != self._asked:
+                if request != self._request:
                     return
-                answer = await self._answer(asked, inputs, fuller)
-            if answer is None or asked != self._asked:
+                answer = await self._answer(request, inputs, fuller)
+            if answer is None or request != self._request:
                 return
             self._show(inputs, answer)

@@ -274,9 +274,9 @@ def _set(table: dict[str, Any], names: list[str], value: Any) -> None:
 
 def _with(inner: Any, rest: list[str], value: Any) -> dict[str, Any] | None:
     """Table with a value set; None where it is then empty."""
-    found = dict(inner) if isinstance(inner, Mapping) else {}
-    _set(found, rest, value)
-    return found or None
+    table = dict(inner) if isinstance(inner, Mapping) else {}
+    _set(table, rest, value)
+    return table or None
 
 
 def _set_in_list(tables: list[Any], number: int, rest: list[str], value: Any) -> None:
@@ -336,11 +336,11 @@ def _read(text: str) -> Any:
         return text
     try:
         refuse_long_keys(text)
-        found = tomllib.loads(f"value = {text}")
+        table = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         # Not TOML, or a number of thousands of digits.
         return text
-    return found["value"] if set(found) == {"value"} else text
+    return table["value"] if set(table) == {"value"} else text
 
 
 def _toml(value: Any) -> str:
@@ -364,7 +364,7 @@ def _name(name: str) -> str:
 
 def _quoted(text: str) -> str:
     """Text in the quotes of TOML."""
-    return '"' + _ESCAPED.sub(lambda found: f"\\u{ord(found[0]):04x}", text) + '"'
+    return '"' + _ESCAPED.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + '"'
 
 
 @dataclass(frozen=True)
@@ -411,13 +411,13 @@ def case_of_link(link: str) -> dict[str, Any] | None:
     {'bearing': {'base': '6208'}}
     """
     query = urlsplit(link.strip()).query
-    found = sweep_inputs(Inputs.of_query(parse_qsl(query, keep_blank_values=True)))
-    return None if found is None else dict(found.value("case"))
+    inputs = sweep_inputs(Inputs.of_query(parse_qsl(query, keep_blank_values=True)))
+    return None if inputs is None else dict(inputs.value("case"))
 
 
 def ranges_of(inputs: Inputs) -> list[Range]:
     """Ranges of the varied inputs, in the order of the design; lists of values are none."""
-    return [one for _, one in _varied_ranges(inputs) if isinstance(one, Range)]
+    return [varied for _, varied in _varied_ranges(inputs) if isinstance(varied, Range)]
 
 
 def lists_of(inputs: Inputs) -> dict[str, Any]:
@@ -445,9 +445,9 @@ def with_ranges(inputs: Inputs, ranges: list[Range]) -> Inputs:
     for key, value in _varied_ranges(inputs):
         if not isinstance(value, Range):
             varied[key] = value
-        elif (one := next(new, None)) is not None:
-            varied[one.key] = one.table()
-    varied |= {one.key: one.table() for one in new}
+        elif (new_range := next(new, None)) is not None:
+            varied[new_range.key] = new_range.table()
+    varied |= {new_range.key: new_range.table() for new_range in new}
     without = inputs.changed({"vary": None})
     return without.changed({f"vary.{key}": value for key, value in varied.items()})
 
@@ -484,7 +484,7 @@ def with_shown(inputs: Inputs, key: str, solved: Inputs | None) -> Inputs:
     return inputs.changed({"show": key, name: samples})
 
 
-def same_sweep(one: Inputs, other: Inputs) -> bool:
+def same_sweep(first: Inputs, second: Inputs) -> bool:
     """Whether two sweeps have the same points in the same order.
 
     Examples
@@ -493,8 +493,8 @@ def same_sweep(one: Inputs, other: Inputs) -> bool:
     >>> same_sweep(with_ranges(Inputs(), ranges), with_ranges(Inputs(), ranges[::-1]))
     False
     """
-    orders = [list(Inputs(inputs.value("vary") or {}).flat()) for inputs in (one, other)]
-    return one == other and orders[0] == orders[1]
+    orders = [list(Inputs(inputs.value("vary") or {}).flat()) for inputs in (first, second)]
+    return first == second and orders[0] == orders[1]
 
 
 def number_of_text(text: str) -> str | int | float:

@@ -114,11 +114,11 @@ class Worker:
             return Raised(LostError("the server is being stopped"))
         self._pipe.send((function, values, tell is not None))
         while True:
-            told = self._pipe.recv()
-            if isinstance(told, Returned | Raised):
-                return told
+            message = self._pipe.recv()
+            if isinstance(message, Returned | Raised):
+                return message
             if tell is not None:
-                tell(*told)
+                tell(*message)
 
     def kill(self) -> None:
         """End the process now, with all that it started."""
@@ -190,7 +190,7 @@ def _serve(pipe: Any, bounds: Bounds) -> None:
             except Exception as error:
                 pipe.send(_fault(error))
                 continue
-            further = (lambda *told: pipe.send(told),) if reports else ()
+            further = (lambda *progress: pipe.send(progress),) if reports else ()
             _reply(pipe, _outcome(function, (*values, *further)))
 
 
@@ -219,8 +219,8 @@ def _fault(error: Exception) -> Raised:
 
     if is_out_of_memory(error):
         return Raised(LostError(out_of_memory(error)))
-    told = f"error in the program ({type(error).__name__}); the log of the server has the details"
-    return Raised(LostError(told), "".join(traceback.format_exception(error)))
+    message = f"error in the program ({type(error).__name__}); the log of the server has the details"
+    return Raised(LostError(message), "".join(traceback.format_exception(error)))
 
 
 def _prepare(bounds: Bounds) -> None:

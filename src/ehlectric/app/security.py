@@ -124,9 +124,9 @@ def with_bounded_bodies(inner: ASGIApp, most: int = MOST_BODY, at_once: int = MO
         if scope["type"] != "http":
             await inner(scope, receive, send)
             return
-        told = Headers(scope=scope).get("content-length", "0")
+        stated_size = Headers(scope=scope).get("content-length", "0")
         reason = f"A request has at most {most / 1e6:g} MB."
-        if not told.isdecimal() or int(told) > most:
+        if not stated_size.isdecimal() or int(stated_size) > most:
             await refuse(scope, receive, send, 413, reason)
             return
         read = 0
@@ -173,7 +173,7 @@ _PROGRAM = __name__.partition(".")[0]
 _LONGEST = 200
 
 
-def tell_in_one_line() -> None:
+def log_in_single_lines() -> None:
     """Make the loggers of the server report a message that cannot be read in one line."""
     for name in _LOGGERS:
         logger = logging.getLogger(name)
@@ -196,14 +196,14 @@ class _OneLine(logging.Filter):
 
 def _is_of_a_message(trace: TracebackType | None) -> bool:
     """Whether an error was raised where a message is read, and not in the code of the pages behind it."""
-    found = False
+    in_reader = False
     for path in _paths(trace):
         if path.parent.name in _READERS:
-            found = True
+            in_reader = True
         elif _PROGRAM in path.parts:
             # What guards requests comes before the message is read, and the pages come after.
-            found = False
-    return found
+            in_reader = False
+    return in_reader
 
 
 def _paths(trace: TracebackType | None) -> Iterator[PurePath]:

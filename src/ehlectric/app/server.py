@@ -19,7 +19,7 @@ from ehlectric.app.pages import PAGES
 from ehlectric.app.security import (
     MOST_PAGES,
     Guard,
-    tell_in_one_line,
+    log_in_single_lines,
     with_bounded_bodies,
     with_bounded_pages,
     with_policy,
@@ -62,7 +62,7 @@ def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable
         lifespan="on",
         timeout_graceful_shutdown=_GRACE,
     )
-    tell_in_one_line()
+    log_in_single_lines()
     _Server(config, ready).run(sockets=[listening])
 
 

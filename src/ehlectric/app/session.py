@@ -80,7 +80,7 @@ def new_file(given: str, folder: Path) -> str:
     return f"{SURFACES}/{name}"
 
 
-def own_file(name: str, folder: Path) -> Path | None:
+def session_file(name: str, folder: Path) -> Path | None:
     """Path of a file of the folder of a session; None where it is not there, or lies elsewhere.
 
     The name is judged before the file system is asked, and again where its links lead.
@@ -139,7 +139,7 @@ class Session:
 
     def path_of(self, file: str) -> Path | None:
         """Path of an uploaded file of this session; None where it has none of this name."""
-        return None if self._folder is None else own_file(file, self._folder)
+        return None if self._folder is None else session_file(file, self._folder)
 
     def name_of(self, file: str) -> str:
         """Name of a file as its user knows it."""

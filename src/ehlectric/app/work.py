@@ -288,11 +288,11 @@ class Work:
             late.cancel()
             self._idle.put_nowait(worker)
 
-        asked = loop.run_in_executor(self._threads, worker.ask, function, values)
+        future = loop.run_in_executor(self._threads, worker.ask, function, values)
         # Call and process end in time also where nobody waits for the answer any more.
         late = loop.call_later(self.limits.patience, end)
-        asked.add_done_callback(ended)
-        outcome = await asyncio.shield(asked)
+        future.add_done_callback(ended)
+        outcome = await asyncio.shield(future)
         if overdue.is_set():
             return Raised(LostError(f"the answer took longer than {self.limits.patience:g} s"))
         return outcome
@@ -331,15 +331,15 @@ class Work:
 
     async def _run(self, job: Job, worker: Worker) -> None:
         assert job.call is not None
-        asked = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, *job.call, job.report)
+        future = asyncio.get_running_loop().run_in_executor(self._threads, worker.ask, *job.call, job.report)
         try:
-            outcome = await asyncio.wait_for(asyncio.shield(asked), self.limits.seconds)
+            outcome = await asyncio.wait_for(asyncio.shield(future), self.limits.seconds)
         except TimeoutError:
             minutes = self.limits.seconds / 60.0
             job.end(
                 "failed", error=LostError(f"stopped: it took longer than the {readable(minutes)} min allowed")
             )
-            await asked
+            await future
         else:
             if isinstance(outcome, Returned):
                 job.end("done", result=outcome.result)

@@ -7,7 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.compute.answer_parts import case_of, drive_of, kind_of, names_in, sweep_of, with_own_files
+from ehlectric.app.compute.answer_parts import (
+    case_of,
+    drive_of,
+    kind_of,
+    names_in,
+    sweep_of,
+    with_session_files,
+)
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.errors import InputError
 from tests.helpers.each import each
@@ -125,7 +132,7 @@ def test_no_other_text_of_a_case_opens_a_file(name):
 def test_refusal_reads_nothing(folder):
     OPENED.clear()
     with pytest.raises(InputError):
-        with_own_files(rough("/etc/passwd"), folder)
+        with_session_files(rough("/etc/passwd"), folder)
     assert "/etc/passwd" not in OPENED
 
 

@@ -19,7 +19,7 @@ from ehlectric.app.roughness_keys import (
     PLACE_KEYS,
     STEP_KEYS,
 )
-from ehlectric.app.session import new_file, own_file, shown_name, stored_name
+from ehlectric.app.session import new_file, session_file, shown_name, stored_name
 from ehlectric.cases.roughness_inputs import GENERATORS, Roughness
 from ehlectric.commands.command_line import app
 from ehlectric.errors import InputError
@@ -274,8 +274,8 @@ def test_uploads_have_new_names_in_the_folder_of_the_session(tmp_path):
     (tmp_path / "surfaces" / "surface-1.csv").touch()
     name = new_file("a scan.x3p", tmp_path)
     assert name == "surfaces/surface-2.x3p"
-    assert own_file(name, tmp_path) == tmp_path / name
+    assert session_file(name, tmp_path) == tmp_path / name
     # The next upload of the same request comes before the first one is stored.
     assert new_file("a scan.x3p", tmp_path) == "surfaces/surface-3.x3p"
-    assert own_file("../surfaces/surface-2.x3p", tmp_path / "surfaces") is not None
-    assert own_file("../surface-2.x3p", tmp_path / "surfaces") is None
+    assert session_file("../surfaces/surface-2.x3p", tmp_path / "surfaces") is not None
+    assert session_file("../surface-2.x3p", tmp_path / "surfaces") is None

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers import SEVERITIES, Line, Number, PageWarning
-from ehlectric.app.session import own_file
+from ehlectric.app.session import session_file
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS
@@ -38,7 +38,11 @@ def cards(rows: Iterable[Row], keys: Mapping[str, Iterable[str]]) -> list[Number
     numbers = []
     for key, further in keys.items():
         head, star, tail = key.partition("*")
-        matching = [one for one in reversed(known) if star and one.startswith(head) and one.endswith(tail)]
+        matching = [
+            known_key
+            for known_key in reversed(known)
+            if star and known_key.startswith(head) and known_key.endswith(tail)
+        ]
         if key in known or matching:
             number = card(known[matching[0] if matching else key])
             below = (f"{known[name].name} {known[name].amount}" for name in further if name in known)
@@ -80,8 +84,8 @@ def concerned(key: str) -> str:
 def with_warnings(numbers: Iterable[Number], warnings: Sequence[PageWarning]) -> tuple[Number, ...]:
     """Numbers with the warnings that concern them."""
     return tuple(
-        replace(one, warnings=tuple(each for each in warnings if concerned(one.key) in each.concerns))
-        for one in numbers
+        replace(number, warnings=tuple(each for each in warnings if concerned(number.key) in each.concerns))
+        for number in numbers
     )
 
 
@@ -113,14 +117,14 @@ def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
     """
     if kind_of(table) == "drive":
         raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
-    return case_of_dict(with_own_files(table, folder), written=True)
+    return case_of_dict(with_session_files(table, folder), written=True)
 
 
 def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
     """Drive from the tables of a page; see ``case_of``. Its waveform must be in the folder. Raises InputError
     if the tables are no valid drive, or name another file.
     """
-    return DriveCase.from_written(with_own_files(table, folder))
+    return DriveCase.from_written(with_session_files(table, folder))
 
 
 def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
@@ -132,7 +136,7 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
     """Sweep from the tables of a page; see ``case_of``. Raises InputError if the tables are no valid sweep,
     or name another file.
     """
-    return Sweep.from_written(with_own_files(table, folder))
+    return Sweep.from_written(with_session_files(table, folder))
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:
@@ -140,13 +144,13 @@ def kind_of(table: Mapping[str, Any]) -> FileKind:
     return kind_of_tables(table) or "contact"
 
 
-def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
+def with_session_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
     """Tables in which the names of files are paths in the folder of a session. ``folder``, folder of the
     session; None where it has no files. Raises InputError if a file is not there, or lies elsewhere.
     """
 
     def located(key: str, name: str) -> str:
-        path = None if folder is None or key in _CASES else own_file(name, folder)
+        path = None if folder is None or key in _CASES else session_file(name, folder)
         if path is None:
             takes = "its tables" if key in _CASES else "a file that was uploaded in this tab"
             raise InputError(key, got=shown(name), takes=takes)
@@ -157,20 +161,20 @@ def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, A
 
 def with_names(table: Mapping[str, Any], change: Change) -> dict[str, Any]:
     """Copy of tables in which every name of a file is changed; ``change`` gets its key and the name."""
-    found: dict[str, Any] = _changed("", table, change)
-    return found
+    changed: dict[str, Any] = _changed("", table, change)
+    return changed
 
 
 def names_in(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Keys of tables that name a file, each with the name."""
-    found: list[tuple[str, str]] = []
+    names: list[tuple[str, str]] = []
 
     def collect(key: str, name: str) -> str:
-        found.append((key, name))
+        names.append((key, name))
         return name
 
     with_names(table, collect)
-    yield from found
+    yield from names
 
 
 def _changed(key: str, value: Any, change: Change) -> Any:
@@ -197,8 +201,10 @@ def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
 
 def page_warnings_of(warnings: Iterable[ResultWarning]) -> tuple[PageWarning, ...]:
     """Warnings of a result with the keys of the quantities that they concern, the severe ones first."""
-    found = []
-    for one in dict.fromkeys(warnings):
-        about = CODES[one.code]
-        found.append(PageWarning(one.code, one.severity, one.text, about.concerns, about.meaning))
-    return tuple(sorted(found, key=lambda warning: SEVERITIES.index(warning.severity)))
+    page_warnings = []
+    for warning in dict.fromkeys(warnings):
+        about = CODES[warning.code]
+        page_warnings.append(
+            PageWarning(warning.code, warning.severity, warning.text, about.concerns, about.meaning)
+        )
+    return tuple(sorted(page_warnings, key=lambda warning: SEVERITIES.index(warning.severity)))

@@ -116,18 +116,22 @@ def shown_numbers(
     """
     rows = {row.key: row for row in total_rows(summary)}
     missing = _missing(summary, rows, whole=whole)
-    known = {one.key: one for one in cards(rows.values(), BEARING_CARDS)} | missing
+    known = {number.key: number for number in cards(rows.values(), BEARING_CARDS)} | missing
     ranged = not whole and bool(summary["inputs"].get("ranges"))
-    found = []
+    numbers = []
     for key in (key for key in BEARING_CARDS if key in known):
         follows = RANGE_FOLLOWS if ranged and key == "bearing.margin" else ""
         note = "; ".join(filter(None, [follows, known[key].note]))
-        near = tuple(one for one in concerning(warnings, key) if known[key].known or one.code not in _BOUNDS)
+        near = tuple(
+            warning
+            for warning in concerning(warnings, key)
+            if known[key].known or warning.code not in _BOUNDS
+        )
         number = replace(known[key], note=note, warnings=near)
         if number.known and not summary["converged"]:
             number = replace(number, bound="", note=UNUSABLE, known=False)
-        found.append(number)
-    return tuple(found)
+        numbers.append(number)
+    return tuple(numbers)
 
 
 def _missing(summary: Mapping[str, Any], rows: Mapping[str, Row], *, whole: bool) -> dict[str, Number]:
@@ -219,20 +223,20 @@ def contacts_table(summary: Mapping[str, Any]) -> Table:
 
 def differences(quick: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
     """Differences of the numbers of a solved bearing from the quick ones, from their summaries."""
-    before, after = ({row.key: row for row in total_rows(one)} for one in (quick, solved))
-    found = ((before.get(key), after.get(key)) for key in DIFFERENCES)
-    return tuple(_difference(*pair, quick["bearing"]["contacts"]) for pair in found if any(pair))
+    before, after = ({row.key: row for row in total_rows(summary)} for summary in (quick, solved))
+    pairs = ((before.get(key), after.get(key)) for key in DIFFERENCES)
+    return tuple(_difference(*pair, quick["bearing"]["contacts"]) for pair in pairs if any(pair))
 
 
 def _difference(quick: Row | None, solved: Row | None, way: Contacts) -> Difference:
     either = quick or solved
     assert either is not None
-    before, after = (None if one is None else one.value for one in (quick, solved))
+    before, after = (None if row is None else row.value for row in (quick, solved))
     if isinstance(before, float) and isinstance(after, float):
         change = f"{100.0 * (after / before - 1.0):+.1f} %"
     else:
         change = f"only {HOW[way]}" if isinstance(before, float) else "only solved"
-    texts = ["none" if one is None else one.amount for one in (quick, solved)]
+    texts = ["none" if row is None else row.amount for row in (quick, solved)]
     return Difference(either.name, texts[0], texts[1], change, way)
 
 
@@ -373,9 +377,9 @@ def answer_of(
     if whole and result.converged:
         points, left_out = over_speed(result.case, own_ratio=summary["bearing"]["lambda_ratio"])
         warnings += tuple(left_out)
-        own = (result.case.bearing.inner_speed, summary)
+        at_case = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)
-        over = OverSpeed.of(points, own)
+        over = OverSpeed.of(points, at_case)
         figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
     placed = limited_to(page_warnings_of(warnings), BEARING_CARDS)
     return BearingAnswer(
@@ -457,22 +461,22 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
 
 def _gaps(around: Mapping[str, Around]) -> str:
     """Sentence about contacts without load, which have a gap in place of a film."""
-    found = []
+    texts = []
     for name, ring in around.items():
         gaps = [film for film, on in zip(ring.film, ring.loaded, strict=True) if not on]
         if gaps:
-            found.append(f"{name} ring up to {amount(max(gaps), 'm')}")
-    if not found:
+            texts.append(f"{name} ring up to {amount(max(gaps), 'm')}")
+    if not texts:
         return "All elements are loaded by both rings."
-    return f"Elements without load have a gap in place of a film, not drawn: {', '.join(found)}."
+    return f"Elements without load have a gap in place of a film, not drawn: {', '.join(texts)}."
 
 
 def _around(result: BearingResult) -> dict[str, Around]:
     """Contacts of all elements at all positions of the cage, by the name of the ring."""
     positions = result.solution.positions
     rows = result.solution.conditions.geometry.groups
-    angle, order = around_in_rows([one.equilibrium.position for one in positions], rows)
-    found = {}
+    angle, order = around_in_rows([position.equilibrium.position for position in positions], rows)
+    by_ring = {}
     for name in ("inner", "outer"):
         rings = [getattr(position, name) for position in positions]
         load, film, loaded = (
@@ -483,8 +487,8 @@ def _around(result: BearingResult) -> dict[str, Around]:
                 [ring.solved for ring in rings],
             )
         )
-        found[name] = Around(angle[order].tolist(), load, film, loaded, rows)
-    return found
+        by_ring[name] = Around(angle[order].tolist(), load, film, loaded, rows)
+    return by_ring
 
 
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
@@ -493,12 +497,12 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     table = Table(f"Bearing over its speed, {over.contacts}{how}", SPEED_HEADS, tuple(speed_rows(over)))
     names = {"first_break": "first breakdown", "shaft_voltage": "shaft voltage"}
     drawn = {name: key for key, name in names.items() if np.any(np.isfinite(over.curves[key]))}
-    found = {}
+    figures = {}
     if drawn:
         breaks = "first breakdown" in drawn
         ideal = "bearing.first_break" in bearing_bounds(BEARING_BOOK, over.own[1])
         label = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
-        found["breakdown"] = Figure(
+        figures["breakdown"] = Figure(
             "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
             f"{label[0].upper()}{label[1:]} over the speed of the inner ring",
             breakdown_figure(over),
@@ -506,7 +510,7 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
             f"{'Breakdown voltages are upper bounds, with' if breaks and ideal else 'With'} "
             f"{over.contacts}{_scaled(over, drawn)}.",
         )
-    found["capacitance"] = Figure(
+    figures["capacitance"] = Figure(
         "Capacitance over speed",
         "Capacitance over the speed of the inner ring, with its range from air to oil around the films",
         capacitance_figure(over),
@@ -514,7 +518,7 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
         f"{'An upper bound, with' if bound else 'With'} {over.contacts}"
         f"{_scaled(over, {'capacitance': 'capacitance'})}.",
     )
-    return found
+    return figures
 
 
 def _is_solved(over: OverSpeed) -> bool:

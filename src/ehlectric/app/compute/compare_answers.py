@@ -98,8 +98,8 @@ def _over_speed(case: BearingCase, summary: Mapping[str, Any]) -> Iterator[OverS
         speed, voltage = curves.between(key)
         yield OverSpeed(
             BEARING_BOOK[f"bearing.{key}"].label,
-            tuple(rpm(float(one)) for one in speed),
-            tuple(float(one) if math.isfinite(one) else None for one in voltage),
+            tuple(rpm(float(value)) for value in speed),
+            tuple(float(value) if math.isfinite(value) else None for value in voltage),
             (rpm(at), summary["bearing"][key]),
         )
 

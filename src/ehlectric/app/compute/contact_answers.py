@@ -84,17 +84,17 @@ def by_formula(case: Case) -> ContactAnswer:
     verdict = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
     formula = BREAKDOWN_FORMULAS[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
-    told = page_warnings_of(meaning.warnings)
+    warnings = page_warnings_of(meaning.warnings)
     moving = case.motion is not None
     return ContactAnswer(
         title=meaning.title,
         verdict=verdict,
         meaning=meaning_of(verdict),
         how=_TEXTS["moving" if moving else "by_formula"],
-        shown=with_warnings(cards(meaning.rows, keys), told),
+        shown=with_warnings(cards(meaning.rows, keys), warnings),
         deciding=deciding(deciding_by_formula(case, verdict), verdict, case.electric.voltage),
         lines=lines_of(meaning.rows),
-        warnings=told,
+        warnings=warnings,
         solvable=not moving,
         solved=False,
     )
@@ -178,7 +178,7 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
     """Answer of a solved contact."""
     rows, verdict = result_rows(result), _verdict(result)
     large = TOUCHING_CARDS if result.spots is not None else CONTACT_CARDS
-    told = page_warnings_of(result.warnings)
+    warnings = page_warnings_of(result.warnings)
     shown = [*(cards(rows, large) if result.converged else ()), *cards(rows, SPOT_CARDS)]
     whole = result if isinstance(result, PointResult) and result.converged else None
     drawn = point_figures(result) if isinstance(result, PointResult) else line_figures(result)
@@ -190,7 +190,7 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
         verdict=verdict,
         meaning=meaning_of(verdict),
         how="Solved." if result.converged else "Not converged.",
-        shown=with_warnings(shown, told),
+        shown=with_warnings(shown, warnings),
         deciding=deciding(
             "discharge.margin" if verdict.interval else known,
             verdict,
@@ -198,7 +198,7 @@ def answer_of(result: Result | PointResult) -> ContactAnswer:
             next(iter(drawn), ""),
         ),
         lines=lines_of(rows),
-        warnings=told,
+        warnings=warnings,
         figures=drawn,
         solvable=False,
         solved=True,

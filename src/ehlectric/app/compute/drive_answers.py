@@ -63,19 +63,21 @@ def drive_numbers(summary: Summary, sheet: Sheet, warnings: tuple[PageWarning, .
     keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
     if _BREAKDOWN not in ends:  # Ceramic elements insulate.
         keys.remove(_BREAKDOWN)
-    found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
+    numbers = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
     if not summary.get("converged", True):
-        found = [replace(one, note=UNUSABLE, known=False) for one in found]
-    return tuple(replace(one, warnings=concerning(warnings, one.key)) for one in found)
+        numbers = [replace(number, note=UNUSABLE, known=False) for number in numbers]
+    return tuple(replace(number, warnings=concerning(warnings, number.key)) for number in numbers)
 
 
 def merged(warnings: Iterable[PageWarning]) -> tuple[PageWarning, ...]:
     """Warnings of which those of one code, as of both bearings, are one with both texts."""
-    found: dict[str, PageWarning] = {}
-    for one in warnings:
-        before = found.get(one.code)
-        found[one.code] = one if before is None else replace(before, text=f"{before.text}. {one.text}")
-    return tuple(found.values())
+    by_code: dict[str, PageWarning] = {}
+    for warning in warnings:
+        before = by_code.get(warning.code)
+        by_code[warning.code] = (
+            warning if before is None else replace(before, text=f"{before.text}. {warning.text}")
+        )
+    return tuple(by_code.values())
 
 
 def ends_table(summary: Summary, sheet: Sheet) -> Table:
@@ -96,7 +98,7 @@ def remedies_table(summary: Mapping[str, Any]) -> Table | None:
 
 def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
     """Rows of both bearings by key."""
-    pairs = [pair for _, found in side_by_side(summary, sheet) for pair in found]
+    pairs = [pair for _, group in side_by_side(summary, sheet) for pair in group]
     return {next(row.key for row in pair if row is not None): pair for pair in pairs}
 
 
@@ -135,19 +137,19 @@ def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
     places = [*NAMES_OF_ENDS.values()]
     order = slice(None, None, -1) if key == _RATE and _worse(pairs) else slice(None)
     first, second = pairs.get(key, (None, None))[order]
-    beside_it = [pairs[other][order] for other in DRIVE_CARDS[key] if other in pairs]
-    one, other = (
-        "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
+    small_pairs = [pairs[other][order] for other in DRIVE_CARDS[key] if other in pairs]
+    note, other_note = (
+        "; ".join(_texts(row, [pair[k] for pair in small_pairs])) for k, row in enumerate((first, second))
     )
     if first is None and second is None:
         return unknown(key, DRIVE_BOOK[key], "none")
     number = card(first) if first is not None else unknown(key, DRIVE_BOOK[key], "none")
-    if first is not None and second is not None and (first.text, one) == (second.text, other):
-        return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
+    if first is not None and second is not None and (first.text, note) == (second.text, other_note):
+        return replace(number, note="; ".join(filter(None, [note, "each of both bearings"])))
     place, further = places[order]
     value = "none" if second is None else second.amount
-    own = ", ".join(filter(None, [place, one]))
-    return replace(number, note=f"{own}; {further}: {', '.join(filter(None, [value, other]))}")
+    here = ", ".join(filter(None, [place, note]))
+    return replace(number, note=f"{here}; {further}: {', '.join(filter(None, [value, other_note]))}")
 
 
 def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
@@ -179,8 +181,8 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         raise InputError(key, got="films that have to be solved", takes="a simulation with solved contacts")
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
-    found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
-    warnings = merged(page_warnings_of(found))
+    raised = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
+    warnings = merged(page_warnings_of(raised))
     shown = drive_numbers(summary, DRIVE_CHECK, warnings)
     # The divider does not say how often, and with which energy, the bearings discharge.
     verdict = replace(expected(case, summary), assumptions=(Statement.of("not-simulated"),))
@@ -197,7 +199,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         deciding=Deciding("end.voltage_at_peak"),
         ends=ends_table(summary, DRIVE_CHECK),
         lines=lines_of(prepared_rows(summary)),
-        warnings=limited_to(warnings, {one.key for one in shown}),
+        warnings=limited_to(warnings, {number.key for number in shown}),
     )
 
 
@@ -211,14 +213,14 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     case = drive_of(table, session)
     progress(0, 0, _SOLVING if _is_solved(case) else SIMULATING)
 
-    def told_percent(done: int, of: int, text: str) -> None:
+    def report_percent(done: int, of: int, text: str) -> None:
         if text == SIMULATING:
             progress(done, of, "percent simulated")
         else:
             progress(0, 0, text)
 
     # A core is left for the pages.
-    outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
+    outcome = run_drive(case, folder, report_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
     warnings = merged(page_warnings_of(outcome.warnings))
     shown = drive_numbers(summary, DRIVE, warnings)
@@ -235,7 +237,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
         deciding=deciding_rate(summary, figures),
         ends=ends_table(summary, DRIVE),
         lines=lines_of(drive_rows(summary)),
-        warnings=limited_to(warnings, {one.key for one in shown}),
+        warnings=limited_to(warnings, {number.key for number in shown}),
         remedies=remedies_table(summary),
         figures=figures,
         seconds=summary["seconds"],
@@ -243,4 +245,4 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
 
 
 def _is_solved(case: DriveCase) -> bool:
-    return any(one.contacts == "solved" for one in case.bearings)
+    return any(bearing.contacts == "solved" for bearing in case.bearings)

@@ -8,7 +8,7 @@ from typing import Any
 
 from ehlectric.app.answers import DutyAnswer, Figure, Table
 from ehlectric.app.charts.duty_charts import DUTY_HEADS, MOST_DUTY_ROWS, duty_figure, duty_rows
-from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_own_files
+from ehlectric.app.compute.answer_parts import lines_of, page_warnings_of, with_session_files
 from ehlectric.bearing.duty_cycle import DutyResult
 from ehlectric.cases.duty_inputs import read_cycle
 from ehlectric.cases.measurements import void_rows
@@ -27,7 +27,7 @@ def look(file: str, session: Path) -> str:
 
     Raises InputError where the file is no duty cycle.
     """
-    cycle = read_cycle(with_own_files({"duty": {"file": file}}, session)["duty"]["file"])
+    cycle = read_cycle(with_session_files({"duty": {"file": file}}, session)["duty"]["file"])
     names = ", ".join(name.replace("_", " ").replace("common mode", "common-mode") for name in cycle.values)
     text = f"{cycle.time.size} rows over {readable(cycle.time[-1] - cycle.time[0], 6)} s: {names}."
     text += f" Ignored: {', '.join(cycle.ignored)}." if cycle.ignored else ""
@@ -58,10 +58,10 @@ def shown_duty(duty: DutyResult, summary: Mapping[str, Any]) -> DutyAnswer:
 
 def _stretches_table(summary: Mapping[str, Any]) -> Table | None:
     """Table of the worst stretches, the worst first; None without any."""
-    found = summary["duty"]["stretches"]
-    if not found:
+    stretches = summary["duty"]["stretches"]
+    if not stretches:
         return None
-    margins = found[0]["least_margin"] is not None
+    margins = stretches[0]["least_margin"] is not None
     value = "least_margin" if margins else "lambda_ratio"
     keys = [f"{_STRETCH}.{name}" for name in ("start", "end", value, "time", "speed", "why")]
     bounds = bearing_bounds(BEARING_BOOK, summary)
@@ -69,7 +69,7 @@ def _stretches_table(summary: Mapping[str, Any]) -> Table | None:
     return Table(
         f"Worst stretches with a {limit}, the worst first",
         tuple(_head(BEARING_BOOK[key]) for key in keys),
-        tuple(tuple(_cells(one, keys, bounds)) for one in found),
+        tuple(tuple(_cells(stretch, keys, bounds)) for stretch in stretches),
     )
 
 

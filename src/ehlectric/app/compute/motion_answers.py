@@ -63,20 +63,20 @@ def _place(case: Case, folder: str) -> Path:
 
 def _answer(place: Path, failure: str) -> MotionAnswer:
     dataset = read_motion(place)
-    found = MotionResult.of(dataset)
-    chosen = instants(found)
-    summary = found.summary()
+    result = MotionResult.of(dataset)
+    chosen = instants(result)
+    summary = result.summary()
     return MotionAnswer(
-        title=found.case.title,
-        complete=found.complete,
+        title=result.case.title,
+        complete=result.complete,
         failure=failure,
-        of=found.frames,
-        movie=movie(found, chosen),
-        history=history(found),
-        times=tuple((units(found)["time"][0] * found.frame_time[chosen]).tolist()),
-        texts=tuple(texts(found, chosen)),
-        at_least_film=int(np.argmin(least_films(found)[chosen])),
-        at_largest_field=int(np.argmax(found.values("max_strength")[chosen])),
+        of=result.frames,
+        movie=movie(result, chosen),
+        history=history(result),
+        times=tuple((units(result)["time"][0] * result.frame_time[chosen]).tolist()),
+        texts=tuple(texts(result, chosen)),
+        at_least_film=int(np.argmin(least_films(result)[chosen])),
+        at_largest_field=int(np.argmax(result.values("max_strength")[chosen])),
         rows=tuple((row.name, row.text) for row in run_rows(summary)),
         warnings=page_warnings_of(warnings_of(summary)),
         folder=str(place),

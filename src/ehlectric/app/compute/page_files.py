@@ -127,12 +127,14 @@ def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
 
 def _main(contents: Mapping[str, bytes]) -> tuple[str, dict[str, Any]]:
     """Name and tables of the case among uploaded files: of a sweep or a drive, not of what it names."""
-    found = [(name, _tables(name, contents[name])) for name in contents if name.lower().endswith(".toml")]
-    if not found:
+    cases = [(name, _tables(name, contents[name])) for name in contents if name.lower().endswith(".toml")]
+    if not cases:
         raise InputError("files", got=shown(", ".join(contents)), takes="a case in a .toml file")
     # A sweep names its case, and a drive its bearings.
     order = ("sweep", "drive")
-    return min(found, key=lambda one: order.index(kind) if (kind := kind_of(one[1])) in order else len(order))
+    return min(
+        cases, key=lambda case: order.index(kind) if (kind := kind_of(case[1])) in order else len(order)
+    )
 
 
 def _tables(name: str, content: bytes) -> dict[str, Any]:
@@ -163,8 +165,8 @@ def _missing(table: Mapping[str, Any], contents: Mapping[str, bytes], folder: Pa
 
 def _file_at(table: Mapping[str, Any], end: str) -> Any:
     """Name of the bearing file at an end of a drive; None where it has the tables."""
-    own = table.get(end)
-    return own.get("file") if isinstance(own, Mapping) else None
+    bearing = table.get(end)
+    return bearing.get("file") if isinstance(bearing, Mapping) else None
 
 
 def _plain(key: str, path: str) -> str:

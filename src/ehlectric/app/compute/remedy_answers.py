@@ -60,7 +60,7 @@ def _answer(
         voltage = grounded_voltage(result.solution, ring, variant.source.rise_time or 0.0)
         other = at_shaft_voltage(summary, voltage or 0.0)
         other_verdict = grounded_verdict(other["bearing"]["margin"])
-    now, then = (_texts(one, whole=whole) for one in (summary, other))
+    now, then = (_texts(numbers, whole=whole) for numbers in (summary, other))
     for key, same in _WITHOUT_COATING.items():
         if key in then and same in now:
             now.setdefault(key, now[same])
@@ -82,7 +82,7 @@ def _numbers(result: BearingResult, *, whole: bool) -> tuple[Summary, Verdict]:
 
 def _texts(summary: Summary, *, whole: bool) -> dict[str, str]:
     """Texts of the numbers of a bearing by key; those that follow with the whole answer are pending."""
-    found = {row.key: row.amount for row in total_rows(summary)}
+    texts = {row.key: row.amount for row in total_rows(summary)}
     if whole or summary["bearing"]["margin"] is None:
-        return found
-    return {key: PENDING for key in REMEDIED if not key.startswith("bearing.")} | found
+        return texts
+    return {key: PENDING for key in REMEDIED if not key.startswith("bearing.")} | texts

@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlectric.app.answers import PageWarning, StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.charts.surface_charts import line_figure, map_figure, profile_figure
-from ehlectric.app.compute.answer_parts import page_warnings_of, with_own_files
+from ehlectric.app.compute.answer_parts import page_warnings_of, with_session_files
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry
@@ -116,17 +116,17 @@ def look(
     or its file cannot be used, with the line of ``ehlectric surface``; keys of the table are preceded by
     ``roughness.``.
     """
-    found = table
+    roughness = table
     try:
         still = {key: value for key, value in case.items() if key not in ("motion", "roughness")}
-        whole = with_own_files({**still, "roughness": [table]}, Path(folder))
-        found = whole["roughness"][0]
-        for told in progress:
-            told(0, 0, "reading the surface")
+        whole = with_session_files({**still, "roughness": [table]}, Path(folder))
+        roughness = whole["roughness"][0]
+        for report in progress:
+            report(0, 0, "reading the surface")
         with _bounded_memory():
-            return _look(found, whole)
+            return _look(roughness, whole)
     except InputError as error:
-        raise _named(error, found, name) from None
+        raise _named(error, roughness, name) from None
 
 
 def _look(table: Mapping[str, Any], case: Mapping[str, Any]) -> SurfaceAnswer:
@@ -158,11 +158,11 @@ class _Contact:
 
     def warnings(self) -> tuple[PageWarning, ...]:
         spacings = spacings_of(self.case, self.conditions)
-        found = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
+        warnings = surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
         table, rough = self.case.roughness[0], self.rough[0]
         # The formula that holds in all regimes.
         thin = too_rough(table, rough, formulas_of(self.conditions)[FORMULA[self.case.contact.geometry]])
-        shown = tuple(plainly(one, table, rough, self.domain) for one in page_warnings_of(found))
+        shown = tuple(plainly(warning, table, rough, self.domain) for warning in page_warnings_of(warnings))
         return shown if thin is None else (thin, *shown)
 
 

@@ -173,7 +173,7 @@ def _without_code(warning: PageWarning) -> PageWarning:
 
     Its text says all that the meaning of its own code does.
     """
-    return replace(warning, meaning="", text=_CODE.sub(lambda found: f"{found[1]}: ", warning.text))
+    return replace(warning, meaning="", text=_CODE.sub(lambda match: f"{match[1]}: ", warning.text))
 
 
 _CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
@@ -194,10 +194,10 @@ def _values(results: SweepResults) -> dict[str, str]:
     """Names of the numbers that points have; those without a name are no results to look at."""
     documented = result_keys(results.case)
     some = replace(results, points=tuple(point for point in results.points if point.solved)[:_SAMPLE])
-    found = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
+    entries = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
     return {
         key: f"{about.label[0].upper()}{about.label[1:]}"
-        for key, about in found.items()
+        for key, about in entries.items()
         if about is not None and about.label
     }
 
@@ -433,10 +433,10 @@ def _drive_fields() -> dict[str, Field]:
 
 def _in_tables(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Values by the keys of the tables of a drive: those of both bearings at each end."""
-    found: dict[str, Any] = {}
+    by_key: dict[str, Any] = {}
     for key, value in values.items():
-        found |= {one: value for one in of_both_ends(key) if one == key or end_and_key(one)[0] in table}
-    return found
+        by_key |= {name: value for name in of_both_ends(key) if name == key or end_and_key(name)[0] in table}
+    return by_key
 
 
 def named(key: str, case: SweptCase) -> str:
@@ -453,10 +453,10 @@ _NAMES = {"bearing.lambda_ratio": "lambda ratio (minimum film / roughness)"}
 
 def _ends(text: str, value: float, key: str) -> tuple[str, str] | None:
     """Valid ends of a range around a value, in the unit in which it is written; None where there are none."""
-    found = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(.*)", text)
-    number, unit = (float(found[1]), found[2]) if found is not None else _in_si(value, key)
+    match = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(.*)", text)
+    number, unit = (float(match[1]), match[2]) if match is not None else _in_si(value, key)
     # An input that the file lacks is a dimension or a constant, which has less room than a load.
-    wide = [3.0] if found is not None else []
+    wide = [3.0] if match is not None else []
     for ratio in (*wide, 1.2):
         low, high = _around(number, unit, ratio)
         for ends in ((low, high), (low, number), (number, high)):
@@ -532,11 +532,11 @@ def solved(
 
 def is_stored(results: SweepResults, table: Mapping[str, Any]) -> bool:
     """Whether the stored sweep is that of the tables, with the varied inputs in the same order."""
-    asked = sweep_of(table)
+    requested = sweep_of(table)
     # A case compares by its file, whose numbers have all digits.
-    same = (results.design, results.case.to_toml()) == (asked.design, asked.case.to_toml())
-    axes = [[(key, list(axis)) for key, axis in one.axes.items()] for one in (results, asked)]
-    samples = asked.uncertainty_samples or 0
+    same = (results.design, results.case.to_toml()) == (requested.design, requested.case.to_toml())
+    axes = [[(key, list(axis)) for key, axis in sweep.axes.items()] for sweep in (results, requested)]
+    samples = requested.uncertainty_samples or 0
     return same and axes[0] == axes[1] and samples == results.uncertainty_samples
 
 
@@ -551,8 +551,8 @@ def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
         raise InputError("number", got=number, takes=f"from 0 to {len(results.points) - 1}")
     inputs, vary = results.points[number].inputs, table.get("vary", {})
     units = {key: _written_unit(vary, key) for key in inputs}
-    found = point_table(results.case, table["case"], inputs, units)
-    return SweepPoint(number, _PAGES[_kind_of_case(results.case)], Inputs(found).address())
+    tables = point_table(results.case, table["case"], inputs, units)
+    return SweepPoint(number, _PAGES[_kind_of_case(results.case)], Inputs(tables).address())
 
 
 def point_table(
@@ -568,17 +568,17 @@ def point_table(
 
     Raises InputError if the inputs of the point are no valid case.
     """
-    wanted = case.replace(inputs)
+    point_case = case.replace(inputs)
     changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
     texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
     set_keys(changed, _in_tables(table, texts) if isinstance(case, DriveCase) else texts)
     try:
-        if case_key(swept_case_of_dict(changed, written=True)) == case_key(wanted):
+        if case_key(swept_case_of_dict(changed, written=True)) == case_key(point_case):
             return changed
     except InputError:
         # As where a load replaces a Hertz pressure: the file must not have both.
         pass
-    return tomllib.loads(wanted.to_toml())
+    return tomllib.loads(point_case.to_toml())
 
 
 def _written_unit(vary: Mapping[str, Any], key: str) -> str:
@@ -586,8 +586,8 @@ def _written_unit(vary: Mapping[str, Any], key: str) -> str:
     value = vary.get(key, Inputs(vary).value(key))
     first = value.get("from") if isinstance(value, Mapping) else value
     first = first[0] if isinstance(first, list) and first else first
-    found = split(first) if isinstance(first, str) else None
-    return "" if found is None else found[1]
+    parts = split(first) if isinstance(first, str) else None
+    return "" if parts is None else parts[1]
 
 
 def _text(key: str, value: Any, unit: str = "") -> Any:

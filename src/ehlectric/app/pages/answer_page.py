@@ -179,8 +179,8 @@ class AnswerPage(Generic[A]):
 
     def _put(self, answer: A) -> None:
         self.view.show(answer)
-        named = [one for one in answer.shown if one.key in self.short and one.known]
-        texts = [f"{self.short[one.key] or one.name} {one.with_unit}" for one in named]
+        named = [number for number in answer.shown if number.key in self.short and number.known]
+        texts = [f"{self.short[number.key] or number.name} {number.with_unit}" for number in named]
         verdict = answer.verdict
         self._strip.show(verdict.level, verdict.heading, texts, bound=verdict.bound_note)
 

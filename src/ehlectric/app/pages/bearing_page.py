@@ -115,12 +115,14 @@ class BearingView(AnswerView[BearingAnswer]):
 def without_what_follows(answer: BearingAnswer) -> BearingAnswer:
     """Answer whose later parts are not computed, as after a wrong input."""
     numbers = []
-    for one in answer.shown:
-        note = one.note.removeprefix(RANGE_FOLLOWS).removeprefix("; ")
-        pending = one.text == PENDING
-        numbers.append(replace(one, text="none", note="not computed") if pending else replace(one, note=note))
+    for number in answer.shown:
+        note = number.note.removeprefix(RANGE_FOLLOWS).removeprefix("; ")
+        pending = number.text == PENDING
+        numbers.append(
+            replace(number, text="none", note="not computed") if pending else replace(number, note=note)
+        )
     # The range of the margin and the probability of breakdown.
-    reasons = tuple(one for one in answer.verdict.reasons if one.code not in _TO_FOLLOW)
+    reasons = tuple(reason for reason in answer.verdict.reasons if reason.code not in _TO_FOLLOW)
     return replace(
         answer,
         whole=True,
@@ -142,7 +144,7 @@ def differences_html(differences: Iterable[Difference]) -> str:
         return ""
     way = rows[0].way
     heads = ("", HOW[way], "solved", "solved differs by")
-    cells = tuple((one.name, one.quick, one.solved, one.change) for one in rows)
+    cells = tuple((row.name, row.quick, row.solved, row.change) for row in rows)
     return table_html(Table(f"Solved contacts compared with the {way}", heads, cells))
 
 

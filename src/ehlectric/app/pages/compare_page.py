@@ -44,7 +44,7 @@ from ehlectric.app.pages.frame import (
     session_of,
     show_address,
 )
-from ehlectric.app.pages.result_parts import FigureBox, Panel, behind, told
+from ehlectric.app.pages.result_parts import FigureBox, Panel, behind, note_html
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
@@ -72,9 +72,9 @@ def effects_table(effects: Sequence[Effect]) -> str:
 def _inputs(rows: Iterable[InputRow], labels: Mapping[str, str], test: str) -> str:
     body = ""
     for row in rows:
-        own = _quoted(f"input-{row.key.replace('.', '-')}")
+        test_id = _quoted(f"input-{row.key.replace('.', '-')}")
         body += (
-            f"<tr{' class=differs' if row.sign != '=' else ''} data-testid={own}>"
+            f"<tr{' class=differs' if row.sign != '=' else ''} data-testid={test_id}>"
             f"<th scope=row>{_named(labels.get(row.key, ''), row.key)}</th>"
             f"<td>{escape(row.first) or '–'}</td><td>{escape(row.second) or '–'}</td>"
             f"<td>{_SIGNS[row.sign]}</td></tr>"
@@ -123,8 +123,8 @@ def notes_html(first: Side, second: Side) -> str:
         ("Both, in the words of A", in_both(first, second)),
     )
     return "".join(
-        f"<h3>{words}: {counts(found)}</h3>{''.join(told(Note(one)) for one in found)}"
-        for words, found in parts
+        f"<h3>{words}: {counts(warnings)}</h3>{''.join(note_html(Note(warning)) for warning in warnings)}"
+        for words, warnings in parts
     )
 
 
@@ -174,8 +174,10 @@ def add(work: Work) -> None:
         given = [isinstance(inputs.value(name), Mapping) for name in _NAMES]
         if not all(given):
             # A link with one case compares it with itself.
-            one = next((inputs.value(name) for name, there in zip(_NAMES, given, strict=True) if there), None)
-            inputs = Inputs({"a": one, "b": one}) if one else _START
+            case = next(
+                (inputs.value(name) for name, there in zip(_NAMES, given, strict=True) if there), None
+            )
+            inputs = Inputs({"a": case, "b": case}) if case else _START
         page = ComparePage(session_of(work, inputs))
         ui.context.client.on_delete(page.close)
         with framed("Two cases side by side", _PATH):
@@ -311,8 +313,8 @@ class ComparePage:
 
     def refresh(self) -> asyncio.Task[None]:
         """Answer both cases at once, and then with their critical speeds."""
-        for one in self._answers:
-            one.classes(add="old")
+        for element in self._answers:
+            element.classes(add="old")
         return self._following.ask(self.session.inputs)
 
     def close(self) -> None:
@@ -326,25 +328,25 @@ class ComparePage:
 
     async def _whole(self, inputs: Inputs) -> Sides:
         """Answers with the critical speeds, one after the other: others need the processes, too."""
-        found: list[Side | Exception] = []
+        sides: list[Side | Exception] = []
         for name, quick in zip(_NAMES, self._quick or (None, None), strict=True):
             if inputs != self.session.inputs:
                 raise LostError("the inputs have changed")
             answer = await self._ask(COMPARE_WHOLE_SIDE, inputs, name)
             late = isinstance(answer, LostError) and isinstance(quick, Side)
-            found.append(replace(quick, method=_LATE) if late and isinstance(quick, Side) else answer)
-        return found[0], found[1]
+            sides.append(replace(quick, method=_LATE) if late and isinstance(quick, Side) else answer)
+        return sides[0], sides[1]
 
     def _refuse(self, error: Exception) -> None:
         """Say what is wrong with both cases together; the error of one case stands next to it."""
         self._notice.text = str(error)
         self._notice.set_visibility(True)
 
-    def _show(self, inputs: Inputs, found: Sides) -> None:
+    def _show(self, inputs: Inputs, sides: Sides) -> None:
         """Show the answers, and their differences where there are two."""
-        for name, answer in zip(_NAMES, found, strict=True):
+        for name, answer in zip(_NAMES, sides, strict=True):
             self._show_side(name, answer)
-        first, second = found
+        first, second = sides
         both = isinstance(first, Side) and isinstance(second, Side)
         self._notice.text = _EARLIER
         self._notice.set_visibility(not both)
@@ -374,16 +376,16 @@ class ComparePage:
 
     def _show_both(self, inputs: Inputs, first: Side, second: Side) -> None:
         """Show the differences of two answers."""
-        found = effects(first, second)
+        changes = effects(first, second)
         cases = [Inputs(inputs.value(name) or {}) for name in _NAMES]
         self._method.text = "; ".join(dict.fromkeys((first.method, second.method)))
-        self._effects.content = effects_table(found)
+        self._effects.content = effects_table(changes)
         self._inputs.content = inputs_table(input_rows(cases[0].table, cases[1].table), _labels(cases))
         for name, shown in drawn((first, second)).items():
             self._figures[name].show(shown)
         self._notes.content = notes_html(first, second)
-        for one in self._answers:
-            one.classes(remove="old")
+        for element in self._answers:
+            element.classes(remove="old")
 
 
 def _labels(sides: Iterable[Inputs]) -> dict[str, str]:

@@ -96,8 +96,8 @@ class CutsBox:
         self._choice = ui.element("div").classes("cut-choice")
         with ui.element("div").classes("figures"):
             self._figures = {name: FigureBox(name) for name in _CUTS}
-        for one in maps:
-            one.plot.on("plotly_click", self._clicked, js_handler=_PLACE)
+        for map_box in maps:
+            map_box.plot.on("plotly_click", self._clicked, js_handler=_PLACE)
 
     def show(self, answer: ContactAnswer) -> None:
         """Show the cuts of an answer; nothing where it has none."""
@@ -135,8 +135,8 @@ class CutsBox:
         # The shapes of the cuts on the maps are the third and the fourth.
         places = {f"shapes[2].{end}": down for end in ("y0", "y1")}
         places |= {f"shapes[3].{end}": across for end in ("x0", "x1")}
-        for one in self._maps:
-            one.plot.run_plot_method("relayout", places)
+        for map_box in self._maps:
+            map_box.plot.run_plot_method("relayout", places)
         try:
             cuts = await self._session.work.quick(CONTACT_CUTS, str(folder), x, y)
         except (InputError, LostError) as error:
@@ -257,10 +257,10 @@ class ContactPage(AnswerPage[ContactAnswer]):
 
     async def _switch(self, event: Any) -> None:
         """Change between line and point contact, with what both have."""
-        now, wanted = self.session.inputs, str(event.value)
-        if wanted != geometry_of(now):
+        now, geometry = self.session.inputs, str(event.value)
+        if geometry != geometry_of(now):
             self._other[geometry_of(now)] = now
-            self.go_to(switched(now, self._other.get(wanted) or contact_start(wanted)))
+            self.go_to(switched(now, self._other.get(geometry) or contact_start(geometry)))
 
     async def change(self, key: str, value: Any) -> None:
         """Take over a changed input, and answer."""

@@ -53,7 +53,7 @@ class Downloads:
     ) -> None:
         self.session, self._kind, self._folder = session, kind, folder
         self._made: tuple[Inputs, Written] | None = None
-        self._asked, self._job = session.inputs, Job("done")
+        self._requested, self._job = session.inputs, Job("done")
         self._then: Callable[[Path], Any] | None = None
         self._command: ui.element | None = None
         with (
@@ -69,7 +69,7 @@ class Downloads:
                     self._file_buttons()
                 for test, words, ending in _MADE:
                     if ending not in _OF_CONTACTS or kind == "contact":
-                        tool(words, test, partial(self._wanted, partial(self._convert, ending)))
+                        tool(words, test, partial(self._with_files, partial(self._convert, ending)))
             self._box = JobBox(session, self._ended, lambda error: self._tell(error=str(error)))
             self._status = ui.label().classes("told-status").props('role="status"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
@@ -80,7 +80,7 @@ class Downloads:
         """Buttons of the case and of the files of its result."""
         tool("Case (TOML)", "download-toml", self.toml)
         for test, words, what in _FILES:
-            tool(words, test, partial(self._wanted, partial(self._pack, what)))
+            tool(words, test, partial(self._with_files, partial(self._pack, what)))
 
     @property
     def title(self) -> str:
@@ -108,7 +108,7 @@ class Downloads:
         with self._command:
             ui.label(f"ehlectric {_COMMANDS[self._kind]} {self.title}.toml{options}")
 
-    async def _wanted(self, then: Callable[[Path], Any]) -> None:
+    async def _with_files(self, then: Callable[[Path], Any]) -> None:
         """Do something with the files of the present inputs, which are made first where there are none."""
         self.look()
         self._tell()
@@ -117,7 +117,7 @@ class Downloads:
             return
         there = self._folder()
         if there is not None:
-            self._asked = self.session.inputs
+            self._requested = self.session.inputs
             await then(there)
             return
         if self._made is not None and self._made[0] == self.session.inputs:
@@ -128,7 +128,7 @@ class Downloads:
             return
         # The folder of earlier files is written anew.
         self._made = None
-        self._then, self._asked = then, self.session.inputs
+        self._then, self._requested = then, self.session.inputs
         contacts = self._quick if self._kind == "bearing" else ""
         self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)
 
@@ -142,7 +142,7 @@ class Downloads:
         elif job.state == "cancelled":
             self._tell("Cancelled.")
         elif isinstance(job.result, Written):
-            self._made = (self._asked, job.result)
+            self._made = (self._requested, job.result)
             if job.result.failure:
                 self._tell(error=f"{job.result.failure}; the files say so, do not use these values")
             if self._then is not None:
@@ -152,7 +152,7 @@ class Downloads:
 
     async def _pack(self, what: Download, out: Path) -> None:
         """Download files of a folder of results, whose figures are drawn first where it has none."""
-        call = (out, what, dict(self._asked.table), self.title, self.session.folder)
+        call = (out, what, dict(self._requested.table), self.title, self.session.folder)
         if self._kind != "sweep" and what in _DRAWN and not any(out.glob("*.svg")):
             self._start(FILES_DRAWN, *call)
             return

@@ -73,8 +73,8 @@ class DriveView(AnswerView[DriveAnswer]):
         self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
         self._remedies.set_visibility(remedies is not None)
         self._ends.content = behind("Both bearings, as the command prints them", table_html(answer.ends))
-        beside = answer.deciding.figure
-        names = (name for name, key in _FURTHER.items() if key in answer.figures and key != beside)
+        leading = answer.deciding.figure
+        names = (name for name, key in _FURTHER.items() if key in answer.figures and key != leading)
         self._offered = {name: answer.figures[_FURTHER[name]] for name in names}
         self._further.set_visibility(bool(self._offered))
         self._choices.offer(self._offered)
@@ -111,10 +111,10 @@ class RemedyBox:
         """Show the remedies of the present inputs, as after an undo."""
         given = remedies_of(self._session.inputs)
         for title, (box, note, place) in self._boxes.items():
-            found = given.get(title)
-            changes = changes_of(self._session.inputs, title) if found is None else found
+            applied = given.get(title)
+            changes = changes_of(self._session.inputs, title) if applied is None else applied
             place.set_visibility(changes is not None)
-            box.set_value(found is not None)
+            box.set_value(applied is not None)
             note.text = _text(changes or {})
         self._others.clear()
         with self._others:

@@ -12,7 +12,7 @@ from ehlectric.app.answers import DutyAnswer, Note
 from ehlectric.app.calls import DUTY_LOOK
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
-from ehlectric.app.pages.result_parts import FigureBox, table_html, told
+from ehlectric.app.pages.result_parts import FigureBox, note_html, table_html
 from ehlectric.app.session import LARGEST, Session
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
@@ -48,7 +48,7 @@ class DutyField:
         self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]], kind: str
     ) -> None:
         self._session, self._change = session, change
-        self._found: dict[str, str] = {}  # sentences about files that were looked at
+        self._sentences: dict[str, str] = {}  # sentences about files that were looked at
         self._last: str | None = None  # file that was shown last
         title, given, to_result = "Duty cycle", self.file is not None, _TO_RESULT.format(_PLACES[kind])
         with (
@@ -87,12 +87,12 @@ class DutyField:
             self._group.turn(opened=True)
         self._last = file
         say(self._error, "")
-        for one in self._of_cycle:
-            one.set_visibility(file is not None)
+        for element in self._of_cycle:
+            element.set_visibility(file is not None)
         if file is None:
             say(self._used, "")
             return
-        about, name = self._found.get(file), self._session.name_of(file)
+        about, name = self._sentences.get(file), self._session.name_of(file)
         what = f"{name}: {about}" if about else f"The file is {name}."
         say(self._used, f"{what} {NOT_IN_LINKS}")
         if self.lost:
@@ -127,7 +127,7 @@ class DutyField:
     async def _take(self, name: str) -> None:
         """Put an uploaded file into the inputs, if it is a duty cycle."""
         try:
-            self._found[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
+            self._sentences[name] = await self._session.work.quick(DUTY_LOOK, name, self._session.folder)
         except (InputError, LostError) as error:
             self._tell(self._with_name(str(error), name))
             return
@@ -163,8 +163,8 @@ class DutyView:
         self._lines.content = lines_html(
             answer.lines, "Numbers of the duty cycle, as the command prints them"
         )
-        named = (replace(one, text=name(one.text)) for one in answer.warnings)
-        self._warnings.content = "".join(told(Note(one)) for one in named)
+        named = (replace(warning, text=name(warning.text)) for warning in answer.warnings)
+        self._warnings.content = "".join(note_html(Note(warning)) for warning in named)
         self.figure.show(answer.figure)
         stretches = answer.stretches
         self._stretches.content = "" if stretches is None else table_html(stretches)

@@ -26,7 +26,7 @@ from ehlectric.quantities.units import printed
 Change = Callable[[str, Any], Awaitable[None]]
 
 # Value in a list that stands for values of one's own.
-_OWN = "~own"
+_CUSTOM = "~own"
 
 
 class Form:
@@ -78,11 +78,13 @@ class Form:
         key = error.key if isinstance(error, InputError) else None
         field = None if key is None else self._field_of(key)
         exact = field is not None and field.key == key
-        own = in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
-        text = own if exact else "" if error is None else str(error)
+        field_text = (
+            in_field_unit(field, error.text) if field is not None and isinstance(error, InputError) else ""
+        )
+        text = field_text if exact else "" if error is None else str(error)
         self.wrong = field
-        for one, control in self._controls:
-            control.show(error=text if one is field else "", shown=self._is_shown(one))
+        for other, control in self._controls:
+            control.show(error=text if other is field else "", shown=self._is_shown(other))
         say(self.message, "" if field is not None else text)
         if field is not None:
             title = self._group_of(field).title
@@ -176,21 +178,21 @@ class Form:
             ]
         if field.kind != "choice":
             return []
-        found = [{"value": name, "label": name, "group": ""} for name in field.choices]
-        if not found:
+        entries = [{"value": name, "label": name, "group": ""} for name in field.choices]
+        if not entries:
             library = choices().get(end_and_key(field.key)[1], ())
-            found = [{"value": one.name, "label": one.label, "group": one.group} for one in library]
+            entries = [{"value": entry.name, "label": entry.label, "group": entry.group} for entry in library]
         if field.own:
-            found.insert(0, {"value": _OWN, "label": field.own, "group": ""})
+            entries.insert(0, {"value": _CUSTOM, "label": field.own, "group": ""})
         elif field.optional:
-            found.insert(0, {"value": "", "label": "not given", "group": ""})
-        return found
+            entries.insert(0, {"value": "", "label": "not given", "group": ""})
+        return entries
 
     async def _commit(self, field: Field, text: str) -> None:
         self._slide.drop()
         if field.kind == "ways":
             await self.take(self._memory.way(field, int(text), self._inputs))
-        elif text == _OWN:
+        elif text == _CUSTOM:
             await self.take(self._memory.own(field, self._inputs))
         else:
             await self.take({field.key: field.from_text(written_text(field, text))})
@@ -230,12 +232,12 @@ class Form:
         old, new = before.flat(), after.flat()
 
         def other(key: str) -> bool:
-            return not any(key == one or key.startswith(f"{one}.") for one in changes)
+            return not any(key == changed_key or key.startswith(f"{changed_key}.") for changed_key in changes)
 
         def text(key: str, value: Any) -> str:
             return shown_text(fields[key], str(value)) if key in fields else str(value)
 
-        told = {
+        by_word = {
             "removed": [labels.get(key, key) for key in old if key not in new and other(key)],
             "assumed": [
                 f"{labels.get(key, key)} = {text(key, value)}"
@@ -249,7 +251,7 @@ class Form:
                 if key in old and old[key] != value and other(key)
             ],
         }
-        parts = [f"{word}: {', '.join(items)}" for word, items in told.items() if items]
+        parts = [f"{word}: {', '.join(items)}" for word, items in by_word.items() if items]
         return f"Also {'; '.join(parts)}" if parts else ""
 
     def _show(self) -> None:
@@ -271,7 +273,7 @@ class Form:
         if field.kind == "ways":
             control.show(text=str(field.way(self._inputs)), options=self._options(field))
         elif field.own and is_own(self._inputs, field.key):
-            control.show(text=_OWN)
+            control.show(text=_CUSTOM)
         elif field.kind == "choice":
             control.show(text=str(value if value is not None else default or ""))
         else:
@@ -287,8 +289,8 @@ class Form:
 
     def _show_others(self) -> None:
         """Show the inputs that no field has, such as those of a file, so that nothing is hidden."""
-        own = {*self._elsewhere, *(field.key for field, _ in self._controls)}
-        rest = {key: value for key, value in self._inputs.flat().items() if key not in own and value != {}}
+        shown = {*self._elsewhere, *(field.key for field, _ in self._controls)}
+        rest = {key: value for key, value in self._inputs.flat().items() if key not in shown and value != {}}
         self._others.set_visibility(bool(rest))
         self._others_head.set_content(f"Other inputs of the file ({len(rest)})")
         self._others_list.clear()

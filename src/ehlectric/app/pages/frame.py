@@ -55,10 +55,10 @@ def drive_with(bearing: Inputs) -> Inputs:
 
     Raises InputError for a common-mode voltage that is no single value.
     """
-    own = bearing.changed({**dict.fromkeys(_NOT_OF_DRIVES), "discharge.peak_current": None})
-    strength = {} if own.value("discharge") else _FIRST["strength"]
+    end = bearing.changed({**dict.fromkeys(_NOT_OF_DRIVES), "discharge.peak_current": None})
+    strength = {} if end.value("discharge") else _FIRST["strength"]
     changes = {
-        "drive_end": dict(own.changed(strength).table),
+        "drive_end": dict(end.changed(strength).table),
         **{REPLACED[key]: bearing.value(key) for key in (SPEED, TEMPERATURE)},
         "title": bearing.value("title"),
     }
@@ -180,7 +180,7 @@ class Toolbar:
         self.session, self._path, self._show = session, path, show
         # Opened files, and those that the case among them names and that are not there yet.
         self._pending: dict[str, bytes] = {}
-        self._asked: tuple[str, ...] = ()
+        self._missing: tuple[str, ...] = ()
         ui.add_body_html(f"<script>{script('undo_keys')}</script>")
         with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Case"'):
             self._undo = _button("Undo", "undo", self.undo, "Control+Z")
@@ -293,34 +293,34 @@ class Toolbar:
         """Take up files: a case, or those that the case opened before names."""
         self._upload.reset()
         contents = {file.name: await file.read() for file in event.files}
-        self._pending = {**self._pending, **contents} if set(contents) & set(self._asked) else contents
+        self._pending = {**self._pending, **contents} if set(contents) & set(self._missing) else contents
         await self._read()
 
     async def _read(self) -> None:
         """Read the opened files, and ask for those that are missing."""
         try:
-            found = await self.session.work.quick(FILES_UPLOADED, self._pending, self.session.folder)
+            uploaded = await self.session.work.quick(FILES_UPLOADED, self._pending, self.session.folder)
         except (InputError, LostError) as error:
-            self._pending, self._asked = {}, ()
+            self._pending, self._missing = {}, ()
             self._tell(error=str(error))
             return
-        self._asked = found.missing
-        if found.missing:
-            self._tell(f"{found.name} names {', '.join(found.missing)}: open it, too.")
+        self._missing = uploaded.missing
+        if uploaded.missing:
+            self._tell(f"{uploaded.name} names {', '.join(uploaded.missing)}: open it, too.")
             return
         self._pending = {}
-        await self._opened(found)
+        await self._opened(uploaded)
 
-    async def _opened(self, found: Uploaded) -> None:
+    async def _opened(self, uploaded: Uploaded) -> None:
         """Show an opened case on its page."""
-        inputs, path = Inputs(found.table), PATHS[found.kind]
+        inputs, path = Inputs(uploaded.table), PATHS[uploaded.kind]
         if path == self._path:
             self.session.history.push(inputs)
-            await self._changed(f"{found.name} is open.")
-        elif _has_files(found.table):
-            self._tell(error=f"{found.name} names files and belongs to the page {path}: open them there")
+            await self._changed(f"{uploaded.name} is open.")
+        elif _has_files(uploaded.table):
+            self._tell(error=f"{uploaded.name} names files and belongs to the page {path}: open them there")
         elif not inputs.linkable:
-            self._tell(error=f"{found.name} belongs to the page {path}: open it there")
+            self._tell(error=f"{uploaded.name} belongs to the page {path}: open it there")
         else:
             ui.navigate.to(address_of(path, inputs))
 
@@ -349,10 +349,10 @@ def _has_files(table: Mapping[str, Any]) -> bool:
     """Whether a case, or that of a sweep, has data from files, which stay in their session."""
     case = table.get("case", table)
     named = [case.get(name) for name in ("source", "duty")] if isinstance(case, Mapping) else []
-    if any(isinstance(one, Mapping) and "file" in one for one in named):
+    if any(isinstance(part, Mapping) and "file" in part for part in named):
         return True
     rough = case.get("roughness") if isinstance(case, Mapping) else None
-    return isinstance(rough, list) and any(isinstance(one, Mapping) and "file" in one for one in rough)
+    return isinstance(rough, list) and any(isinstance(part, Mapping) and "file" in part for part in rough)
 
 
 def _button(name: str, test: str, click: Callable[[], Any], keys: str = "") -> ui.button:

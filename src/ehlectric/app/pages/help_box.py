@@ -55,12 +55,12 @@ class HelpBox:
                 self._table = ui.html("", sanitize=False)
                 self._assumed = ui.label().classes("soft").props('data-testid="helps-assumed"')
                 self._link = ui.link("See it in its drive", PATHS["drive"]).props('data-testid="helps-drive"')
-                self._told = ui.label().classes("soft").props('role="status" data-testid="helps-told"')
+                self._message = ui.label().classes("soft").props('role="status" data-testid="helps-told"')
         for part in (self._box, self._list, self._effect):
             part.set_visibility(False)
 
     async def _answer(self, call: Call[RemedyAnswer], both: Both) -> RemedyAnswer:
-        bearing, drive = (dict(one.table) for one in both)
+        bearing, drive = (dict(inputs.table) for inputs in both)
         return await self._session.work.quick(call, bearing, drive, self._session.made_folder)
 
     def wait(self) -> None:
@@ -71,10 +71,10 @@ class HelpBox:
     def offer(self) -> Mapping[str, Any] | None:
         """Offer what the present bearing has not yet. Returns the pressed remedy; None without one."""
         inputs = self._session.inputs
-        found = {name: remedy_at_bearing(inputs, name, self._oil) for name in BEARING_REMEDIES}
+        remedies = {name: remedy_at_bearing(inputs, name, self._oil) for name in BEARING_REMEDIES}
         self._box.set_visibility(True)
-        self._choices.offer([name for name, remedy in found.items() if remedy is not None])
-        return found.get(self._choices.chosen)
+        self._choices.offer([name for name, remedy in remedies.items() if remedy is not None])
+        return remedies.get(self._choices.chosen)
 
     def refresh(self) -> None:
         """Ask for the effect of the pressed remedy."""
@@ -99,7 +99,7 @@ class HelpBox:
         self._link.props["href"] = address_of(PATHS["drive"], drive)
         self._link.update()
         second = inputs.value("motor.second_bearing_capacitance") is not None
-        say(self._told, _SECOND if second else "")
+        say(self._message, _SECOND if second else "")
         mark(self._effect, "stale", on=True)
         self.following.ask((inputs, drive))
 
@@ -107,9 +107,9 @@ class HelpBox:
         self._table.content = table_html(answer.table)
         if self._pressed:
             self._pressed = False
-            found = f'document.getElementById("{self._effect.html_id}")'
+            element = f'document.getElementById("{self._effect.html_id}")'
             with self._effect:
-                ui.run_javascript(f"setTimeout(() => {found}?.scrollIntoView({{block: 'nearest'}}), 50)")
+                ui.run_javascript(f"setTimeout(() => {element}?.scrollIntoView({{block: 'nearest'}}), 50)")
         self._effect.props(f'data-whole="{str(answer.whole).lower()}"')
         mark(self._effect, "stale", on=False)
 
@@ -118,7 +118,7 @@ class HelpBox:
         self._table.content = ""
         self._link.set_visibility(False)
         mark(self._effect, "stale", on=False)
-        say(self._told, text)
+        say(self._message, text)
 
     def _press(self, name: str) -> None:
         """Show the effect of a pressed remedy, on the screen where it is below."""
@@ -132,5 +132,5 @@ class HelpBox:
 
 def _oils() -> list[dict[str, str]]:
     """Entries of the oils of the library that have all that films and voltages need."""
-    found = (one for one in choices()["lubricant.base"] if not oil_needs(one.name))
-    return [{"value": one.name, "label": one.label, "group": one.group} for one in found]
+    oils = (oil for oil in choices()["lubricant.base"] if not oil_needs(oil.name))
+    return [{"value": oil.name, "label": oil.label, "group": oil.group} for oil in oils]

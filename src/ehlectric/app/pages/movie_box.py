@@ -22,7 +22,7 @@ from ehlectric.app.pages.page_parts import (
     say,
     script,
 )
-from ehlectric.app.pages.result_parts import behind, told_all
+from ehlectric.app.pages.result_parts import behind, show_warnings
 from ehlectric.app.pages.roughness_box import Keys
 from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
@@ -41,7 +41,7 @@ class MovieBox:
         self._session, self._changed = session, changed
         self._of: Mapping[str, Any] | None = None
         self._folder: Path | None = None
-        self._told = ""
+        self._state_text = ""
         self._keys: Keys | None = None
         self._on = False
         with ui.element("div").classes("box").props('data-testid="motion"'):
@@ -64,8 +64,8 @@ class MovieBox:
 
     def show_switch(self) -> None:
         """Bring the switch into view with the focus, after its card has changed its place."""
-        found = f'document.getElementById("{self._switch.html_id}")'
-        shown = f"{found}?.scrollIntoView({{block: 'center'}}); {found}?.focus();"
+        element = f'document.getElementById("{self._switch.html_id}")'
+        shown = f"{element}?.scrollIntoView({{block: 'center'}}); {element}?.focus();"
         ui.run_javascript(f"setTimeout(() => {{{shown}}}, 100)")
 
     def refresh(self) -> None:
@@ -84,7 +84,7 @@ class MovieBox:
         elif self._of is None:
             self._state.text = "No movie yet." if on else ""
         else:
-            self._state.text = self._told
+            self._state.text = self._state_text
 
     def _build(self, table: Mapping[str, Any] | None) -> None:
         self._inputs.clear()
@@ -155,7 +155,7 @@ class MovieBox:
     def _show(self, answer: MotionAnswer, why: str) -> None:
         self._of = self._running
         self._folder = Path(answer.folder) if answer.complete else None
-        self._told = _state(answer, why)
+        self._state_text = _state(answer, why)
         mark(self._state, "failed", on=not answer.complete)
         self._view.clear()
         self._view.classes(remove="old")
@@ -164,8 +164,8 @@ class MovieBox:
         self.refresh()
 
     def _tell(self, error: Exception | None) -> None:
-        beside = self._keys is not None and self._keys.tell(error)
-        say(self._message, "" if error is None or beside else str(error))
+        at_field = self._keys is not None and self._keys.tell(error)
+        say(self._message, "" if error is None or at_field else str(error))
 
 
 def _state(answer: MotionAnswer, why: str) -> str:
@@ -203,7 +203,7 @@ def _movie(answer: MotionAnswer) -> None:
         "the minimum film. Dashed: the same roughness held stationary."
     ).classes("hint")
     history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
-    told_all(answer.warnings)
+    show_warnings(answer.warnings)
     rows = (Line(name, value) for name, value in answer.rows)
     about = "Numbers of the run"
     ui.html(behind(about, lines_html(rows, about)), sanitize=False).props('data-testid="motion-numbers"')

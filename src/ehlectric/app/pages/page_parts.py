@@ -240,14 +240,14 @@ class Choices:
     def show(self, chosen: str) -> None:
         """Show a button as the pressed one."""
         self.chosen = chosen
-        for name, one in self._buttons.items():
-            one.props(f'aria-pressed="{str(name == chosen).lower()}"')
-            mark(one, "primary", on=name == chosen)
+        for name, element in self._buttons.items():
+            element.props(f'aria-pressed="{str(name == chosen).lower()}"')
+            mark(element, "primary", on=name == chosen)
 
     def offer(self, names: Collection[str]) -> None:
         """Hide all buttons but these; a hidden one is released."""
-        for name, one in self._buttons.items():
-            one.set_visibility(name in names)
+        for name, element in self._buttons.items():
+            element.set_visibility(name in names)
         if self.chosen not in names:
             self.show(next(iter(names), "") if self._always else "")
 
@@ -291,7 +291,7 @@ class Strip:
 
 def scrolling_table(name: str, heads: Iterable[str], body: str, test: str = "", caption: str = "") -> str:
     """Table that scrolls within its own box; the rows of its body, and its caption, are HTML."""
-    head = "".join(f'<th scope="col">{escape(one)}</th>' for one in heads)
+    head = "".join(f'<th scope="col">{escape(text)}</th>' for text in heads)
     table = f"{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody>"
     return (
         f'<div class="scroll" tabindex="0" role="region" aria-label="{escape(name)}">'
@@ -370,6 +370,6 @@ class JobBox:
             self._timer.deactivate()
             self._box.set_visibility(False)
             self._job = None
-            found = self._done(job)
-            if found is not None:
-                await found
+            awaitable = self._done(job)
+            if awaitable is not None:
+                await awaitable

@@ -166,29 +166,32 @@ class NumberBox:
         self._label.text, self._note.text = number.label, number.note
         self._value.text = number.with_unit
         self._value.classes(replace="value" if number.known else "value unknown")
-        codes = {one.code for one in number.warnings}
-        letters = ", ".join(one.letter for one in notes if one.letter and one.warning.code in codes)
+        codes = {warning.code for warning in number.warnings}
+        letters = ", ".join(note.letter for note in notes if note.letter and note.warning.code in codes)
         self._letters.content = f'<span class="unseen">note </span>{letters}' if letters else ""
 
 
-def told(note: Note) -> str:
+def note_html(note: Note) -> str:
     """Warning with its meaning and the numbers that it concerns in sight, and its text behind it."""
-    one = note.warning
+    warning = note.warning
     letter = f"<sup>{note.letter}</sup> " if note.letter else ""
     names = f"{escape(', '.join(note.names))}: " if note.names else ""
-    head = f"{letter}<b>{SEVERITY_WORDS[one.severity]}</b> {names}"
-    if not one.meaning:
-        return f'<div class="told {one.severity}" data-code="{one.code}">{head}{escape(one.text)}</div>'
-    texts = "<br>".join(map(escape, (one.text, *note.further)))
+    head = f"{letter}<b>{SEVERITY_WORDS[warning.severity]}</b> {names}"
+    if not warning.meaning:
+        return (
+            f'<div class="told {warning.severity}" data-code="{warning.code}">'
+            f"{head}{escape(warning.text)}</div>"
+        )
+    texts = "<br>".join(map(escape, (warning.text, *note.further)))
     return (
-        f'<details class="told {one.severity}" data-code="{one.code}">'
-        f"<summary>{head}{escape(one.meaning)}</summary>{texts}</details>"
+        f'<details class="told {warning.severity}" data-code="{warning.code}">'
+        f"<summary>{head}{escape(warning.meaning)}</summary>{texts}</details>"
     )
 
 
-def told_all(warnings: Iterable[PageWarning]) -> None:
+def show_warnings(warnings: Iterable[PageWarning]) -> None:
     """Warnings of a part of a page that has no numbers of an answer."""
-    ui.html("".join(told(Note(one)) for one in warnings), sanitize=False)
+    ui.html("".join(note_html(Note(warning)) for warning in warnings), sanitize=False)
 
 
 class FigureBox:
@@ -232,9 +235,9 @@ class NoteList:
     def show(self, notes: Sequence[Note]) -> None:
         """Show notes under their count."""
         self.box.set_visibility(True)
-        count = counts(one.warning for one in notes)
+        count = counts(note.warning for note in notes)
         self._head.text = f"{count[:1].upper()}{count[1:]}"
-        self._list.content = "".join(map(told, notes))
+        self._list.content = "".join(map(note_html, notes))
 
 
 def behind(summary: str, inner: str) -> str:

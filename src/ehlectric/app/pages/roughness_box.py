@@ -13,7 +13,7 @@ from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import Control, GroupBox, JobBox, button, control, figure, heading, say
-from ehlectric.app.pages.result_parts import table_html, told_all
+from ehlectric.app.pages.result_parts import show_warnings, table_html
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,
@@ -70,7 +70,7 @@ def show_surface(answer: SurfaceAnswer) -> None:
     if answer.rows:
         table = Table("Statistics", answer.heads, answer.rows)
         ui.html(table_html(table, "surface-statistics"), sanitize=False)
-    told_all(answer.warnings)
+    show_warnings(answer.warnings)
     if answer.summits is not None:
         _show_summits(answer.summits)
     with ui.element("div").classes("steps"):
@@ -118,7 +118,7 @@ class RoughnessBox:
         self._groups: dict[Keys, GroupBox] = {}
         self._answer: SurfaceAnswer | None = None
         # Numbers of the last look, and of that for which a job reads a large file.
-        self._asked = self._asked_by_job = 0
+        self._looks = self._look_of_job = 0
         # Inputs to which the note belongs.
         self._noted: Inputs | None = None
         with ui.element("div").classes("box").props('data-testid="roughness"'):
@@ -154,7 +154,7 @@ class RoughnessBox:
         file = table.get("file")
         lost = isinstance(file, str) and self._session.path_of(file) is None
         with ui.element("div").classes("used"):
-            text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
+            text = f"Surface {table.get('surface', '?')}: {self._description(table)}"
             ui.label(text).props('data-testid="surfaces-used"')
             button("Remove", f"remove-surface-{table.get('surface', 0)}", lambda: self._remove(table))
             if not lost:
@@ -167,7 +167,7 @@ class RoughnessBox:
     def _is_point(self) -> bool:
         return geometry_of(self._session.inputs) == "point"
 
-    def _told(self, table: Mapping[str, Any]) -> str:
+    def _description(self, table: Mapping[str, Any]) -> str:
         if isinstance(table.get("file"), str):
             source = self._session.name_of(table["file"])
         else:
@@ -239,8 +239,8 @@ class RoughnessBox:
 
     async def _look(self) -> None:
         """Show the surface of the draft; an answer that comes after newer values is dropped."""
-        self._asked += 1
-        asked = self._asked
+        self._looks += 1
+        look = self._looks
         self._job.cancel()
         if "file" not in self._draft and "generator" not in self._draft:
             self._show(None)
@@ -252,20 +252,20 @@ class RoughnessBox:
         inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
         values = dict(self._draft), inputs, folder, self._session.name_of(file) if file else ""
         if path is not None and path.stat().st_size > _LARGE:
-            self._asked_by_job = asked
+            self._look_of_job = look
             self._job.start(SURFACE, *values)
             return
         try:
             answer = await self._session.work.quick(SURFACE, *values)
         except (InputError, LostError) as error:
-            if asked == self._asked:
+            if look == self._looks:
                 self._fail(error)
             return
-        if asked == self._asked:
+        if look == self._looks:
             self._show(answer)
 
     def _ended(self, job: Job) -> None:
-        if self._asked_by_job != self._asked:
+        if self._look_of_job != self._looks:
             return
         if job.state == "done":
             self._show(job.result)
@@ -287,11 +287,11 @@ class RoughnessBox:
                 show_surface(answer)
 
     def _tell(self, error: Exception | None) -> None:
-        found = [part for part in self._parts if part.tell(error)]
-        for part in found:
+        showing = [part for part in self._parts if part.tell(error)]
+        for part in showing:
             if part in self._groups:
                 self._groups[part].turn(opened=True)
-        say(self._message, "" if error is None or found else str(error))
+        say(self._message, "" if error is None or showing else str(error))
         if error is not None:
             self._use.disable()
 
@@ -327,5 +327,5 @@ class RoughnessBox:
 
 def _tables(session: Session) -> list[Any]:
     """Tables of rough surfaces in the inputs."""
-    found = session.inputs.value("roughness")
-    return [table for table in found if isinstance(table, Mapping)] if isinstance(found, list) else []
+    tables = session.inputs.value("roughness")
+    return [table for table in tables if isinstance(table, Mapping)] if isinstance(tables, list) else []

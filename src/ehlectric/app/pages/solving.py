@@ -87,15 +87,15 @@ class Solving(Generic[A]):
 
     def answer(self) -> A | None:
         """Solved answer to the present inputs; None without one, or where the quick one is wanted."""
-        found = self._found()
-        return None if found is None else found.answer
+        solution = self._shown_solution()
+        return None if solution is None else solution.answer
 
     def folder(self) -> Path | None:
         """Folder of the result whose answer is shown; None where it is the quick one."""
-        found = self._found()
-        return None if found is None else found.folder
+        solution = self._shown_solution()
+        return None if solution is None else solution.folder
 
-    def _found(self) -> _Solved[A] | None:
+    def _shown_solution(self) -> _Solved[A] | None:
         return None if self._quick else self._solved.get(self._session.inputs.toml())
 
     def forget(self) -> None:

@@ -109,16 +109,16 @@ class RangesForm:
 
     def tell(self, error: InputError | None) -> None:
         """Show an error next to its field, and remove the one before."""
-        for one in (*self._axes.values(), self._link):
-            one.show(error="")
+        for field in (*self._axes.values(), self._link):
+            field.show(error="")
         self._message.text = ""
         self.case.tell(None)
         if error is None:
             return
         key = str(error.key or "")
-        found = self._axes.get(key) or self._axes.get(f"{key}.from")
-        if found is not None:
-            found.show(error=self._in_unit(key, error.text))
+        axis_field = self._axes.get(key) or self._axes.get(f"{key}.from")
+        if axis_field is not None:
+            axis_field.show(error=self._in_unit(key, error.text))
         elif key and not f"{key}.".startswith("vary."):
             self._values.turn(opened=True)
             self.case.tell(InputError(key.removeprefix("case."), error.text))
@@ -203,17 +203,17 @@ class RangesForm:
         await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
 
     async def _take_over(self, link: str) -> None:
-        found = case_of_link(link)
-        if found is not None:
-            await self._change(Inputs({"case": found}))
+        case = case_of_link(link)
+        if case is not None:
+            await self._change(Inputs({"case": case}))
         elif link:
             self._link.show(error="this link has no bearing, drive or contact: copy one of their pages")
 
     def _axis(self, place: int, ranges: Sequence[Range]) -> None:
         """Fields of one varied input."""
         now = ranges[place] if place < len(ranges) else None
-        others = {one.key for one in ranges} - ({now.key} if now else set())
-        names = {key: one.label for key, one in self._offered().items() if key not in others}
+        others = {other.key for other in ranges} - ({now.key} if now else set())
+        names = {key: variable.label for key, variable in self._offered().items() if key not in others}
         if now is not None and now.key not in names:
             names = {now.key: now.key, **names}
         name = f"vary-{place}"
@@ -232,7 +232,7 @@ class RangesForm:
 
     def _offered(self) -> dict[str, Variable]:
         """Inputs that can be varied, by key."""
-        return {one.key: one for one in (self._choices.variables if self._choices else ())}
+        return {variable.key: variable for variable in (self._choices.variables if self._choices else ())}
 
     def _range(self, place: int, now: Range) -> None:
         async def put(**changes: Any) -> None:
@@ -274,18 +274,18 @@ def range_of(variable: Variable) -> Range:
 
 def _shape(inputs: Inputs, choices: SweepChoices | None) -> tuple[Any, ...]:
     """Values on which the fields of the varied inputs depend."""
-    offered = tuple((one.key, one.label) for one in (choices.variables if choices else ()))
-    return tuple(one.key for one in ranges_of(inputs)), str(lists_of(inputs)), offered
+    offered = tuple((variable.key, variable.label) for variable in (choices.variables if choices else ()))
+    return tuple(axis.key for axis in ranges_of(inputs)), str(lists_of(inputs)), offered
 
 
 def _texts(inputs: Inputs) -> dict[str, str]:
     """Texts of all fields by their keys."""
     ranges = ranges_of(inputs)
     texts = {f"vary-{place}": "" for place in range(2)}
-    for place, one in enumerate(ranges):
-        texts |= {f"vary-{place}": one.key, f"vary-{place}-spacing": "log" if one.log else "linear"}
-        ends = {"from": one.start, "to": one.stop, "count": str(one.count)}
-        texts |= {f"vary.{one.key}.{name}": text for name, text in ends.items()}
+    for place, axis in enumerate(ranges):
+        texts |= {f"vary-{place}": axis.key, f"vary-{place}-spacing": "log" if axis.log else "linear"}
+        ends = {"from": axis.start, "to": axis.stop, "count": str(axis.count)}
+        texts |= {f"vary.{axis.key}.{name}": text for name, text in ends.items()}
     return texts
 
 
@@ -315,7 +315,7 @@ class MapPart:
     def __init__(self, session: Session, shown: Callable[[str], Awaitable[None]]) -> None:
         self.session = session
         self.shown = ""
-        self._told = shown
+        self._when_shown = shown
         self._ran: Inputs | None = None
         self._view: SweepView | None = None
         self._drawn = ""
@@ -391,13 +391,13 @@ class MapPart:
         if old:
             self._note.text = _OLD
         elif self._view is not None:
-            self._note.text = _told(self._view)
+            self._note.text = _points_text(self._view)
 
     def show(self, view: SweepView, *, running: bool) -> None:
         """Show the state of a sweep."""
         self._view = view
         self._drawn = self.shown
-        self._note.text = _told(view)
+        self._note.text = _points_text(view)
         if self._chosen is not None and self._chosen >= len(view.chart.points):
             self._chosen = None
         self._draw()
@@ -406,7 +406,7 @@ class MapPart:
         self._panel.verdict.show(*judged, view.deciding.said)
         self._panel.tell(view.deciding, None if running else view.number, ())
         if not running:
-            self._notes.show([Note(one) for one in view.warnings])
+            self._notes.show([Note(warning) for warning in view.warnings])
         if not running or len(view.rows) <= _FEW:
             self._fill(view)
 
@@ -437,7 +437,7 @@ class MapPart:
     async def _other(self, key: str) -> None:
         self.shown = key
         self._select.show(text=key)
-        await self._told(key)
+        await self._when_shown(key)
 
     async def _clicked(self, event: Any) -> None:
         if isinstance(event.args, int) and await self._choose(event.args):
@@ -472,8 +472,8 @@ class MapPart:
         self._draw()
         folder = str(self.session.folder / "sweep")
         try:
-            found = await self.session.work.quick(SWEEP_POINT, folder, dict(ran.table), number)
-            self._address = f"{found.path}?{found.query}"
+            point = await self.session.work.quick(SWEEP_POINT, folder, dict(ran.table), number)
+            self._address = f"{point.path}?{point.query}"
         except (InputError, LostError) as error:
             refused = str(error)
         self._tell(view, number, refused)
@@ -503,7 +503,7 @@ _BUTTON = """
 """
 
 
-def _told(view: SweepView) -> str:
+def _points_text(view: SweepView) -> str:
     """How many points have which state, and how their contacts are computed."""
     words = page_texts("states")
     some = (f"{count} {words.get(state, state)}" for state, count in view.counts.items())
@@ -522,9 +522,9 @@ def add(work: Work) -> None:
 
     @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
     async def page(request: Request) -> None:
-        found, error = Inputs.of_link(request.query_params.multi_items(), Inputs())
-        given = sweep_inputs(found)
-        if given is None and found.table and error is None:
+        inputs, error = Inputs.of_link(request.query_params.multi_items(), Inputs())
+        given = sweep_inputs(inputs)
+        if given is None and inputs.table and error is None:
             error = InputError("address", "has no case", takes="the inputs of a case, or of a sweep")
         page = SweepPage(session_of(work, SWEEP if given is None else given))
         with framed("Sweep: what happens over a range?", _PATH):
@@ -539,12 +539,12 @@ class SweepPage:
     def __init__(self, session: Session) -> None:
         self.session = session
         self.workers = max(1, cores() - 1)
-        self._asked = 0
+        self._request = 0
         self._choices: SweepChoices | None = None
         # Inputs whose points the map shows; None where nothing was run. The database has them, until a run of
-        # other inputs, the wanted ones, has begun to write its own.
+        # other inputs, the submitted ones, has begun to write its own.
         self._ran: Inputs | None = None
-        self._wanted: Inputs | None = None
+        self._submitted: Inputs | None = None
         self._job: Job | None = None
         self._started = self._next = 0.0
         self._first = 0
@@ -585,29 +585,29 @@ class SweepPage:
 
     async def _set(self, inputs: Inputs, *, begins: bool = False) -> None:
         """Take over inputs; those without varied ones get the usual ranges."""
-        self._asked += 1
-        asked = self._asked
+        self._request += 1
+        request = self._request
         if inputs.value("vary"):
             self._take(inputs)
         try:
             choices = await self.session.work.quick(SWEEP_CHOICES, dict(inputs.value("case") or {}))
         except (InputError, LostError) as error:
-            if asked == self._asked:
+            if request == self._request:
                 self._take(inputs)
                 self._refuse(error)
             return
-        if asked != self._asked:
+        if request != self._request:
             return
         self._choices = choices
         if not inputs.value("vary"):
-            inputs = with_ranges(inputs, [range_of(one) for one in choices.variables[:2]])
+            inputs = with_ranges(inputs, [range_of(variable) for variable in choices.variables[:2]])
             if begins:
                 # Nothing was there before that an undo could show.
                 self.session.history.now = inputs
         self._take(inputs)
         if self._ran is not None and self.map.differs:
             await self._read()
-        await self._plan(asked)
+        await self._plan(request)
 
     def _take(self, inputs: Inputs) -> None:
         self.session.history.push(inputs)
@@ -616,18 +616,18 @@ class SweepPage:
         self.map.offer(self._choices.values if self._choices else {}, str(inputs.value("show") or ""))
         self._tell_state()
 
-    async def _plan(self, asked: int) -> None:
+    async def _plan(self, request: int) -> None:
         self.plan.text = "Checking …"
         self._allow(valid=True)
         try:
-            found = await self.session.work.quick(SWEEP_PLANNED, self._table(), self.workers)
+            plan = await self.session.work.quick(SWEEP_PLANNED, self._table(), self.workers)
         except (InputError, LostError) as error:
-            if asked == self._asked:
+            if request == self._request:
                 self._refuse(error)
             return
-        if asked == self._asked:
+        if request == self._request:
             self.form.tell(None)
-            self.plan.text = _in_words(self._paced(found))
+            self.plan.text = _in_words(self._paced(plan))
 
     def _paced(self, plan: SweepPlan) -> SweepPlan:
         """Plan with the time that the points of the same base case took, where some are solved."""
@@ -719,7 +719,7 @@ class SweepPage:
         except LostError as error:
             self.failure.text = str(error)
             return
-        self._wanted = sweep_file(self.session.inputs)
+        self._submitted = sweep_file(self.session.inputs)
         self._started = self._next = 0.0
         self.state.text = ""
         self._timer.activate()
@@ -733,7 +733,7 @@ class SweepPage:
         """Remove the database; its points would have to be solved again."""
         if self._job is None or self._job.over:
             shutil.rmtree(self.folder, ignore_errors=True)
-            self._ran = self._wanted = None
+            self._ran = self._submitted = None
             self.map.clear()
             self.state.text = self.failure.text = ""
             self._tell_state()
@@ -765,8 +765,8 @@ class SweepPage:
             self._started, self._first = time.monotonic(), job.done
         self.bar.value = job.done / job.of
         solved, passed = job.done - self._first, time.monotonic() - self._started
-        if solved > 0 and self._wanted is not None:
-            self._pace = (_work_of(self._wanted), passed / solved)
+        if solved > 0 and self._submitted is not None:
+            self._pace = (_work_of(self._submitted), passed / solved)
         more = f" ({job.text})" if job.text else ""
         self.state.text = f"{job.done} of {job.of} points done{more}{self._left(job, 'about {} left')}"
 
@@ -778,9 +778,9 @@ class SweepPage:
 
     def _end(self, job: Job) -> None:
         """Say how a job has ended, after the last look at its points."""
-        if self._wanted is not self._ran:
+        if self._submitted is not self._ran:
             # The job ended before its sweep was in the database, which still has that of the map.
-            self._wanted = self._ran
+            self._submitted = self._ran
         if job.state == "cancelled" and not job.of:
             self.state.text = "Stopped before the first point was done."
         elif job.state == "cancelled":
@@ -794,12 +794,12 @@ class SweepPage:
         self._tell_state()
 
     async def _read(self, *, running: bool = False) -> None:
-        """Look at the points, and show them if they are those of the wanted sweep."""
-        begun, wanted = time.monotonic(), self._wanted
-        if wanted is None:
+        """Look at the points, and show them if they are those of the submitted sweep."""
+        begun, inputs = time.monotonic(), self._submitted
+        if inputs is None:
             return
         try:
-            view = await self.session.work.quick(SWEEP_SEEN, self.folder, self.map.shown, dict(wanted.table))
+            view = await self.session.work.quick(SWEEP_SEEN, self.folder, self.map.shown, dict(inputs.table))
         except (InputError, LostError) as error:
             # A job that has just begun has no database yet.
             if not running and self._job is not None and self._job.state == "done":
@@ -807,10 +807,10 @@ class SweepPage:
             return
         finally:
             self._next = time.monotonic() + max(_LOOK, _SHARE * (time.monotonic() - begun))
-        if view is None or wanted is not self._wanted:
+        if view is None or inputs is not self._submitted:
             return
-        self._ran = wanted
-        self.map.began(wanted)
+        self._ran = inputs
+        self.map.began(inputs)
         self.map.show(view, running=running)
         self._tell_state()
 
