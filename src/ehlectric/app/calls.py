@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
 
-from ehlectric.app.answers import (
+from ehlectric.app.view_models import (
     BearingAnswer,
     ContactAnswer,
     DriveAnswer,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from ehlectric.app.answers import Choice
+from ehlectric.app.view_models import Choice
 from ehlectric.cases import library
 from ehlectric.errors import InputError
 from ehlectric.quantities.quantity import data_file

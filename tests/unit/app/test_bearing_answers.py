@@ -6,14 +6,6 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.answers import (
-    PENDING,
-    BearingAnswer,
-    PageWarning,
-    concerning,
-    counts,
-    notes_of,
-)
 from ehlectric.app.charts.bearing_charts import OverSpeed, speed_rows
 from ehlectric.app.compute.answer_parts import page_warnings_of
 from ehlectric.app.compute.bearing_answers import (
@@ -25,6 +17,14 @@ from ehlectric.app.compute.bearing_answers import (
     shown_numbers,
     solve_contacts,
     whole_quick_answer,
+)
+from ehlectric.app.view_models import (
+    PENDING,
+    BearingAnswer,
+    PageWarning,
+    concerning,
+    counts,
+    notes_of,
 )
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.errors import InputError

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.app.answers import Effect, Film, Result, effects, in_both, input_rows, only_in
 from ehlectric.app.charts import compare_charts as figures
 from ehlectric.app.compute.bearing_answers import meaning_of
 from ehlectric.app.compute.compare_answers import side, whole_side
 from ehlectric.app.compute.contact_answers import by_formula, contact_case
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
+from ehlectric.app.view_models import Effect, Film, Result, effects, in_both, input_rows, only_in
 from ehlectric.errors import InputError
 from ehlectric.runs.meaning import check
 from tests.helpers.bearings import numbers_of

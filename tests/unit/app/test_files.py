@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.answers import MOST_CASE, MOST_FILES, file_title
 from ehlectric.app.compute.answer_parts import drive_of
 from ehlectric.app.compute.page_files import drawn, packed, uploaded, write
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER
+from ehlectric.app.view_models import MOST_CASE, MOST_FILES, file_title
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES

@@ -2,13 +2,13 @@
 
 import pytest
 
-from ehlectric.app.answers import PENDING
 from ehlectric.app.compute.answer_parts import drive_of
 from ehlectric.app.compute.bearing_answers import quick_answer, whole_quick_answer
 from ehlectric.app.compute.remedy_answers import quick_remedy, whole_remedy
 from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_bearing
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import BEARING, drive_with
+from ehlectric.app.view_models import PENDING
 from tests.helpers.each import each
 
 

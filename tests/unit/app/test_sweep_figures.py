@@ -2,8 +2,8 @@
 
 import json
 
-from ehlectric.app.answers import Axis, Chart, ChartPoint
 from ehlectric.app.charts.sweep_charts import chosen_trace, figure_of, place
+from ehlectric.app.view_models import Axis, Chart, ChartPoint
 from tests.helpers.each import each
 
 STATES = ("failed", "not converged", "do not use", "no value", "open")

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ehlectric.app.answers import Film, Side
+from ehlectric.app.view_models import Film, Side
 from ehlectric.quantities.palette import AMBER, BLUE
 from ehlectric.readable import readable
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import Figure, Table
 from ehlectric.app.charts.duty_charts import cycle_plot
 from ehlectric.app.charts.plotly_panels import Plot, axis, log_ticks, plot, scatter, stack, vertical
+from ehlectric.app.view_models import Figure, Table
 from ehlectric.arrays import Array
 from ehlectric.drive.drive_cycle import DriveDuty
 from ehlectric.drive.result import DriveResult

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import Figure
 from ehlectric.app.charts.plotly_panels import (
     FIELD_COLOURS,
     Indices,
@@ -22,6 +21,7 @@ from ehlectric.app.charts.plotly_panels import (
     values,
 )
 from ehlectric.app.charts.plotly_panels import axis as plot_axis
+from ehlectric.app.view_models import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.figures.contact_profiles import (

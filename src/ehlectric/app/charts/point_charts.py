@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import Figure, Reach
 from ehlectric.app.charts.line_charts import (
     BEYOND,
     Lengths,
@@ -33,6 +32,7 @@ from ehlectric.app.charts.plotly_panels import (
     stack,
     values,
 )
+from ehlectric.app.view_models import Figure, Reach
 from ehlectric.arrays import Array
 from ehlectric.contact.result import PointResult
 from ehlectric.figures.contact_profiles import (

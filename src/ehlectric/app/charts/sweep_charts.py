@@ -9,7 +9,7 @@ from html import escape
 from textwrap import wrap
 from typing import Any
 
-from ehlectric.app.answers import Axis, Chart, ChartPoint, PointState
+from ehlectric.app.view_models import Axis, Chart, ChartPoint, PointState
 from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY, ORANGE
 from ehlectric.readable import readable
 

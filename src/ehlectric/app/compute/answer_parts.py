@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import SEVERITIES, Line, Number, PageWarning
 from ehlectric.app.session import session_file
+from ehlectric.app.view_models import SEVERITIES, Line, Number, PageWarning
 from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import ENDS

@@ -10,21 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import (
-    PENDING,
-    RANGE_FOLLOWS,
-    BearingAnswer,
-    Deciding,
-    Difference,
-    DutyAnswer,
-    Figure,
-    Gauge,
-    Number,
-    PageWarning,
-    Table,
-    concerning,
-    limited_to,
-)
 from ehlectric.app.charts.bearing_charts import (
     SPEED_HEADS,
     Around,
@@ -45,6 +30,21 @@ from ehlectric.app.compute.answer_parts import (
     unknown,
 )
 from ehlectric.app.compute.duty_answers import shown_duty
+from ehlectric.app.view_models import (
+    PENDING,
+    RANGE_FOLLOWS,
+    BearingAnswer,
+    Deciding,
+    Difference,
+    DutyAnswer,
+    Figure,
+    Gauge,
+    Number,
+    PageWarning,
+    Table,
+    concerning,
+    limited_to,
+)
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.bearing.loads.totals import around_in_rows
 from ehlectric.bearing.margin import MarginAnalysis

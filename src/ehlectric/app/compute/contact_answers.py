@@ -8,7 +8,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import ContactAnswer, Deciding, Figure, Gauge
 from ehlectric.app.charts.line_charts import Lengths, line_figures, spot_position
 from ehlectric.app.charts.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.app.compute.answer_parts import (
@@ -19,6 +18,7 @@ from ehlectric.app.compute.answer_parts import (
     page_warnings_of,
     with_warnings,
 )
+from ehlectric.app.view_models import ContactAnswer, Deciding, Figure, Gauge
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve

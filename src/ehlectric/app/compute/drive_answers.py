@@ -7,15 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import (
-    Deciding,
-    DriveAnswer,
-    Number,
-    PageWarning,
-    Table,
-    concerning,
-    limited_to,
-)
 from ehlectric.app.compute.answer_parts import (
     UNUSABLE,
     card,
@@ -23,6 +14,15 @@ from ehlectric.app.compute.answer_parts import (
     lines_of,
     page_warnings_of,
     unknown,
+)
+from ehlectric.app.view_models import (
+    Deciding,
+    DriveAnswer,
+    Number,
+    PageWarning,
+    Table,
+    concerning,
+    limited_to,
 )
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.defaults import HOW

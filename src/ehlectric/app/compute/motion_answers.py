@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import MotionAnswer
 from ehlectric.app.charts.motion_charts import history, instants, least_films, movie, texts, units
 from ehlectric.app.compute.answer_parts import case_of, page_warnings_of
+from ehlectric.app.view_models import MotionAnswer
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError
 from ehlectric.motion.result import MotionResult

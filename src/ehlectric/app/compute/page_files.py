@@ -10,7 +10,6 @@ from importlib import import_module
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
-from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Download, Uploaded, Written
 from ehlectric.app.compute.answer_parts import (
     kind_of,
     names_in,
@@ -22,6 +21,7 @@ from ehlectric.app.compute.answer_parts import (
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import MOST_TOGETHER, SURFACES
+from ehlectric.app.view_models import MOST_CASE, MOST_FILES, MOST_SURFACE, Download, Uploaded, Written
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers import PENDING, RemedyAnswer, Table
 from ehlectric.app.compute.answer_parts import drive_of
 from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly, without_cycle
+from ehlectric.app.view_models import PENDING, RemedyAnswer, Table
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.defaults import HOW

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import PageWarning, StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.charts.surface_charts import line_figure, map_figure, profile_figure
 from ehlectric.app.compute.answer_parts import page_warnings_of, with_session_files
+from ehlectric.app.view_models import PageWarning, StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry

@@ -12,7 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers import (
+from ehlectric.app.charts.sweep_charts import figure_of
+from ehlectric.app.compute import answer_parts
+from ehlectric.app.compute.answer_parts import gauge_text, page_warnings_of, run_case_of
+from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.form_fields.field import Field
+from ehlectric.app.page_inputs import Inputs, number_of_text
+from ehlectric.app.view_models import (
     Axis,
     Chart,
     ChartPoint,
@@ -27,13 +34,6 @@ from ehlectric.app.answers import (
     SweepView,
     Variable,
 )
-from ehlectric.app.charts.sweep_charts import figure_of
-from ehlectric.app.compute import answer_parts
-from ehlectric.app.compute.answer_parts import gauge_text, page_warnings_of, run_case_of
-from ehlectric.app.form_fields import BEARING_GROUPS
-from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
-from ehlectric.app.form_fields.field import Field
-from ehlectric.app.page_inputs import Inputs, number_of_text
 from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.solution import percent
 from ehlectric.cases.amounts import Amount, Count

@@ -11,10 +11,9 @@ from typing import Any, ClassVar, Generic, Literal, TypeVar
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import PageAnswer, notes_of
 from ehlectric.app.calls import Call
-from ehlectric.app.following import Following
 from ehlectric.app.form_fields.field import Group
+from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
@@ -23,6 +22,7 @@ from ehlectric.app.pages.page_parts import Strip, button, heading, lines_html, m
 from ehlectric.app.pages.result_parts import FigureBox, NoteList, NumberBox, Panel, behind
 from ehlectric.app.pages.solving import Solving
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import PageAnswer, notes_of
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError
 
@@ -52,7 +52,7 @@ class AnswerPage(Generic[A]):
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        self._following: Following[Inputs, A] = Following(
+        self._latest_answer: LatestAnswer[Inputs, A] = LatestAnswer(
             lambda inputs: self._answer(self.quick, inputs),
             [partial(self._answer, call) for call in self.later],
             show=self._show,
@@ -155,15 +155,15 @@ class AnswerPage(Generic[A]):
 
     def close(self) -> None:
         """Want no further answers."""
-        self._following.drop()
+        self._latest_answer.drop()
 
     def _ask(self) -> asyncio.Future[None]:
         """Show the solved answer where there is one, or ask for the quick one; the one before is dimmed."""
         solved = self.solving.answer()
         if solved is None:
             self._dim(dimmed=True)
-            return self._following.ask(self.session.inputs)
-        self._following.drop()
+            return self._latest_answer.ask(self.session.inputs)
+        self._latest_answer.drop()
         self._show(self.session.inputs, solved)
         ended = asyncio.get_running_loop().create_future()
         ended.set_result(None)

@@ -9,14 +9,6 @@ from typing import ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.answers import (
-    PENDING,
-    RANGE_FOLLOWS,
-    BearingAnswer,
-    Difference,
-    DutyAnswer,
-    Table,
-)
 from ehlectric.app.calls import (
     BEARING_DUTY,
     BEARING_OVER_SPEED,
@@ -24,16 +16,24 @@ from ehlectric.app.calls import (
     BEARING_SOLVED,
     BEARING_WHOLE,
 )
-from ehlectric.app.following import Following
 from ehlectric.app.form_fields import BEARING_GROUPS
+from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.duty_box import DUTY_FILE, DutyField, DutyView
 from ehlectric.app.pages.frame import BEARING
-from ehlectric.app.pages.help_box import HelpBox
 from ehlectric.app.pages.page_parts import mark, say
+from ehlectric.app.pages.remedies_box import RemediesBox
 from ehlectric.app.pages.result_parts import FigureBox, table_html
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import (
+    PENDING,
+    RANGE_FOLLOWS,
+    BearingAnswer,
+    Difference,
+    DutyAnswer,
+    Table,
+)
 from ehlectric.cases.defaults import HOW
 from ehlectric.errors import LostError
 from ehlectric.quantities.sheets import BEARING_CARDS
@@ -64,7 +64,7 @@ class BearingView(AnswerView[BearingAnswer]):
 
     def build_below_panel(self) -> None:
         """Build the place of the remedies."""
-        self.helps = HelpBox(self._session)
+        self.remedies = RemediesBox(self._session)
 
     def build(self) -> None:
         """Build the parts of the answer below its numbers."""
@@ -166,7 +166,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
     def __init__(self, session: Session) -> None:
         super().__init__(session)
         # A duty cycle takes some seconds: it follows the whole answer, behind the answers of other tabs.
-        self._cycle: Following[Inputs, DutyAnswer] = Following(
+        self._cycle: LatestAnswer[Inputs, DutyAnswer] = LatestAnswer(
             self._cycle_of,
             show=lambda _, answer: self._show_cycle(answer),
             passing=lambda *_: None,
@@ -190,7 +190,7 @@ class BearingPage(AnswerPage[BearingAnswer]):
         """Want no further answers."""
         super().close()
         self._cycle.drop()
-        self.view.helps.following.drop()
+        self.view.remedies.latest_answer.drop()
 
     async def _cycle_of(self, inputs: Inputs) -> DutyAnswer:
         async with self.session.work.behind:
@@ -200,15 +200,15 @@ class BearingPage(AnswerPage[BearingAnswer]):
 
     def _ask(self) -> asyncio.Future[None]:
         self._cycle.drop()
-        self.view.helps.wait()
+        self.view.remedies.wait()
         return super()._ask()
 
     def _show(self, inputs: Inputs, answer: BearingAnswer) -> None:
         super()._show(inputs, answer)
         if answer.whole:
-            self.view.helps.refresh()
+            self.view.remedies.refresh()
         else:
-            self.view.helps.offer()
+            self.view.remedies.offer()
         if self.duty.file is None:
             self.view.duty.show(None)
         elif self.duty.lost:

@@ -12,25 +12,10 @@ from typing import Any, Literal
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import (
-    Deciding,
-    Effect,
-    Figure,
-    InputRow,
-    Note,
-    Result,
-    Side,
-    counts,
-    effects,
-    file_title,
-    in_both,
-    input_rows,
-    only_in,
-)
 from ehlectric.app.calls import COMPARE_SIDE, COMPARE_WHOLE_SIDE, Call
 from ehlectric.app.charts import compare_charts as figures
-from ehlectric.app.following import Following
 from ehlectric.app.form_fields import Group
+from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages import page_parts
 from ehlectric.app.pages.form import Form, groups_for
@@ -46,6 +31,21 @@ from ehlectric.app.pages.frame import (
 )
 from ehlectric.app.pages.result_parts import FigureBox, Panel, behind, note_html
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import (
+    Deciding,
+    Effect,
+    Figure,
+    InputRow,
+    Note,
+    Result,
+    Side,
+    counts,
+    effects,
+    file_title,
+    in_both,
+    input_rows,
+    only_in,
+)
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.verdict import Verdict
@@ -222,7 +222,7 @@ class ComparePage:
         self._quick: Sides | None = None
         # Answers by call and case: of two cases, one is mostly as before.
         self._known: dict[tuple[str, str], Side] = {}
-        self._following: Following[Inputs, Sides] = Following(
+        self._latest_answer: LatestAnswer[Inputs, Sides] = LatestAnswer(
             self._at_once,
             [self._whole],
             show=self._show,
@@ -315,11 +315,11 @@ class ComparePage:
         """Answer both cases at once, and then with their critical speeds."""
         for element in self._answers:
             element.classes(add="old")
-        return self._following.ask(self.session.inputs)
+        return self._latest_answer.ask(self.session.inputs)
 
     def close(self) -> None:
         """Want no further answers."""
-        self._following.drop()
+        self._latest_answer.drop()
 
     async def _at_once(self, inputs: Inputs) -> Sides:
         first, second = await asyncio.gather(*(self._ask(COMPARE_SIDE, inputs, name) for name in _NAMES))

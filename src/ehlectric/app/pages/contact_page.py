@@ -8,10 +8,9 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.answers import ContactAnswer, Reach
 from ehlectric.app.calls import CONTACT_CUTS, CONTACT_QUICK, CONTACT_SOLVED
-from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of, switched
+from ehlectric.app.latest_answer import OnlyLast
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.answer_page import AnswerPage, AnswerView
 from ehlectric.app.pages.form import Form
@@ -21,6 +20,7 @@ from ehlectric.app.pages.page_parts import GroupBox, heading
 from ehlectric.app.pages.result_parts import FigureBox
 from ehlectric.app.pages.roughness_box import RoughnessBox
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import ContactAnswer, Reach
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.sheets import (
     BREAKDOWN_FORMULAS,

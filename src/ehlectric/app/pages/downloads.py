@@ -9,11 +9,11 @@ from typing import Any, Literal
 
 from nicegui import ui
 
-from ehlectric.app.answers import Download, Written, file_title
 from ehlectric.app.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.page_parts import JobBox, card, page_texts, tool
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import Download, Written, file_title
 from ehlectric.app.work import Job
 from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError, LostError

@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 
 from nicegui import ui
 
-from ehlectric.app.answers import DriveAnswer, Figure
 from ehlectric.app.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.form_fields.drive_fields import (
     DRIVE_GROUPS,
@@ -25,6 +24,7 @@ from ehlectric.app.pages.frame import DRIVE, PATHS
 from ehlectric.app.pages.page_parts import Choices, GroupBox, removable
 from ehlectric.app.pages.result_parts import FigureBox, behind, table_html
 from ehlectric.app.session import LARGEST, Session
+from ehlectric.app.view_models import DriveAnswer, Figure
 from ehlectric.quantities.sheets import DRIVE_CARDS
 
 # Figures of which the page shows one at a time, by their buttons.

@@ -8,12 +8,12 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import DutyAnswer, Note
 from ehlectric.app.calls import DUTY_LOOK
 from ehlectric.app.pages.file_field import LOST_FILE, NOT_IN_LINKS, UploadField
 from ehlectric.app.pages.page_parts import GroupBox, button, heading, lines_html, mark, say
 from ehlectric.app.pages.result_parts import FigureBox, note_html, table_html
 from ehlectric.app.session import LARGEST, Session
+from ehlectric.app.view_models import DutyAnswer, Note
 from ehlectric.errors import InputError, LostError
 from ehlectric.runs.example_files import example
 

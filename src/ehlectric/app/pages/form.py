@@ -10,13 +10,13 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.following import OnlyLast
 from ehlectric.app.form_fields import BEARING_GROUPS
 from ehlectric.app.form_fields.contact_fields import geometry_of, groups_of
 from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field, Group, in_field_unit, shown_text, written_text
 from ehlectric.app.form_fields.field_defaults import default_of, end_and_key
 from ehlectric.app.form_fields.field_rules import Memory, changed, is_own
+from ehlectric.app.latest_answer import OnlyLast
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
 from ehlectric.app.pages.page_parts import Control, GroupBox, brief, kind_of_list, removable, say

@@ -14,7 +14,6 @@ from typing import Any
 
 from nicegui import Client, events, ui
 
-from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.calls import FILES_UPLOADED
 from ehlectric.app.form_fields.drive_fields import times
 from ehlectric.app.form_fields.field import form_data
@@ -22,6 +21,7 @@ from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
 from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, page_texts, script, tool, weakly
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
 from ehlectric.app.work import Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.inputs import REPLACED, SPEED, TEMPERATURE

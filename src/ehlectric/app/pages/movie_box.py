@@ -9,7 +9,6 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import Line, MotionAnswer
 from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
 from ehlectric.app.pages.frame import start
 from ehlectric.app.pages.page_parts import (
@@ -26,6 +25,7 @@ from ehlectric.app.pages.result_parts import behind, show_warnings
 from ehlectric.app.pages.roughness_box import Keys
 from ehlectric.app.roughness_keys import MOTION_KEYS
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import Line, MotionAnswer
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 

@@ -15,9 +15,9 @@ from weakref import WeakMethod
 from nicegui import ui
 from nicegui.element import Element
 
-from ehlectric.app.answers import Line
 from ehlectric.app.calls import Call
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import Line
 from ehlectric.app.work import Job, TimeLeft
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.quantity import data_file

@@ -8,8 +8,8 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.answers import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.app.pages.page_parts import figure, mark, say, scrolling_table
+from ehlectric.app.view_models import Deciding, Figure, Gauge, Note, Number, PageWarning, Table, counts
 from ehlectric.quantities.result_warnings import SEVERITY_WORDS
 from ehlectric.quantities.verdict import Verdict
 

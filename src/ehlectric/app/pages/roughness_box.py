@@ -7,7 +7,6 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import SummitsTable, SurfaceAnswer, Table
 from ehlectric.app.calls import SURFACE
 from ehlectric.app.form_fields.contact_fields import geometry_of
 from ehlectric.app.page_inputs import Inputs
@@ -26,6 +25,7 @@ from ehlectric.app.roughness_keys import (
     value_of,
 )
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import SummitsTable, SurfaceAnswer, Table
 from ehlectric.app.work import Job
 from ehlectric.errors import InputError, LostError
 

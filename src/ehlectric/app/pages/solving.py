@@ -10,18 +10,18 @@ from typing import Generic, TypeVar
 
 from nicegui import ui
 
-from ehlectric.app.answers import PageAnswer
 from ehlectric.app.calls import Call
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.page_parts import JobBox, button, page_texts, say
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import PageAnswer
 from ehlectric.app.work import Job
 
 A = TypeVar("A", bound=PageAnswer)
 
 
 @dataclass(frozen=True)
-class Words:
+class SolvingTexts:
     """Texts of a solution."""
 
     solve: str
@@ -69,7 +69,7 @@ class Solving(Generic[A]):
         back: Callable[[Inputs], None],
     ) -> None:
         self._call = call
-        self._words = words = Words(**page_texts("solving")[kind])
+        self._texts = texts = SolvingTexts(**page_texts("solving")[kind])
         self._session, self._changed, self._back = session, changed, back
         self._solved: dict[str, _Solved[A]] = {}
         self._quick = False
@@ -77,9 +77,9 @@ class Solving(Generic[A]):
         self._runs = 0
         with ui.element("div").classes("solving"):
             self.how = ui.label().props('data-testid="how" aria-live="polite"')
-            self._solve = button(words.solve, "solve", self.start, "no-caps unelevated", primary=True)
+            self._solve = button(texts.solve, "solve", self.start, "no-caps unelevated", primary=True)
             self._other = button("", "other-contacts", self._switch)
-            self._return = button(words.back, "back-to-solved", self._go_back)
+            self._return = button(texts.back, "back-to-solved", self._go_back)
         self._box = JobBox(session, self._done, lambda error: self._tell(str(error)))
         self._message = ui.label().classes("notice").props('role="status" data-testid="solve-message"')
         self._tell("")
@@ -109,15 +109,15 @@ class Solving(Generic[A]):
         self.how.text = "" if answer is None else answer.how
         offered = answer is None or answer.solvable
         self._solve.set_visibility(offered and not solved and self._running is None)
-        beyond = bool(self._words.beyond) and self._words.beyond in str(error)
+        beyond = bool(self._texts.beyond) and self._texts.beyond in str(error)
         self._solve.set_enabled(answer is not None or beyond)
         self._other.set_visibility(solved)
-        self._other.text = self._words.show_solved if self._quick else self._words.show_quick
+        self._other.text = self._texts.show_solved if self._quick else self._texts.show_quick
         self._return.set_visibility(bool(self._solved) and not solved)
         if self._solved and not solved and answer is not None and answer.solvable:
-            self.how.text += f" {self._words.earlier}"
+            self.how.text += f" {self._texts.earlier}"
         if self._running is not None and self._running[0] != self._session.inputs:
-            self.how.text += f" {self._words.running}"
+            self.how.text += f" {self._texts.running}"
         self.how.set_visibility(bool(self.how.text))
 
     def start(self) -> None:
@@ -136,9 +136,9 @@ class Solving(Generic[A]):
         if running is not None:
             self._keep(job, *running)
         if job.state == "cancelled":
-            self._tell(self._words.cancelled)
+            self._tell(self._texts.cancelled)
         elif job.state == "failed":
-            self._tell(f"{self._words.failed}: {job.error}")
+            self._tell(f"{self._texts.failed}: {job.error}")
         self._changed()
 
     def _keep(self, job: Job, inputs: Inputs, folder: Path) -> None:
@@ -150,7 +150,7 @@ class Solving(Generic[A]):
         while len(self._solved) > _KEPT:
             rmtree(self._solved.pop(next(iter(self._solved))).folder, ignore_errors=True)
         if inputs != self._session.inputs:
-            self._tell(self._words.done)
+            self._tell(self._texts.done)
 
     def _tell(self, text: str) -> None:
         say(self._message, text)

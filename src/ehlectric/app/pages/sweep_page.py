@@ -15,7 +15,6 @@ from typing import Any
 from fastapi import Request
 from nicegui import ui
 
-from ehlectric.app.answers import Deciding, Note, SweepChoices, SweepPlan, SweepView, Variable
 from ehlectric.app.calls import (
     SWEEP_CHOICES,
     SWEEP_FILES,
@@ -59,6 +58,7 @@ from ehlectric.app.pages.frame import (
 from ehlectric.app.pages.page_parts import Control, GroupBox, card, control, page_texts
 from ehlectric.app.pages.result_parts import NoteList, Panel
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import Deciding, Note, SweepChoices, SweepPlan, SweepView, Variable
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
 from ehlectric.quantities.units import split

@@ -7,16 +7,16 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers import RemedyAnswer
 from ehlectric.app.calls import REMEDY_QUICK, REMEDY_WHOLE, Call
 from ehlectric.app.catalogue import choices, oil_needs
-from ehlectric.app.following import Following
 from ehlectric.app.form_fields.drive_fields import BEARING_REMEDIES, remedy_at_bearing, with_remedy
+from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import PATHS, address_of, drive_with
 from ehlectric.app.pages.page_parts import Choices, Control, heading, mark, say
 from ehlectric.app.pages.result_parts import table_html
 from ehlectric.app.session import Session
+from ehlectric.app.view_models import RemedyAnswer
 from ehlectric.errors import InputError
 
 _OIL = "Other oil"
@@ -30,14 +30,14 @@ _SECOND = (
 Both = tuple[Inputs, Inputs]
 
 
-class HelpBox:
+class RemediesBox:
     """Place of the buttons, of the table of the pressed one, and of the link into its drive."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self._pressed = False  # whether a remedy was just pressed, whose effect is brought into sight
         self._oil = ""  # oil of the list; empty for the first one that is another than that of the bearing
-        self.following: Following[Both, RemedyAnswer] = Following(
+        self.latest_answer: LatestAnswer[Both, RemedyAnswer] = LatestAnswer(
             lambda both: self._answer(REMEDY_QUICK, both),
             [lambda both: self._answer(REMEDY_WHOLE, both)],
             show=lambda _, answer: self._show(answer),
@@ -65,7 +65,7 @@ class HelpBox:
 
     def wait(self) -> None:
         """Dim what belongs to earlier inputs."""
-        self.following.drop()
+        self.latest_answer.drop()
         mark(self._effect, "stale", on=True)
 
     def offer(self) -> Mapping[str, Any] | None:
@@ -78,7 +78,7 @@ class HelpBox:
 
     def refresh(self) -> None:
         """Ask for the effect of the pressed remedy."""
-        self.following.drop()
+        self.latest_answer.drop()
         inputs = self._session.inputs.changed({"duty": None})
         remedy = self.offer()
         self._effect.set_visibility(remedy is not None)
@@ -101,7 +101,7 @@ class HelpBox:
         second = inputs.value("motor.second_bearing_capacitance") is not None
         say(self._message, _SECOND if second else "")
         mark(self._effect, "stale", on=True)
-        self.following.ask((inputs, drive))
+        self.latest_answer.ask((inputs, drive))
 
     def _show(self, answer: RemedyAnswer) -> None:
         self._table.content = table_html(answer.table)

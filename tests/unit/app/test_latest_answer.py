@@ -4,8 +4,8 @@ import asyncio
 
 import pytest
 
-from ehlectric.app import following
-from ehlectric.app.following import Following
+from ehlectric.app import latest_answer
+from ehlectric.app.latest_answer import LatestAnswer
 from ehlectric.errors import InputError
 
 
@@ -36,7 +36,7 @@ class Page:
         self.go = asyncio.Event()
         self.go.set()
         self.behind = Lock()
-        self.following = Following(
+        self.latest_answer = LatestAnswer(
             self.quick,
             [self.whole],
             show=lambda inputs, answer: self.shown.append((inputs, answer)),
@@ -59,13 +59,13 @@ class Page:
 
 @pytest.fixture(autouse=True)
 def short(monkeypatch):
-    monkeypatch.setattr(following, "_QUIET", 0.01)
+    monkeypatch.setattr(latest_answer, "_QUIET", 0.01)
 
 
 def test_a_whole_answer_follows_the_quick_one():
     async def use():
         page = Page()
-        await page.following.ask(1)
+        await page.latest_answer.ask(1)
         assert page.shown == [(1, "quick")]
         await until(lambda: len(page.shown) > 1)
         return page
@@ -81,8 +81,8 @@ def test_fuller_answers_follow_in_their_order():
         async def fullest(_):
             return "fullest"
 
-        page.following._fuller = (page.whole, fullest)
-        await page.following.ask(1)
+        page.latest_answer._fuller = (page.whole, fullest)
+        await page.latest_answer.ask(1)
         await until(lambda: len(page.shown) > 2)
         return page
 
@@ -93,10 +93,10 @@ def test_inputs_in_between_are_never_computed():
     async def use():
         page = Page()
         page.go.clear()
-        page.following.ask(1)
+        page.latest_answer.ask(1)
         await asyncio.sleep(0)
         for inputs in (2, 3, 4):
-            task = page.following.ask(inputs)
+            task = page.latest_answer.ask(inputs)
         page.go.set()
         await task
         return page
@@ -110,9 +110,9 @@ def test_a_whole_answer_to_older_inputs_is_not_computed():
     async def use():
         page = Page()
         async with page.behind:
-            await page.following.ask(1)
+            await page.latest_answer.ask(1)
             await until(lambda: page.behind.asked == 2)
-            await page.following.ask(2)
+            await page.latest_answer.ask(2)
         # The lock is given in the order in which it was asked for.
         await until(lambda: ("whole", 2) in page.asked)
         return page
@@ -124,11 +124,11 @@ def test_a_whole_answer_to_older_inputs_is_not_computed():
 def test_an_error_of_the_latest_inputs_is_told_and_that_of_older_ones_is_not():
     async def use():
         page = Page()
-        await page.following.ask(-1)
+        await page.latest_answer.ask(-1)
         page.go.clear()
-        page.following.ask(-2)
+        page.latest_answer.ask(-2)
         await asyncio.sleep(0)
-        task = page.following.ask(3)
+        task = page.latest_answer.ask(3)
         page.go.set()
         await task
         return page
@@ -141,9 +141,9 @@ def test_a_closed_page_wants_no_answer():
     async def use():
         page = Page()
         page.go.clear()
-        task = page.following.ask(1)
+        task = page.latest_answer.ask(1)
         await asyncio.sleep(0)
-        page.following.drop()
+        page.latest_answer.drop()
         page.go.set()
         await task
         await asyncio.gather(*(asyncio.all_tasks() - {asyncio.current_task()}))

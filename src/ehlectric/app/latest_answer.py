@@ -41,7 +41,7 @@ class OnlyLast:
         self._waiting = None
 
 
-class Following(Generic[I, T]):
+class LatestAnswer(Generic[I, T]):
     """Answers to the latest inputs; those to older inputs that have not begun are never computed.
 
     ``quick`` computes an answer at once, and each of ``later`` a fuller one, in their order.
