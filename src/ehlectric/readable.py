@@ -100,7 +100,7 @@ def chance_text(probability: float, error: float) -> str:
 
 
 # Difference of the bounds of a probability below which they are one number.
-ONE_NUMBER = 1e-9
+SAME_NUMBER = 1e-9
 
 
 def mean_text(probability: float, low: float, high: float) -> str:
@@ -111,7 +111,7 @@ def mean_text(probability: float, low: float, high: float) -> str:
     >>> mean_text(0.694, 0.694, 0.694), mean_text(0.5, 0.165, 0.5664)
     ('69 %', 'between 16 and 57 %')
     """
-    return f"{readable(100.0 * probability, 2)} %" if high - low < ONE_NUMBER else bounds_text(low, high)
+    return f"{readable(100.0 * probability, 2)} %" if high - low < SAME_NUMBER else bounds_text(low, high)
 
 
 def bounds_text(low: float, high: float) -> str:

@@ -26,7 +26,7 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import Motor
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
-    beside_limits,
+    compared_with_limits,
     known,
     pit_diameter,
     stored_energy,
@@ -337,7 +337,7 @@ def current_flags(solution: BearingSolution) -> Iterator[Flag]:
             "current-density-high",
             "bearing",
             density=1e-6 * density,
-            limits=lambda: beside_limits(density),
+            limits=lambda: compared_with_limits(density),
         )
 
 

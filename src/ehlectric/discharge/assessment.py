@@ -126,12 +126,12 @@ def margin_warnings(
     if discharge is None or not film.converged:
         return
     size, utilisation = Size.of(semi_axes, discharge), FieldUtilisation.of(discharge, film, field)
-    found = breakdown(discharge, utilisation, field.voltage, size)
+    result = breakdown(discharge, utilisation, field.voltage, size)
     flag = breakdown_flag(
         "applied voltage",
         field.voltage,
-        lambda: f"breakdown voltage {readable(found.breakdown_voltage or 0.0)} V",
-        found.margin,
+        lambda: f"breakdown voltage {readable(result.breakdown_voltage or 0.0)} V",
+        result.margin,
         field=None if discharge.weibull is not None else field.max_strength,
     )
     yield from raised([flag, *strength_flags(discharge)])

@@ -166,7 +166,7 @@ def relaxation_time(relative_permittivity: Numbers, conductivity: Numbers) -> Nu
     return epsilon_0 * relative_permittivity / conductivity
 
 
-def beside_limits(density: float) -> str:
+def compared_with_limits(density: float) -> str:
     """Text that tells above which of the published limits an apparent current density [A/m^2] lies.
 
     Examples

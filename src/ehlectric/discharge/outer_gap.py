@@ -131,8 +131,8 @@ def points(bodies: Bodies, gap: float, s: Array, t: Array) -> Points:
     turning = far.along * within / (1.0 - far.along * drop)
     leaning = np.asarray(away[0]) ** 2 / np.maximum(away[0] ** 2 + across**2, np.finfo(float).tiny)
     bend = leaning * turning + (1.0 - leaning) * far.across
-    own = -near.across - near.along * np.cos(psi) / stretch
-    return Points(distance, np.arctan2(sine, cosine), turning + far.across, own, bend, np.abs(stretch))
+    near_sum = -near.across - near.along * np.cos(psi) / stretch
+    return Points(distance, np.arctan2(sine, cosine), turning + far.across, near_sum, bend, np.abs(stretch))
 
 
 def _distance(curvature: float, height: Array, sideways: Array) -> Array:
@@ -198,8 +198,8 @@ def around_point(
     place = at[0][rim], at[1][rim]
     opened = point_deflection(*place, dry, modulus)
     missing = edge - opened
-    found = matched_offset(lambda gap: missing - points(bodies, float(gap[0]), *place).gap, edge)
-    offset, mismatch = (float(value) for value in found)
+    solution = matched_offset(lambda gap: missing - points(bodies, float(gap[0]), *place).gap, edge)
+    offset, mismatch = (float(value) for value in solution)
     domain = float(x[0]), float(x[-1]), float(max(-y[0], y[-1]))
     s, t, area = (part.ravel() for part in _rays(bodies, offset, domain, width, ring))
     return (

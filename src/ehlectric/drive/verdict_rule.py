@@ -15,7 +15,7 @@ from ehlectric.discharge.breakdown_rule import (
     TOUCHING_EXPECTED,
     doubted,
 )
-from ehlectric.discharge.discharge_laws import beside_limits
+from ehlectric.discharge.discharge_laws import compared_with_limits
 from ehlectric.discharge.film_verdict import DOUBTS, no_verdict, strength_clause, unusable
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
@@ -160,7 +160,7 @@ def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[Statem
     most, arc = max(densities), None
     if any(end["events"] for end in ends):
         arc = Statement.of("given-arc", resistance=case.breakdown.arc_resistance)
-    yield Statement.of("current-density", density=most, limits=beside_limits(most), arc=arc)
+    yield Statement.of("current-density", density=most, limits=compared_with_limits(most), arc=arc)
     yield Statement.of("harm-unknown")
 
 

@@ -12,7 +12,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.plausibility import unusual_machine
-from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, beside_limits
+from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, compared_with_limits
 from ehlectric.drive.drive_bearings import BearingElement
 from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
 from ehlectric.drive.motor_circuit import oscillations
@@ -185,5 +185,5 @@ def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
                 "drive",
                 end=end,
                 density=1e-6 * density,
-                limits=beside_limits(density),
+                limits=compared_with_limits(density),
             )

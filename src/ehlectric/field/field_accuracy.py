@@ -242,8 +242,8 @@ def _rises(x: Array, lower: Array, upper: Array, widest: float) -> Array:
         rises[1] += same * differences[1] - other * differences[0]
         if abs(k) == 1:
             # The column itself: the limit of the integrand, half from either side.
-            own = weight[most : most + x.size].reshape(shape) / (2.0 * np.pi * distance**2)
-            rises += own * np.array(differences)
+            part = weight[most : most + x.size].reshape(shape) / (2.0 * np.pi * distance**2)
+            rises += part * np.array(differences)
     return rises
 
 
@@ -329,14 +329,14 @@ def _error_of(problem: ProblemT, strength: Array, solve: Callable[[ProblemT], Ga
     worst, highest = StrengthError(0.0, 0.0, problem.degree, 0.0), largest
     place: Place | None = first
     while place is not None:
-        found, degrees = _peak_error(_Window.around(problem, place.column), degrees, solve)
-        tried.append((place, found))
-        corrected = place.strength * (1.0 + found.total)
+        error, degrees = _peak_error(_Window.around(problem, place.column), degrees, solve)
+        tried.append((place, error))
+        corrected = place.strength * (1.0 + error.total)
         if corrected > highest:
             highest = corrected
-            part = (corrected / largest - 1.0) / found.total
-            worst = replace(found, by_degree=part * found.by_degree, by_columns=part * found.by_columns)
-        place = max(left, key=lambda one: _promise(one, tried), default=None)
+            part = (corrected / largest - 1.0) / error.total
+            worst = replace(error, by_degree=part * error.by_degree, by_columns=part * error.by_columns)
+        place = max(left, key=lambda candidate: _promise(candidate, tried), default=None)
         excess = 0.0 if place is None else _promise(place, tried) / highest - 1.0
         if place is None or excess <= _NEGLIGIBLE:
             break
@@ -354,12 +354,12 @@ def _promise(place: Place, tried: Sequence[tuple[Place, StrengthError]]) -> floa
     by the columns is at least that of the other places.
     """
     shares = [
-        found.total / other.missing
-        for other, found in tried
+        error.total / other.missing
+        for other, error in tried
         if other.missing > 0.0 and other.missing >= 0.5 * place.missing
     ]
     share = max(shares, default=HIGHER_ORDER)
-    columns = max(found.by_columns for _, found in tried)
+    columns = max(error.by_columns for _, error in tried)
     return place.strength * (1.0 + max(share * place.missing, columns))
 
 
@@ -440,13 +440,13 @@ def _peak_error(
     near = [abs(last / strength - 1.0) <= TOLERANCE for strength in strengths].index(True)
     halved = window.of_degree(tried[near]).halved().strength(solve)
     by_columns = _HALVED * abs(halved / strengths[near] - 1.0)
-    found = StrengthError(
+    error = StrengthError(
         by_degree=abs(last / strengths[0] - 1.0),
         by_columns=by_columns,
         degree=tried[near],
         total_there=abs(last / strengths[near] - 1.0) + by_columns,
     )
-    return found, sorted({degrees[0], tried[near], tried[-1], *degrees[len(tried) :]})
+    return error, sorted({degrees[0], tried[near], tried[-1], *degrees[len(tried) :]})
 
 
 def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT:
@@ -457,14 +457,14 @@ def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT
     field = solve(problem)
     if not problem.plain:
         return field
-    found = strength_error(problem, field.column_strength, solve)
+    error = strength_error(problem, field.column_strength, solve)
     most = problem.degree if problem.most_degree is None else problem.most_degree
-    if found is not None and problem.degree < min(found.degree, most):
-        problem = replace(problem, degree=min(found.degree, most))
+    if error is not None and problem.degree < min(error.degree, most):
+        problem = replace(problem, degree=min(error.degree, most))
         field = solve(problem)
-        if problem.degree == found.degree:
-            return replace(field, strength_error=found.total_there, sufficient_degree=found.degree)
-        found = strength_error(problem, field.column_strength, solve)
-    if found is None:
+        if problem.degree == error.degree:
+            return replace(field, strength_error=error.total_there, sufficient_degree=error.degree)
+        error = strength_error(problem, field.column_strength, solve)
+    if error is None:
         return field
-    return replace(field, strength_error=found.total, sufficient_degree=found.degree)
+    return replace(field, strength_error=error.total, sufficient_degree=error.degree)

@@ -63,9 +63,9 @@ def gap_modes(across: Across) -> tuple[Array, Array]:
 class _Lines:
     """Damped relaxation of all lines along one axis, with their tridiagonal matrices factorised as one."""
 
-    def __init__(self, diagonal: Array, beside: Array) -> None:
+    def __init__(self, diagonal: Array, off_diagonal: Array) -> None:
         # The couplings from the end of one line to the start of the next are zero.
-        self.factors = lapack.dpttrf(diagonal, beside[:-1])[:2]
+        self.factors = lapack.dpttrf(diagonal, off_diagonal[:-1])[:2]
 
     def __call__(self, right: Array) -> Array:
         solution: Array = lapack.dpttrs(*self.factors, right)[0]

@@ -259,10 +259,14 @@ def _positive_part(a: Array, b: Array, c: Array) -> Array:
     """Fraction of a triangle where a linear function is not negative; a, b and c are its corner values."""
     low, mid, high = np.sort([a, b, c], axis=0)
     part = np.where(low >= 0.0, 1.0, 0.0)
-    one_below = (low < 0.0) & (mid >= 0.0)
-    tip = (low[one_below] - mid[one_below]) * (low[one_below] - high[one_below])
-    part[one_below] = 1.0 - low[one_below] ** 2 / tip
-    one_above = (mid < 0.0) & (high >= 0.0)
-    tip = (high[one_above] - mid[one_above]) * (high[one_above] - low[one_above])
-    part[one_above] = high[one_above] ** 2 / tip
+    only_low_negative = (low < 0.0) & (mid >= 0.0)
+    tip = (low[only_low_negative] - mid[only_low_negative]) * (
+        low[only_low_negative] - high[only_low_negative]
+    )
+    part[only_low_negative] = 1.0 - low[only_low_negative] ** 2 / tip
+    only_high_positive = (mid < 0.0) & (high >= 0.0)
+    tip = (high[only_high_positive] - mid[only_high_positive]) * (
+        high[only_high_positive] - low[only_high_positive]
+    )
+    part[only_high_positive] = high[only_high_positive] ** 2 / tip
     return part

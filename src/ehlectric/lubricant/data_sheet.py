@@ -145,12 +145,12 @@ def _many_at_100(target: Array, index: Array) -> Array:
 
     ends = np.full(target.shape, LEAST_AT_100), np.full(target.shape, _MOST_AT_100)
     known = (difference(ends[0], target, index) <= 0.0) & (difference(ends[1], target, index) >= 0.0)
-    found = np.full(target.shape, np.nan)
+    viscosity = np.full(target.shape, np.nan)
     if np.any(known):
         of = target[known], index[known]
         bracket = ends[0][known], ends[1][known]
-        found[known] = find_root(difference, bracket, args=of, tolerances={"xatol": _CLOSE}).x
-    return 1e-6 * found
+        viscosity[known] = find_root(difference, bracket, args=of, tolerances={"xatol": _CLOSE}).x
+    return 1e-6 * viscosity
 
 
 # Kinematic viscosities for which the correlations were compared with measured coefficients [m^2/s].

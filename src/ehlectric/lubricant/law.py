@@ -103,8 +103,8 @@ def parameter(name: str) -> Parameter:
 
 def parameters_of(*functions: Callable[..., Any]) -> tuple[Parameter, ...]:
     """Parameters of a law: arguments by keyword of its function, and of those to which it passes others."""
-    arguments = (one for function in functions for one in signature(function).parameters.values())
-    return tuple(parameter(one.name) for one in arguments if one.kind is one.KEYWORD_ONLY)
+    arguments = (argument for function in functions for argument in signature(function).parameters.values())
+    return tuple(parameter(argument.name) for argument in arguments if argument.kind is argument.KEYWORD_ONLY)
 
 
 @dataclass(frozen=True)

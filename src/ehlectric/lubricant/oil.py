@@ -183,10 +183,10 @@ class Oil:
         ``max_pressure``, Hertz pressures of the points [Pa], shape (n,).
         """
         for check in self.checks:
-            found: dict[str, Mask] = {}
+            masks: dict[str, Mask] = {}
             for place, code in check.codes(max_pressure):
-                found.setdefault(code, np.zeros(max_pressure.shape, dtype=bool))[place] = True
-            yield from found.items()
+                masks.setdefault(code, np.zeros(max_pressure.shape, dtype=bool))[place] = True
+            yield from masks.items()
         yield "law-range", np.asarray(unfinished_share(self.log_viscosity) > _UNFINISHED)
 
     @cached_property

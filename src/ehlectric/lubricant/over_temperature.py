@@ -177,8 +177,8 @@ class Walther:
         swapped = np.less(second[0], first[0])
         # Temperature and viscosity of the colder and of the warmer point.
         (t_cold, cold), (t_hot, hot) = (
-            [as_float(np.where(swapped, b, a)) for a, b in zip(one, other, strict=True)]
-            for one, other in ((first, second), (second, first))
+            [as_float(np.where(swapped, b, a)) for a, b in zip(either, opposite, strict=True)]
+            for either, opposite in ((first, second), (second, first))
         )
         falls, thick = np.greater(cold, hot), np.greater_equal(hot, 1e-6 * _LEAST * (1.0 - 1e-12))
         known = falls & thick
@@ -190,9 +190,9 @@ class Walther:
         elif not thick:
             takes = f"at least {1e-6 * _LEAST:g} m^2/s, the least of ASTM D341"
             raise InputError(key, got=f"{hot:g} m^2/s at {t_hot:g} K", takes=takes)
-        one, two = (np.log10(np.log10(_z(1e6 * nu))) for nu in (cold, hot))
-        b = (one - two) / np.log10(t_hot / t_cold)
-        return cls(as_float(one + b * np.log10(t_cold)), as_float(b))
+        log_cold, log_hot = (np.log10(np.log10(_z(1e6 * nu))) for nu in (cold, hot))
+        b = (log_cold - log_hot) / np.log10(t_hot / t_cold)
+        return cls(as_float(log_cold + b * np.log10(t_cold)), as_float(b))
 
     def viscosity(self, temperature: Numbers) -> Numbers:
         """Kinematic viscosity [m^2/s] at an absolute temperature [K], shape (...). Raises InputError if the

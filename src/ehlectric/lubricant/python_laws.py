@@ -182,9 +182,9 @@ class SampledLaws:
 
     def at(self, temperature: float, max_pressure: float) -> SampledLaws:
         """Laws at a temperature [K] for a Hertz pressure [Pa]. Raises InputError if there are no values."""
-        found = self if temperature == self.temperature else self.others.get(temperature)
-        if found is not None and math.isclose(max_pressure, found.max_pressure, rel_tol=_SAME_PRESSURE):
-            return found
+        laws = self if temperature == self.temperature else self.others.get(temperature)
+        if laws is not None and math.isclose(max_pressure, laws.max_pressure, rel_tol=_SAME_PRESSURE):
+            return laws
         raise InputError.worded(
             "laws",
             f"this result contains values of {', '.join(self.names.values())} at {self.temperature:.6g} K "
@@ -200,13 +200,15 @@ class SampledLaws:
     @property
     def digest(self) -> str:
         """SHA-256 hash of all values, hexadecimal."""
-        found = hashlib.sha256()
+        digest = hashlib.sha256()
         for laws in (self, *(self.others[temperature] for temperature in sorted(self.others))):
-            found.update(repr(laws.temperature).encode())
+            digest.update(repr(laws.temperature).encode())
             for key in sorted(laws.samples):
                 law = laws.samples[key]
-                found.update(key.encode() + law.name.encode() + law.pressure.tobytes() + law.values.tobytes())
-        return found.hexdigest()
+                digest.update(
+                    key.encode() + law.name.encode() + law.pressure.tobytes() + law.values.tobytes()
+                )
+        return digest.hexdigest()
 
     def applied(self, oil: Oil) -> Oil:
         """Oil whose own laws are replaced by these laws."""
@@ -273,9 +275,9 @@ class Recorder:
 
     def at(self, temperature: float, max_pressure: float) -> SampledLaws:
         """Laws at a temperature [K] for a Hertz pressure [Pa]."""
-        found = self.laws.at(temperature, max_pressure)
-        self.known[temperature] = found
-        return found
+        laws = self.laws.at(temperature, max_pressure)
+        self.known[temperature] = laws
+        return laws
 
     def recorded(self, temperature: float, max_pressure: float) -> SampledLaws:
         """Values at the temperature of a contact [K], and at all others that were asked for."""

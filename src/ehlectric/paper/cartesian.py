@@ -137,16 +137,16 @@ def _arms(grid: CartesianGrid) -> tuple[IntArray, Array]:
         neighbour[side, cut] = wall
         arm[side] = np.where(cut, distance, dy)
     for side, step in ((EAST, 1), (WEST, -1)):
-        beside = column + step
-        beyond = (beside < 0) | (beside >= grid.x.size)
-        beside = np.where(beyond, column - step, beside)
-        neighbour[side] = grid.number[beside, row]
-        width = np.abs(grid.x[beside] - grid.x[column])
-        below = (neighbour[side] < 0) & (y < 0.5 * (grid.lower[beside] + grid.upper[beside]))
+        adjacent = column + step
+        beyond = (adjacent < 0) | (adjacent >= grid.x.size)
+        adjacent = np.where(beyond, column - step, adjacent)
+        neighbour[side] = grid.number[adjacent, row]
+        width = np.abs(grid.x[adjacent] - grid.x[column])
+        below = (neighbour[side] < 0) & (y < 0.5 * (grid.lower[adjacent] + grid.upper[adjacent]))
         above = (neighbour[side] < 0) & ~below
         share = np.ones(n)
         for cut, wall, surface in ((below, lower_wall, grid.lower), (above, upper_wall, grid.upper)):
-            here, there = surface[column[cut]], surface[beside[cut]]
+            here, there = surface[column[cut]], surface[adjacent[cut]]
             share[cut] = (y[cut] - here) / (there - here)
             neighbour[side, cut] = wall
         arm[side] = share * width

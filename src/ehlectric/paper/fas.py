@@ -74,18 +74,18 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     """
     if problem.geometry is not LINE:
         raise ValueError("the paper's multigrid needs deflecting line contacts")
-    film, unknown = _film_on_one_grid(problem, progress), 0
+    film, unknown = _film_on_grid(problem, progress), 0
     while problem.target_error is not None and 2 * problem.nodes - 1 <= problem.most_nodes:
         error = film.discretisation_error
         unknown = unknown + 1 if error is None else 0
         if unknown >= UNKNOWN or (error is not None and error <= problem.target_error):
             break
         problem = problem.doubled()
-        film = _film_on_one_grid(problem, progress)
+        film = _film_on_grid(problem, progress)
     return film
 
 
-def _film_on_one_grid(problem: FilmProblem, progress: Progress | None) -> Film:
+def _film_on_grid(problem: FilmProblem, progress: Progress | None) -> Film:
     sizes = grid_sizes(problem.nodes)
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         grids = [equations_of(problem, n) for n in sizes]

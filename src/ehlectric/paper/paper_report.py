@@ -14,7 +14,7 @@ from jinja2 import Environment, StrictUndefined
 from ehlectric.paper.errata import SLIPS
 from ehlectric.paper.paper_contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, of_paper
 from ehlectric.paper.paper_figures import FIGURES
-from ehlectric.paper.paper_tables import AMPLITUDE, BY_SMOOTH, OWN, WITHIN, PaperTable
+from ehlectric.paper.paper_tables import AMPLITUDE, BY_SMOOTH, REDUCED_STRENGTH, WITHIN, PaperTable
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study
 from ehlectric.quantities.result_warnings import ResultWarning
@@ -65,7 +65,9 @@ def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
         tables[name] for name in ("table_3", "conclusion_1", "conclusion_2", "conclusion_3")
     )
     excess = max(
-        abs(v) for head in (OWN, "shifted, minimum", "shifted, maximum") for v in _percent(rough, head)
+        abs(v)
+        for head in (REDUCED_STRENGTH, "shifted, minimum", "shifted, maximum")
+        for v in _percent(rough, head)
     )
     shares = _column(width, "width/b")
     narrower = all(later < earlier for part in (shares[:4], shares[4:]) for earlier, later in pairwise(part))
@@ -103,13 +105,15 @@ def numbers(study: Study, tables: Mapping[str, PaperTable]) -> dict[str, str]:
         "largest": _range([field["max_dimensionless"] for field in fields.values()], ".4f"),
         "centre_1": _range(centre[1], ".3f"),
         "centre_2": _range(centre[2], ".3f"),
-        "own": _range(_percent(rough, OWN), ".1f"),
+        "own": _range(_percent(rough, REDUCED_STRENGTH), ".1f"),
         "own_moved": _range(_percent(rough, "shifted, minimum") + _percent(rough, "shifted, maximum"), ".1f"),
         "grid": format(
             100.0
             * max(
                 abs(a / b - 1.0)
-                for a, b in zip(_column(rough, "on half of the nodes"), _column(rough, OWN), strict=True)
+                for a, b in zip(
+                    _column(rough, "on half of the nodes"), _column(rough, REDUCED_STRENGTH), strict=True
+                )
             ),
             ".1f",
         ),

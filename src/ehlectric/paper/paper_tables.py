@@ -167,7 +167,7 @@ def rough_table(study: Study) -> PaperTable:
         *_HEAD,
         ("h_min smooth [µm]", ".3f"),
         ("h_min rough [µm]", ".3f"),
-        (OWN, ".3f"),
+        (REDUCED_STRENGTH, ".3f"),
         ("on half of the nodes", ".3f"),
         ("shifted, minimum", ".3f"),
         ("shifted, maximum", ".3f"),
@@ -179,7 +179,7 @@ def rough_table(study: Study) -> PaperTable:
     return _table("Largest field of the rough contacts", columns, rows)
 
 
-OWN = "E_max h_min/V12"
+REDUCED_STRENGTH = "E_max h_min/V12"
 BY_SMOOTH = "E_max smooth h_min/V12"
 AMPLITUDE = "film over roughness, rms"
 

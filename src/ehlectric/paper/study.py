@@ -180,7 +180,7 @@ def _methods(contact: PaperContact) -> Methods:
         (sor.over_relax(stencil, linear, factor=young + change) for change in _FACTORS),
         key=lambda relaxed: relaxed.sweeps,
     )
-    field, own = sor.field_from(problem, stencil, best.potential), solve_field(problem)
+    field, reference = sor.field_from(problem, stencil, best.potential), solve_field(problem)
     return Methods(
         cycles=int(np.count_nonzero(residuals > COUNTED)),
         factor=float((late[-1] / late[0]) ** (1.0 / max(late.size - 1, 1))),
@@ -188,8 +188,8 @@ def _methods(contact: PaperContact) -> Methods:
         unknowns=stencil.grid.column.size,
         sweeps=best.sweeps,
         damping=float(best.factor),
-        capacitance_difference=field.capacitance / own.capacitance - 1.0,
-        strength_difference=field.max_strength / own.max_strength - 1.0,
+        capacitance_difference=field.capacitance / reference.capacitance - 1.0,
+        strength_difference=field.max_strength / reference.max_strength - 1.0,
     )
 
 

@@ -110,13 +110,13 @@ def _laplacian(whole: Array, void: Mask, dx: float, dy: float) -> tuple[sparse.c
         halves = [(slice(None, -1), slice(1, None)) if k == axis else (slice(None),) * 2 for k in (0, 1)]
         ends = [(halves[0][k], halves[1][k]) for k in (0, 1)]
         for here, there in ((0, 1), (1, 0)):
-            own, other = number[ends[here]], number[ends[there]]
-            rise = (whole[ends[there]] - whole[ends[here]])[own >= 0]
-            own, other = own[own >= 0], other[own >= 0]
-            diagonal[own] += weight
-            force[own] += weight * rise
-            both = other >= 0
-            pairs.append((np.full(int(both.sum()), -weight), own[both], other[both]))
+            node, neighbour = number[ends[here]], number[ends[there]]
+            rise = (whole[ends[there]] - whole[ends[here]])[node >= 0]
+            node, neighbour = node[node >= 0], neighbour[node >= 0]
+            diagonal[node] += weight
+            force[node] += weight * rise
+            both = neighbour >= 0
+            pairs.append((np.full(int(both.sum()), -weight), node[both], neighbour[both]))
     pairs.append((diagonal, np.arange(n), np.arange(n)))
     values, rows, columns = (np.concatenate(part) for part in zip(*pairs, strict=True))
     return sparse.csr_array((values, (rows, columns)), shape=(n, n)), force

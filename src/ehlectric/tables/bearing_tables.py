@@ -42,7 +42,7 @@ from ehlectric.quantities.sheets import (
     LOAD_COLUMNS,
     VALUES,
 )
-from ehlectric.readable import ONE_NUMBER, at_an_end, chance_text, formatted, ratio_text, readable
+from ehlectric.readable import SAME_NUMBER, at_an_end, chance_text, formatted, ratio_text, readable
 from ehlectric.tables.measured_tables import columns_table, status_rows
 
 if TYPE_CHECKING:
@@ -263,17 +263,17 @@ def _speed(name: str) -> Callable[[Summary], Any]:
     """A speed of the table ``margin``, rounded as all speeds that are searched."""
 
     def value(summary: Summary) -> tuple[str, str] | None:
-        found = value_at(summary, f"margin.{name}")
-        return None if found is None else (rpm_text(found), "rpm")
+        speed = value_at(summary, f"margin.{name}")
+        return None if speed is None else (rpm_text(speed), "rpm")
 
     return value
 
 
 def _searched(summary: Summary) -> bool:
     """Whether further speeds were searched for a margin of 1, and none has it."""
-    found = summary.get("margin") or {}
-    lowest, highest = found.get("lowest_speed"), found.get("highest_speed")
-    crossed = found.get("critical_speed") is not None or found.get("upper_critical_speed") is not None
+    margin = summary.get("margin") or {}
+    lowest, highest = margin.get("lowest_speed"), margin.get("highest_speed")
+    crossed = margin.get("critical_speed") is not None or margin.get("upper_critical_speed") is not None
     return not crossed and lowest is not None and highest is not None and bool(lowest < highest)
 
 
@@ -288,9 +288,9 @@ def _critical_speed(summary: Summary) -> Noted:
 
 def _parallel(summary: Summary) -> Noted:
     """Capacitance next to the bearing, or that it is not given and taken as 0."""
-    found = value_at(summary, "bearing.parallel_capacitance")
-    if found or found is None or "parallel_capacitance" in _bearing(summary):
-        return Noted(found, ", cage, shields and wiring")
+    capacitance = value_at(summary, "bearing.parallel_capacitance")
+    if capacitance or capacitance is None or "parallel_capacitance" in _bearing(summary):
+        return Noted(capacitance, ", cage, shields and wiring")
     return Noted("not given", ", taken as 0 (cage, shields and wiring)")
 
 
@@ -362,8 +362,8 @@ def _first_break(summary: Summary) -> Noted:
     """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
     if _state(summary) == "conducting":
         return Noted("not computed", ", contacts open and close, and discharge at a low voltage")
-    found = summary["bearing"]
-    return Noted(found["first_break"], f", {found['first_break_at']}; {breakdown_words(summary)}")
+    bearing = summary["bearing"]
+    return Noted(bearing["first_break"], f", {bearing['first_break_at']}; {breakdown_words(summary)}")
 
 
 def _period(summary: Summary) -> str:
@@ -385,8 +385,8 @@ def _over_limits(summary: Summary) -> bool:
 
 
 def _range(summary: Summary) -> str | None:
-    found = summary.get("margin") or {}
-    return None if found.get("low") is None else _between(found["low"], found["high"])
+    margin = summary.get("margin") or {}
+    return None if margin.get("low") is None else _between(margin["low"], margin["high"])
 
 
 def _between(low: float, high: float) -> str:
@@ -399,64 +399,64 @@ def _effects(summary: Summary) -> Iterator[Row]:
     bound = bearing_bounds(BEARING_BOOK, summary).get("margin.effects", "")
     for effect in (summary.get("margin") or {}).get("effects", ()):
         margins = _between(effect["low_margin"], effect["high_margin"])
-        name, _, beside = effect["label"].partition(" (")
-        note = f", {beside.removesuffix(')')}" if beside else ""
+        name, _, remark = effect["label"].partition(" (")
+        note = f", {remark.removesuffix(')')}" if remark else ""
         name = f"{name}, {input_range(effect)}"
         yield Row(name, margins, note=note, bound=bound, key=f"margin.effects.{effect['key']}")
 
 
 def _margin_range(summary: Summary) -> str | None:
     """Interval of the margin; that it is not known if points without a result leave an end open."""
-    found = summary.get("uncertainty")
-    if not found:
+    uncertainty = summary.get("uncertainty")
+    if not uncertainty:
         return None
-    if found.get("failed") and not (found["margin_low"] and found["margin_high"]):
+    if uncertainty.get("failed") and not (uncertainty["margin_low"] and uncertainty["margin_high"]):
         return "not known"
-    return _between(found["margin_low"], found["margin_high"])
+    return _between(uncertainty["margin_low"], uncertainty["margin_high"])
 
 
 def _median_note(summary: Summary) -> str:
-    found = summary["uncertainty"]
-    least = "at least " if found.get("failed") else ""
-    return f", median {least}{ratio_text(found['margin_median'])}"
+    uncertainty = summary["uncertainty"]
+    least = "at least " if uncertainty.get("failed") else ""
+    return f", median {least}{ratio_text(uncertainty['margin_median'])}"
 
 
 def _probability(key: str) -> Callable[[Summary], Any]:
     """Probability of breakdown; its bounds if points or rows without a result leave it open."""
 
     def value(summary: Summary) -> Any:
-        found = value_at(summary, key)
+        probability = value_at(summary, key)
         low, high = (value_at(summary, f"{key}_{end}") for end in ("low", "high"))
         # Results of earlier versions have no bounds.
-        if low is None or high is None or high - low < ONE_NUMBER:
+        if low is None or high is None or high - low < SAME_NUMBER:
             error = value_at(summary, f"{key}_error")
-            if found is None or error is None or not at_an_end(found, error):
-                return found
-            return chance_text(found, error).removesuffix(" %"), "%"
+            if probability is None or error is None or not at_an_end(probability, error):
+                return probability
+            return chance_text(probability, error).removesuffix(" %"), "%"
         return " to ".join(readable(100.0 * end, 2) for end in (low, high)), "%"
 
     return value
 
 
 def _probability_note(summary: Summary) -> str:
-    found = summary["uncertainty"]
-    if found.get("failed"):
-        return f", {found['failed']} of {found['samples']} points have no result"
-    if at_an_end(found["breakdown_probability"], found["breakdown_probability_error"]):
+    uncertainty = summary["uncertainty"]
+    if uncertainty.get("failed"):
+        return f", {uncertainty['failed']} of {uncertainty['samples']} points have no result"
+    if at_an_end(uncertainty["breakdown_probability"], uncertainty["breakdown_probability_error"]):
         return ""
-    return f", sampling error {readable(100.0 * found['breakdown_probability_error'], 2)} %"
+    return f", sampling error {readable(100.0 * uncertainty['breakdown_probability_error'], 2)} %"
 
 
 def _shares(summary: Summary) -> Iterator[Row]:
     """Rows of the shares of the uncertain inputs in the spread of the margin, the largest first."""
-    for one in (summary.get("uncertainty") or {}).get("indices", ()):
-        if one["total"] >= _LEAST_SHARE:
-            name, _, beside = one["label"].partition(" (")
-            within = "" if one["low"] is None else f", {input_range(one)}"
-            assumed = ", a usual range" if one["assumed"] and one["key"] != FILMS else ""
-            note = f"{', ' + beside.removesuffix(')') if beside else ''}{assumed}"
-            share = f"{readable(100.0 * one['total'], 2)} % of the spread"
-            yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{one['key']}")
+    for index in (summary.get("uncertainty") or {}).get("indices", ()):
+        if index["total"] >= _LEAST_SHARE:
+            name, _, remark = index["label"].partition(" (")
+            within = "" if index["low"] is None else f", {input_range(index)}"
+            assumed = ", a usual range" if index["assumed"] and index["key"] != FILMS else ""
+            note = f"{', ' + remark.removesuffix(')') if remark else ''}{assumed}"
+            share = f"{readable(100.0 * index['total'], 2)} % of the spread"
+            yield Row(f"{name}{within}", share, note=note, key=f"uncertainty.indices.{index['key']}")
 
 
 def _left_out_of_probability(summary: Summary) -> Iterator[Row]:
@@ -477,14 +477,14 @@ def _unless_zero(key: str) -> Callable[[Summary], Any]:
 def _stretches(summary: Summary) -> Iterator[Row]:
     """Rows of the worst stretches of a duty cycle, the worst first."""
     bounds = bearing_bounds(BEARING_BOOK, summary)
-    for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
-        name = "lambda_ratio" if one["least_margin"] is None else "least_margin"
+    for place, stretch in enumerate((summary.get("duty") or {}).get("stretches", ())):
+        name = "lambda_ratio" if stretch["least_margin"] is None else "least_margin"
         about = BEARING_BOOK[key := f"duty.stretches.{name}"]
-        span = f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s"
-        at = f", {one['why']}" if one["why"] else f", at {speed_text(one['speed'])}"
+        span = f"{about.label}, {readable(stretch['start'], 6)} to {readable(stretch['end'], 6)} s"
+        at = f", {stretch['why']}" if stretch["why"] else f", at {speed_text(stretch['speed'])}"
         yield Row(
             span,
-            one[name],
+            stretch[name],
             note=at,
             digits=about.digits,
             bound=bounds.get(key, ""),

@@ -150,9 +150,9 @@ def _film_grid(summary: Summary) -> str:
     film = summary["film"]
     nodes = film["nodes"] if isinstance(film["nodes"], Sequence) else (film["nodes"],)
     target = film["target_error"]
-    asked = "" if target is None else f", {100.0 * target:g} % asked"
+    target_note = "" if target is None else f", {100.0 * target:g} % asked"
     touch = "where surfaces touch" if _touches(summary) else ""
-    return f"{touch}, {' x '.join(map(str, nodes))} nodes{asked}"
+    return f"{touch}, {' x '.join(map(str, nodes))} nodes{target_note}"
 
 
 def _iterations(summary: Summary) -> str:
@@ -204,8 +204,12 @@ def _inlet(case: object) -> str:
     if not isinstance(case, Case) or case.contact.temperature is None:
         return ""
     contact = case.contact
-    found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
-    known = {name: value for name, value in found.items() if value is not None}
+    temperatures = {
+        "oil": contact.temperature,
+        "body 1": contact.temperature_1,
+        "body 2": contact.temperature_2,
+    }
+    known = {name: value for name, value in temperatures.items() if value is not None}
     return "".join(f", {name} at {CELSIUS.text(value)}" for name, value in known.items())
 
 
@@ -228,8 +232,8 @@ def _temperature_error(summary: Summary) -> str:
 
 def _load_share(summary: Summary) -> Noted:
     """Load share with no more digits than its change from a coarser grid leaves, and this change."""
-    found = summary["asperities"]
-    share, before = found["load_share"], found["load_share_coarser"]
+    asperities = summary["asperities"]
+    share, before = asperities["load_share"], asperities["load_share_coarser"]
     note = ", not known on a coarser grid"
     if before is not None:
         error = formatted(100.0 * abs(share - before), ".2g")
@@ -247,10 +251,12 @@ def _area_error(summary: Summary) -> str:
 
 
 def _spots(summary: Summary) -> Noted:
-    found = summary["asperities"]
+    asperities = summary["asperities"]
     strips = ", strips along the contact" if _geometry(summary) == "line" else ""
-    single = f", {found['spots_of_one_node']} of a single node" if found["spots_of_one_node"] else ""
-    return Noted(str(found["spots"]), strips + single)
+    single = (
+        f", {asperities['spots_of_one_node']} of a single node" if asperities["spots_of_one_node"] else ""
+    )
+    return Noted(str(asperities["spots"]), strips + single)
 
 
 def _oil_error(summary: Summary) -> Any:
@@ -285,12 +291,12 @@ def _field_place(summary: Summary) -> str:
 
 def _strength(summary: Summary) -> Noted | None:
     """Dielectric strength and its law; that it is not given where there is no law."""
-    found = summary.get("discharge")
-    if found is None:
+    discharge = summary.get("discharge")
+    if discharge is None:
         return None
-    if found["strength_law"] is None:
+    if discharge["strength_law"] is None:
         return Noted("not given", ", no breakdown voltage is computed")
-    return Noted(found["dielectric_strength"], f", {found['strength_law']}")
+    return Noted(discharge["dielectric_strength"], f", {discharge['strength_law']}")
 
 
 def _breakdown_note(summary: Summary) -> str:
@@ -305,8 +311,8 @@ def _breakdown_error(summary: Summary) -> Any:
 
 
 def _breakdown_range(summary: Summary) -> Any:
-    found = summary.get("discharge", {})
-    low, high = found.get("breakdown_voltage_low"), found.get("breakdown_voltage_high")
+    discharge = summary.get("discharge", {})
+    low, high = discharge.get("breakdown_voltage_low"), discharge.get("breakdown_voltage_high")
     return None if low is None or high is None else (f"{readable(low, 4)} to {readable(high, 4)}", "V")
 
 
@@ -320,8 +326,8 @@ def _zone_place(summary: Summary) -> str | None:
 
 
 def _beyond(summary: Summary) -> str:
-    found = summary["discharge"]
-    beyond = 100.0 * found["capacitance_beyond"] / found["capacitance"]
+    discharge = summary["discharge"]
+    beyond = 100.0 * discharge["capacitance_beyond"] / discharge["capacitance"]
     return (
         f", over {_domain(summary)}; a domain twice as large in every direction would add "
         f"{readable(beyond, 2)} % if full of oil"
@@ -339,20 +345,20 @@ def _domain(summary: Summary) -> str:
 
 def _by_outlet(summary: Summary) -> Any:
     """Range of the capacitance between oil in layers and a full outlet."""
-    found = summary.get("discharge")
-    if found is None:
+    discharge = summary.get("discharge")
+    if discharge is None:
         return None
-    return _between(found, ("layers", "full"), "nF/m" if _geometry(summary) == "line" else "pF")
+    return _between(discharge, ("layers", "full"), "nF/m" if _geometry(summary) == "line" else "pF")
 
 
 def _meter_range(summary: Summary) -> Any:
-    found = summary.get("meter")
-    return found and _between(found, ("air", "oil"), "pF")
+    meter = summary.get("meter")
+    return meter and _between(meter, ("air", "oil"), "pF")
 
 
-def _between(found: Summary, names: tuple[str, str], unit: str) -> tuple[str, str]:
+def _between(table: Summary, names: tuple[str, str], unit: str) -> tuple[str, str]:
     """Range of capacitances of a table."""
-    ends = (formatted(scale_of(unit).of(found[f"capacitance_{name}"]), ".4g") for name in names)
+    ends = (formatted(scale_of(unit).of(table[f"capacitance_{name}"]), ".4g") for name in names)
     return " to ".join(ends), unit
 
 
@@ -373,7 +379,7 @@ def _formula_rows(key: str) -> Callable[[Summary], Iterator[Row]]:
         formulas: Mapping[str, Any] = KINDS[_geometry(summary)].formulas
         for name, film in summary["film_formulas"].items():
             if film[key] is not None:
-                note = _range_note(summary, name, key) + _beside(summary, key, film[key])
+                note = _range_note(summary, name, key) + _difference_note(summary, key, film[key])
                 row = row_of(f"film_formulas.{name}.{key}", about, film[key], note)
                 yield replace(row, name=f"{key.replace('_thickness', ' film')} ({formulas[name].name})")
 
@@ -386,7 +392,7 @@ def _range_note(summary: Summary, name: str, key: str) -> str:
     return f", outside its range: {reason}" if reason else ""
 
 
-def _beside(summary: Summary, key: str, value: float) -> str:
+def _difference_note(summary: Summary, key: str, value: float) -> str:
     """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
 
     Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.

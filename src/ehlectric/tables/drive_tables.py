@@ -55,8 +55,8 @@ def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
     rows = list(placed_rows(whole_rows(summary, sheet), summary))
     for end, place in NAMES_OF_ENDS.items():
         for row in placed_rows(end_rows(summary, end, sheet), summary):
-            own = replace(row, name=f"{row.name}, {place}") if row.heading else row
-            rows.append(replace(own, key=own.key.replace("end.", f"{end}.", 1)))
+            placed = replace(row, name=f"{row.name}, {place}") if row.heading else row
+            rows.append(replace(placed, key=placed.key.replace("end.", f"{end}.", 1)))
     return rows
 
 
@@ -69,8 +69,8 @@ def whole_rows(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[Row]:
 
 def end_rows(summary: Summary, end: str, sheet: Sheet = DRIVE) -> Iterator[Row]:
     """Rows of the bearing at one end, with keys that begin with "end."."""
-    own = {**summary, "end": summary[end]}
-    return sheet_rows(_part(sheet, ends=True), DRIVE_BOOK, own, _WORDS, drive_bounds(DRIVE_BOOK, summary))
+    of_end = {**summary, "end": summary[end]}
+    return sheet_rows(_part(sheet, ends=True), DRIVE_BOOK, of_end, _WORDS, drive_bounds(DRIVE_BOOK, summary))
 
 
 def _part(sheet: Sheet, *, ends: bool) -> Sheet:
@@ -79,9 +79,9 @@ def _part(sheet: Sheet, *, ends: bool) -> Sheet:
 
 def side_by_side(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, list[Pair]]]:
     """Sections of both bearings: heading, and the rows of each quantity that one of them has."""
-    found = [{row.key: row for row in end_rows(summary, end, sheet)} for end in ENDS]
+    rows_of_ends = [{row.key: row for row in end_rows(summary, end, sheet)} for end in ENDS]
     for section in _part(sheet, ends=True):
-        pairs = [tuple(rows.get(key) for rows in found) for key in section.keys]
+        pairs = [tuple(rows.get(key) for rows in rows_of_ends) for key in section.keys]
         if known := [pair for pair in pairs if any(pair)]:
             yield placed(section.heading, section.keys[0], summary), known
 
@@ -126,7 +126,7 @@ AS_IT_IS, BOTH = "as it is", "both"
 
 def remedied(summary: Summary) -> list[tuple[str, Summary]]:
     """Titles and tables of the drive as it is and of its remedies."""
-    return [(AS_IT_IS, summary), *((one["title"], one) for one in summary["remedies"])]
+    return [(AS_IT_IS, summary), *((remedy["title"], remedy) for remedy in summary["remedies"])]
 
 
 def remedy_cells(
@@ -137,16 +137,16 @@ def remedy_cells(
     ``drives``, titles and tables, as ``remedied`` returns them. Quantities that no drive has are omitted.
     """
     places = {**NAMES_OF_ENDS, BOTH: BOTH}
-    found = [
+    blocks = [
         (title, place, _remedy_rows(tables, end)) for title, tables in drives for end, place in places.items()
     ]
     keys = [
         key
         for key in REMEDIES[0].keys
-        if (intervals or not key.endswith("_range")) and any(key in rows for _, _, rows in found)
+        if (intervals or not key.endswith("_range")) and any(key in rows for _, _, rows in blocks)
     ]
     yield "remedy", "bearing", *(head_of(DRIVE_BOOK[key]) for key in keys)
-    for title, place, rows in found:
+    for title, place, rows in blocks:
         yield printable(title), place, *(_cell(rows.get(key)) for key in keys)
 
 
@@ -172,8 +172,8 @@ def remedy_rates(summary: Summary) -> Iterator[tuple[str, ...]]:
 
 def _remedy_rows(tables: Summary, end: str) -> dict[str, Row]:
     """Rows of one bearing, or of the sums of both, by key."""
-    own = {**tables, BOTH: _sums(tables)}
-    return {row.key: row for row in end_rows(own, end, REMEDIES)}
+    with_sums = {**tables, BOTH: _sums(tables)}
+    return {row.key: row for row in end_rows(with_sums, end, REMEDIES)}
 
 
 def _sums(tables: Summary) -> dict[str, Any]:
@@ -211,11 +211,11 @@ def _duty_range(name: str) -> Callable[[Summary], Any]:
 def _stretches(summary: Summary) -> Iterator[Row]:
     """Rows of the worst stretches of a duty cycle, that with the most discharges first."""
     about = DRIVE_BOOK[key := "duty.stretches.discharges"]
-    for place, one in enumerate((summary.get("duty") or {}).get("stretches", ())):
+    for place, stretch in enumerate((summary.get("duty") or {}).get("stretches", ())):
         yield Row(
-            f"{about.label}, {readable(one['start'], 6)} to {readable(one['end'], 6)} s",
-            one["discharges"],
-            note=f", {amount(one['energy'], 'J')}, mean {speed_text(one['speed'])}",
+            f"{about.label}, {readable(stretch['start'], 6)} to {readable(stretch['end'], 6)} s",
+            stretch["discharges"],
+            note=f", {amount(stretch['energy'], 'J')}, mean {speed_text(stretch['speed'])}",
             digits=about.digits,
             key=key.replace("stretches.", f"stretches.{place}."),
         )

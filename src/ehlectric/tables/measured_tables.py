@@ -132,7 +132,7 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
         yield Row("mean film factor", "none", alarm=True)
     else:
         yield Row("mean film factor", f"{mean.value:.3f}")
-        yield Row("95 % interval", _interval(mean), note=_beside(factors))
+        yield Row("95 % interval", _interval(mean), note=_film_error_note(factors))
         if mean.statistical is not None:
             yield Row("standard uncertainty of the rows", mean.statistical, "%", digits=".2g")
         if mean.systematic:
@@ -148,15 +148,15 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
     yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
 
 
-def _beside(factors: FilmFactors) -> str:
+def _film_error_note(factors: FilmFactors) -> str:
     """Note on the error of films that are not solved, which is not in the interval."""
     error = factors.formula_error
     return "" if error is None else f", beside up to {readable(100.0 * error, 2)} % of the {factors.contacts}"
 
 
 def _counted(factors: FilmFactors) -> str:
-    found = int(factors.found.sum())
-    return f", {found} of {len(factors.reasons)} rows with a film factor"
+    points = int(factors.found.sum())
+    return f", {points} of {len(factors.reasons)} rows with a film factor"
 
 
 def _interval(mean: MeanFactor) -> str:

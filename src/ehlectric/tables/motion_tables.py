@@ -76,8 +76,8 @@ def _speed(surface: int) -> Callable[[Summary], float | None]:
 
 def _load_share(summary: Summary) -> Noted:
     """Mean load share with no more digits than its change from a coarser grid leaves."""
-    found = summary["asperities"]
-    share, coarser = found["load_share_mean"], found["load_share_mean_coarser"]
+    asperities = summary["asperities"]
+    share, coarser = asperities["load_share_mean"], asperities["load_share_mean_coarser"]
     note = ", not known on a coarser grid"
     if coarser is not None:
         note = f", {share_text(coarser, share)} % on half the nodes"

@@ -97,7 +97,7 @@ def _narrow(table: Table, rows: Sequence[_Row], width: int) -> Group:
     least = _longest(text for text in (*numbers, *words) if cell_len(text) <= _LONG)
     labels = [label for label, value, _ in rows if value]
     room = min(width - least - _GAP, _longest(labels))
-    beside = room >= max((_indent(label) + _longest(label.split()) for label in labels), default=0)
+    side_by_side = room >= max((_indent(label) + _longest(label.split()) for label in labels), default=0)
     parts: list[RenderableType] = []
     if table.title:
         parts.append(Text(_plain(table.title), style=table.title_style or "table.title"))
@@ -106,7 +106,7 @@ def _narrow(table: Table, rows: Sequence[_Row], width: int) -> Group:
         name = Padding(Text(label.strip()), (0, 0, 0, indent), style=style or "")
         if not value:
             parts.append(name)
-        elif not beside:
+        elif not side_by_side:
             parts += [name, Padding(Text(value), (0, 0, 0, indent + _INDENT), style=style or "")]
         else:
             row = Table.grid(padding=(0, _GAP, 0, 0))

@@ -210,7 +210,7 @@ def catalogue_tables(bearings: Iterable[CatalogueBearing]) -> Iterator[Table]:
     ordered = sorted(bearings, key=lambda bearing: bearing.kind)
     for kind, group in groupby(ordered, key=lambda bearing: bearing.kind):
         heads = ("name", *_HEADS, "elements\nare")
-        rows = ((one.name, *_bearing_cells(one), one.internal_kind or "") for one in group)
+        rows = ((bearing.name, *_bearing_cells(bearing), bearing.internal_kind or "") for bearing in group)
         table = columns_table(heads, rows, f"{kind} bearings", left=(0, len(heads) - 1))
         table.title_style = "bold"
         yield table

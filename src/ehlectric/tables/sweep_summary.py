@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.quantities.formats import scale_of
 from ehlectric.quantities.rows import Row
-from ehlectric.readable import ONE_NUMBER, readable
+from ehlectric.readable import SAME_NUMBER, readable
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity_indices import Sensitivity
@@ -78,7 +78,7 @@ def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
     if share is not None:
         voltage = breakdown.voltage_name
         low, high = sensitivity.share_below_voltage_bounds or (share, share)
-        shown = share if high - low < ONE_NUMBER else f"{readable(100.0 * low)} to {readable(100.0 * high)}"
+        shown = share if high - low < SAME_NUMBER else f"{readable(100.0 * low)} to {readable(100.0 * high)}"
         rows.append(Row(f"samples below the {voltage}", shown, "%", digits=".3g"))
     return rows
 
@@ -95,6 +95,6 @@ def indices_table(results: SweepResults, sensitivity: Sensitivity) -> Table:
             f"{index.total:.3f}",
             "{:.3f} to {:.3f}".format(*index.total_interval),
         )
-        for index in sorted(sensitivity.indices, key=lambda one: -one.total)
+        for index in sorted(sensitivity.indices, key=lambda index: -index.total)
     )
     return columns_table(heads, rows, title, wrapped=(0,), padding=2)
