@@ -9,7 +9,6 @@ import pytest
 
 from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
-from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 # Settings of users that changed figures or ended them, and what no version of Matplotlib knows.
@@ -34,7 +33,7 @@ def typed_alone(*words, cwd, **environment):
 
 
 @pytest.mark.slow
-@each("backend", ["module://matplotlib_inline.backend_inline", "QtAgg", "nonsense"])
+@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "QtAgg", "nonsense"])
 def test_no_backend_of_a_notebook_ends_a_command(tmp_path, backend):
     done = typed_alone("oil", "fva-3", "-o", "out", cwd=tmp_path, MPLBACKEND=backend)
     assert (done.returncode, done.stderr) == (0, "")
@@ -43,7 +42,7 @@ def test_no_backend_of_a_notebook_ends_a_command(tmp_path, backend):
 
 
 @pytest.mark.slow
-@each("where", ["folder", "MATPLOTLIBRC"])
+@pytest.mark.parametrize("where", ["folder", "MATPLOTLIBRC"])
 def test_a_matplotlibrc_changes_no_figure(tmp_path, where):
     folder = tmp_path if where == "folder" else tmp_path / "own"
     folder.mkdir(exist_ok=True)

@@ -8,7 +8,6 @@ from rich.console import Console
 
 from ehlectric.tables.measured_tables import columns_table
 from ehlectric.tables.narrow_tables import fitted
-from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 BEARING = EXAMPLES / "bearing_6208.toml"
@@ -51,7 +50,7 @@ def test_every_number_of_a_check_is_in_a_narrow_table(typed, case_file, monkeypa
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     "words",
     [
         ("check", BEARING),

@@ -8,7 +8,6 @@ import sys
 import pytest
 
 from tests.helpers.commands import COMMAND
-from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="redirections of a POSIX shell")
@@ -24,7 +23,7 @@ def shell(words, redirection, cwd):
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     ("redirection", "status"),
     [(">&-", 0), ("2>&-", 0), ("<&- >&- 2>&-", 0), ("2> /dev/full", 0), ("> /dev/full", 2)],
 )
@@ -36,13 +35,15 @@ def test_a_stream_that_takes_nothing(tmp_path, redirection, status):
 
 
 @pytest.mark.slow
-@each("redirection", ["2>&-", "2> /dev/full", ">&- 2>&-"])
+@pytest.mark.parametrize("redirection", ["2>&-", "2> /dev/full", ">&- 2>&-"])
 def test_a_wrong_input_has_its_status_without_stderr(tmp_path, redirection):
     assert shell(("check", "no.toml"), redirection, tmp_path) == (2, "", "")
 
 
 @pytest.mark.slow
-@each("words", ["bearings", "examples", "oils --json", "film --m 20 --l 10", "--version", "schema contact"])
+@pytest.mark.parametrize(
+    "words", ["bearings", "examples", "oils --json", "film --m 20 --l 10", "--version", "schema contact"]
+)
 def test_a_full_device_is_named_by_every_command(tmp_path, words):
     assert shell(words.split(), "> /dev/full", tmp_path) == (2, "", FULL)
 
@@ -72,7 +73,7 @@ def test_streams_that_python_does_not_have(tmp_path):
 
 
 @pytest.mark.slow
-@each("words", ["oils", "check case.toml", "bearings"])
+@pytest.mark.parametrize("words", ["oils", "check case.toml", "bearings"])
 def test_a_reader_that_leaves_gives_the_status_of_sigpipe(tmp_path, words):
     """The reader takes nothing: what it takes first would depend on the moment at which it leaves."""
     (tmp_path / "case.toml").write_bytes(LINE.read_bytes())

@@ -8,7 +8,6 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric import solve
-from tests.helpers.each import each
 from tests.reference.field import near
 
 LOADS = {"1 GPa": 3.925e5, "2 GPa": 1.57e6}
@@ -42,8 +41,8 @@ def test_ratio_to_plates(solved, load):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("load", LOADS)
-@each("u_s", SPEEDS)
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("u_s", SPEEDS)
 def test_dry_contact_with_a_film_is_nearly_it(solved, load, u_s):
     """By quadrature: the gap of the dry contact, b^2/(2R) (X sqrt(X^2 - 1) - ln(X + sqrt(X^2 - 1))), lifted
     by h(0), with the permittivity at the Hertz pressure. It has no spike, no constriction and no inlet sweep,
@@ -80,8 +79,8 @@ def hertz_zone(result):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("load", LOADS)
-@each("u_s", SPEEDS)
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("u_s", SPEEDS)
 def test_spike_and_constriction_hardly_matter(solved, load, u_s):
     """Claimed by Schneider et al., as the paper quotes them. A film 15 % thinner over a tenth of the zone is
     1.5 % / 2 of its capacitance, and a spike over a hundredth of it, where the permittivity may be a tenth

@@ -11,7 +11,6 @@ from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
 from ehlectric.film.nested import nested_iteration
 from ehlectric.paper.paper_contacts import of_paper, table_3
-from tests.helpers.each import each
 
 DATA = Path(__file__).parent / "data"
 FILMS = pd.read_csv(DATA / "line_contact_films.csv", comment="#").to_dict("records")
@@ -48,7 +47,7 @@ def row_name(row):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("row", FILMS, ids=row_name)
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_first_order_film_agrees_with_independent_computation(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "first-order")
     film = result.film
@@ -65,7 +64,7 @@ def test_first_order_film_agrees_with_independent_computation(solved, row):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("row", FILMS, ids=row_name)
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_second_order_film_agrees_with_independent_computation(solved, row):
     film = solved(row["load_per_length"], row["u_s"], "second-order").film
     assert film.minimum_thickness == pytest.approx(row["second_h_min"] * MICRO, rel=1e-3, abs=0.0)
@@ -74,7 +73,7 @@ def test_second_order_film_agrees_with_independent_computation(solved, row):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("row", FILMS, ids=row_name)
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_second_order_film_is_near_the_converged_one(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")
     film = result.film
@@ -87,8 +86,8 @@ def test_second_order_film_is_near_the_converged_one(solved, row):
 
 
 @pytest.mark.slow
-@each("wedge", ["first-order", "second-order"])
-@each("row", FILMS, ids=row_name)
+@pytest.mark.parametrize("wedge", ["first-order", "second-order"])
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_solution_meets_its_equations(solved, row, wedge):
     film = solved(row["load_per_length"], row["u_s"], wedge).film
     assert film.load_residual < 1e-10
@@ -123,7 +122,7 @@ def test_iterate_itself_keeps_to_the_ambient_pressure(paper_case, row, wedge):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("row", TABLE_3)
+@pytest.mark.parametrize("row", TABLE_3)
 def test_table_3(solved, row):
     result = solved(1.57e6, row["u_s"], "second-order")
     # Printed to three and four digits.
@@ -142,7 +141,7 @@ def test_table_3(solved, row):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("row", FILMS, ids=row_name)
+@pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_field_is_v12_over_h_min_at_the_constriction(solved, row):
     result = solved(row["load_per_length"], row["u_s"], "second-order")
     summary = result.summary()["field"]

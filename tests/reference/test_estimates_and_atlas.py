@@ -29,7 +29,7 @@ def test_true_errors_stay_below_their_estimates(kind):
 
 
 @pytest.mark.slow
-@each("name", ["line-003", "point-003"])
+@pytest.mark.parametrize("name", ["line-003", "point-003"])
 def test_estimates_are_those_of_the_program(name):
     stored = {row["name"]: row for row in estimates()}[name]
     with (TARGET / "results.csv").open(newline="", encoding="utf-8") as file:
@@ -44,7 +44,7 @@ def test_estimates_are_those_of_the_program(name):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(
+@pytest.mark.parametrize(
     ("kind", "least", "median"),
     [
         ("lines", 300, 0.005), ("points", 219, 0.005), ("wide", 20, 0.01), ("thin", 60, 0.005),

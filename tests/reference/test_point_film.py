@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad
 
-from tests.helpers.each import each
 from tests.reference import point_film
 from tests.reference.point_film import INLET, OUTLET, SIDE, ManufacturedFilm
 
@@ -25,8 +24,8 @@ def test_pressure_carries_the_load(film):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("film", FILMS)
-@each("at", [(-0.3, 0.01), (0.7, 1.0), (INLET, 0.4), (1.0, SIDE), (-1.89, -1.79)])
+@pytest.mark.parametrize("film", FILMS)
+@pytest.mark.parametrize("at", [(-0.3, 0.01), (0.7, 1.0), (INLET, 0.4), (1.0, SIDE), (-1.89, -1.79)])
 def test_deflection_is_the_potential(film, at):
     """In polar coordinates about the point 1/r drops out: P along rays, then over the angle."""
     x, y = at

@@ -9,7 +9,6 @@ from ehlectric import Case, solve
 from ehlectric.contact.touching import oil_balance
 from ehlectric.film import film_solver
 from ehlectric.film.nested import nested_iteration
-from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share
 
@@ -199,7 +198,7 @@ def test_oil_enters_a_spot_at_its_edge():
 
 
 @pytest.mark.slow
-@each("film", [{"rheology": "eyring"}, {"thermal": True, "rheology": "eyring"}])
+@pytest.mark.parametrize("film", [{"rheology": "eyring"}, {"thermal": True, "rheology": "eyring"}])
 def test_hot_and_sheared_films_keep_their_oil(film):
     """A Gaussian line that forms again behind a cavity, which made oil where the cavity counted as full."""
     rough = GAUSSIAN | {"surface": 2, "rq": "150 nm"}

@@ -19,7 +19,6 @@ from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.problem import OilSupply
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
-from tests.helpers.each import each
 from tests.helpers.hot import hot_contact, hot_oil
 
 STEEL = {"material": "steel", "density": 7850.0}
@@ -100,7 +99,7 @@ def test_every_combination_at_rest_converges_and_conserves(geometry, effects):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("hot", [False, True])
+@pytest.mark.parametrize("hot", [False, True])
 def test_a_layer_that_floods_is_no_supply(hot):
     """To 1e-8 of the film."""
     problem = posed("line", hot=hot, rough=False)
@@ -112,7 +111,7 @@ def test_a_layer_that_floods_is_no_supply(hot):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("starved", [False, True])
+@pytest.mark.parametrize("starved", [False, True])
 def test_a_boundary_film_that_is_thin_changes_no_hot_film(starved):
     """To 1e-8 of the film: nowhere do the surfaces touch."""
     problem = posed("line", starved=starved, hot=True, rough=False)
@@ -121,7 +120,9 @@ def test_a_boundary_film_that_is_thin_changes_no_hot_film(starved):
 
 
 @pytest.mark.slow
-@each("effects", [{"starved": True}, {"touching": True}, {"starved": True, "touching": True}])
+@pytest.mark.parametrize(
+    "effects", [{"starved": True}, {"touching": True}, {"starved": True, "touching": True}]
+)
 def test_a_newtonian_rheology_is_the_film_without_it(effects):
     """To 1e-8: the flux law of a sheared oil has that of a Newtonian one as its limit."""
     case = table("line", **effects)
@@ -134,7 +135,7 @@ def test_a_newtonian_rheology_is_the_film_without_it(effects):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("part", [0.3, 0.8])
+@pytest.mark.parametrize("part", [0.3, 0.8])
 def test_oil_that_conducts_all_heat_leaves_a_starved_film_isothermal(part):
     """To 1e-6: with 1.4e4 W/(m K) in the oil and 1e9 in the bodies no temperature builds up."""
     body = {"thermal_conductivity": 1e9}
@@ -202,8 +203,8 @@ def moving(geometry, **effects):
 
 
 @pytest.mark.slow
-@each("hot", [False, True])
-@each("starved", [False, True])
+@pytest.mark.parametrize("hot", [False, True])
+@pytest.mark.parametrize("starved", [False, True])
 def test_without_motion_every_film_stays(hot, starved):
     """After 30 steps to 1e-7 of the film, with heat to what its iteration leaves of the temperature."""
     contact, _ = moving("line", starved=starved, hot=hot)
@@ -221,10 +222,10 @@ def test_without_motion_every_film_stays(hot, starved):
 
 
 @pytest.mark.slow
-@each("geometry", ["line", "point"])
-@each("touching", [False, True])
-@each("hot", [False, True])
-@each("starved", [False, True])
+@pytest.mark.parametrize("geometry", ["line", "point"])
+@pytest.mark.parametrize("touching", [False, True])
+@pytest.mark.parametrize("hot", [False, True])
+@pytest.mark.parametrize("starved", [False, True])
 def test_every_combination_in_motion_converges(geometry, starved, hot, touching):
     """Forty steps, in which the wave reaches the contact of a line; the load is carried at each."""
     contact, film = moving(geometry, starved=starved, hot=hot, touching=touching)

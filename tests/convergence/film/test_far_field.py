@@ -13,7 +13,6 @@ from ehlectric.film.far_field import load_outside, with_far_field
 from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem
-from tests.helpers.each import each
 
 
 def constant(value):
@@ -74,7 +73,7 @@ LAWS = reference_laws()
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     ("load", "lubricant", "ratio"),
     [
         (3.0, 0.5, 1.0),

@@ -11,7 +11,6 @@ from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
-from tests.helpers.each import each
 from tests.helpers.films import RIGID_LINE, film_alone
 from tests.helpers.gate import gated
 from tests.reference.martin import exit_angle, film_coefficient
@@ -134,7 +133,7 @@ def test_iterations_do_not_grow_with_the_grid(paper_case, wedge, load, u_s):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("nodes", [65, 100, 101, 102, 200, 201, 202, 1000, 1603, 2048, 3200, 5000])
+@pytest.mark.parametrize("nodes", [65, 100, 101, 102, 200, 201, 202, 1000, 1603, 2048, 3200, 5000])
 def test_any_number_of_nodes(paper_case, nodes):
     film = film_alone(paper_case.replace({"contact.max_hertz_pressure": "1 GPa", "grid.nodes": nodes}))
     assert film.converged

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, save, solve
-from tests.helpers.each import each
 
 BALL = {
     "geometry": "point",
@@ -38,7 +37,7 @@ def severe(result):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("point", [False, True])
+@pytest.mark.parametrize("point", [False, True])
 def test_a_table_without_heat_and_shear_changes_nothing(point):
     """Film = {} states what holds without the table: the film is the same to the last bit."""
     line = {"contact": LINE | {"entrainment_speed": "4 m/s"}, "lubricant": {"base": "paper"}}

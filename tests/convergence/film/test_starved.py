@@ -13,7 +13,6 @@ from ehlectric.film.face_flow import Fluid
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.problem import FilmProblem, OilSupply
-from tests.helpers.each import each
 from tests.helpers.films import RIGID_LINE
 from tests.helpers.starved_films import flooded_flow, posed, supplied
 from tests.reference.martin import exit_angle, film_coefficient
@@ -47,7 +46,7 @@ def at_rest(found):
 
 
 @pytest.mark.slow
-@each("part", [0.95, 0.7, 0.4, 0.1, 0.02])
+@pytest.mark.parametrize("part", [0.95, 0.7, 0.4, 0.1, 0.02])
 def test_layer_of_oil_passes_a_line_contact(part):
     """What passes where no pressure drives oil is what came: rho h there is the layer, to 1e-6."""
     problem = posed(LINE)

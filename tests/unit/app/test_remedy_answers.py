@@ -35,7 +35,7 @@ def now():
 
 
 @pytest.mark.slow
-@each("name", BEARING_REMEDIES)
+@pytest.mark.parametrize("name", BEARING_REMEDIES)
 def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
     found = whole(name)
     assert found["Verdict"][0] == now.verdict.heading
@@ -46,7 +46,7 @@ def test_beside_a_remedy_stands_the_answer_of_the_page(name, now):
 
 
 @pytest.mark.slow
-@each("name, changes", [
+@pytest.mark.parametrize(("name", "changes"), [
     ("Hybrid", {"bearing.element_material": "silicon-nitride", "bearing.element_capacitance": "5 pF"}),
     ("Insulated", {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}}),
     ("Other oil", {"lubricant": {"base": "fva-3"}}),

@@ -75,8 +75,8 @@ def test_loads_of_points_are_those_of_each(bearings, inner):
 
 
 @pytest.mark.slow
-@each("inner", [True, False])
-@each("way", ["atlas", "formula"])
+@pytest.mark.parametrize("inner", [True, False])
+@pytest.mark.parametrize("way", ["atlas", "formula"])
 def test_contacts_of_points_are_those_of_each(bearings, inner, way):
     alone, together = bearings
     k = 0 if inner else 1

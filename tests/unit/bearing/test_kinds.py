@@ -69,7 +69,7 @@ def test_the_tables_of_kinds_agree():
 
 
 @pytest.mark.slow
-@each("name", list(BEARINGS))
+@pytest.mark.parametrize("name", list(BEARINGS))
 def test_points_together_are_those_of_each_alone(name):
     case = case_of(name)
     load = "bearing.radial_load" if KINDS_OF_BEARINGS[case.bearing.kind].radial else "bearing.axial_load"

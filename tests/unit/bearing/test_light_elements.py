@@ -85,8 +85,8 @@ def test_rollers_that_carry_their_centrifugal_force():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(
-    "bearing, key, values",
+@pytest.mark.parametrize(
+    ("bearing", "key", "values"),
     [
         (NU, "radial_load", [330.465, 330.466]),
         (TAPERED | {"pair": PLAY}, "radial_load", [2963.338, 2963.339, 2965.070, 2965.071]),
@@ -104,7 +104,7 @@ def test_a_thousandth_of_a_newton_changes_nothing(bearing, key, values):
 
 
 @pytest.mark.slow
-@each("bearing", [NU, BALL])
+@pytest.mark.parametrize("bearing", [NU, BALL])
 def test_a_bearing_is_the_limit_of_its_loads(bearing):
     """Along 400 loads, 0.4 % apart, the capacitance changes by less than 0.4 % from one to the next."""
     loads = np.geomspace(200.0, 1000.0, 400)
@@ -151,7 +151,7 @@ def test_films_thicker_than_the_room_at_some_elements(bearing, radial, axial):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(
+@pytest.mark.parametrize(
     "bearing",
     [
         {"base": "6208", "radial_clearance": "10 um"},

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from tests.helpers.each import each
 from tests.helpers.jumps import _suspects, jumps_along, search
 from tests.helpers.kinds_of_bearings import KINDS, bearing_of, numbers_of
 
@@ -17,8 +16,8 @@ def test_a_step_is_suspicious_and_a_slope_is_not():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(
-    "kind, key, points",
+@pytest.mark.parametrize(
+    ("kind", "key", "points"),
     [
         ("pair with play", "bearing.radial_load", 100),
         ("pair with play", "bearing.pair.axial_clearance", 100),

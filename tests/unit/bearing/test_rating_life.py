@@ -210,7 +210,9 @@ def test_own_ratings_are_the_printed_ones_within_a_per_cent():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})])
+@pytest.mark.parametrize(
+    ("tables", "power", "changes"), [(BALLS, 0.0, {"bearing__axial_load": 0.0}), (ROLLERS, 2.0 / 3.0, {})]
+)
 def test_reference_life_is_near_the_basic_one(tables, power, changes):
     """Half of the ring is loaded without clearance, as ISO 281 takes it.
 

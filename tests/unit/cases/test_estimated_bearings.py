@@ -92,7 +92,7 @@ def test_diameter_series_of_iso_15_are_the_same_for_all_kinds(thin, same):
 
 
 @pytest.mark.slow
-@each("kind", sorted(ESTIMATE_ERRORS))
+@pytest.mark.parametrize("kind", sorted(ESTIMATE_ERRORS))
 def test_every_bearing_of_the_series_is_a_valid_bearing(kind):
     """At its estimate and at both ends of the ranges of it."""
     for bearing in ALL:
@@ -121,7 +121,7 @@ def ratings_of(bearing):
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     ("kind", "dynamic", "static"),
     [
         ("deep-groove ball", 0.03, 0.021),

@@ -64,7 +64,7 @@ def test_a_new_height_replaces_the_other_one():
 
 
 @pytest.mark.slow
-@each("factor", [None, 1.3])
+@pytest.mark.parametrize("factor", [None, 1.3])
 def test_table_and_warning_state_the_factor(factor):
     case = of_ra(bearing__rq_over_ra=factor)
     summary = solve(case).summary()
@@ -82,7 +82,7 @@ def test_table_and_warning_state_the_factor(factor):
 
 
 @pytest.mark.slow
-@each("factor", [None, 1.3])
+@pytest.mark.parametrize("factor", [None, 1.3])
 def test_sweeps_and_evaluate_vary_the_ra(factor):
     """Twice the Ra is half of the lambda ratio."""
     case = of_ra(bearing__rq_over_ra=factor)

@@ -133,7 +133,7 @@ def test_a_ring_is_as_its_simulation_says():
 
 
 @pytest.mark.slow
-@each("remedy", [HYBRID, COATED])
+@pytest.mark.parametrize("remedy", [HYBRID, COATED])
 def test_elements_and_coatings_have_the_voltage_of_the_drive(remedy):
     """The divider of the drive at the peak of its source is that of the bearing.
 

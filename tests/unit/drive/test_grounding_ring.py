@@ -110,7 +110,9 @@ def test_without_a_speed_of_the_drive_that_of_its_bearing_counts():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("rpm, table, ohm", [(3000, BRUSH, 5.0), (1500, {**BRUSH, "resistance": ["7 ohm"] * 3}, 7.0)])
+@pytest.mark.parametrize(
+    ("rpm", "table", "ohm"), [(3000, BRUSH, 5.0), (1500, {**BRUSH, "resistance": ["7 ohm"] * 3}, 7.0)]
+)
 def test_a_drive_is_that_with_the_resistance_at_its_speed(rpm, table, ohm):
     """At an entry, and for a table of one value, to the last bit."""
     time = {"drive.duration": "1 ms"}

@@ -11,7 +11,6 @@ from ehlectric.field.line_field import solve_field
 from ehlectric.field.point_field import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
-from tests.helpers.each import each
 from tests.reference.field import sinusoidal_crest, sinusoidal_wall
 
 
@@ -62,8 +61,8 @@ def test_the_degree_is_not_raised_beyond_its_bound():
 
 
 @pytest.mark.slow
-@each("per_wave", [8, 16, 32])
-@each(
+@pytest.mark.parametrize("per_wave", [8, 16, 32])
+@pytest.mark.parametrize(
     "wave",
     [
         (20e-9, 0.7e-6, 1.0e-6),

@@ -89,7 +89,7 @@ def test_other_stored_results(name):
 
 
 @pytest.mark.slow
-@each("file", ["bearing_6208.toml", "bearing_greased.toml"])
+@pytest.mark.parametrize("file", ["bearing_6208.toml", "bearing_greased.toml"])
 def test_bearings_over_speed(file):
     """Names of lines that end beside each other, shadings of three kinds, and speeds up to 24 000 rpm."""
     assert of_result(bearing(file), ["breakdown_over_speed"]) == {}

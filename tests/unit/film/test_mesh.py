@@ -90,8 +90,8 @@ def test_value_at_the_centre(nodes_y, symmetric):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("nodes", [65, 66, 100, 129])
-@each("nodes_y", [65, 66, 67, 68, 129, 130])
+@pytest.mark.parametrize("nodes", [65, 66, 100, 129])
+@pytest.mark.parametrize("nodes_y", [65, 66, 67, 68, 129, 130])
 @EITHER
 def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
     """The same half or the whole, with half as many intervals each; interpolation moves no node."""

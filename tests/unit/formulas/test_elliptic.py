@@ -5,13 +5,12 @@ import pytest
 from scipy.special import elliprd
 
 from ehlectric.formulas.hertz import both_rd
-from tests.helpers.each import each
 
 
 @pytest.mark.slow
 @pytest.mark.gate
 @pytest.mark.parametrize("size", [20, 700, 5000])
-@each("spread", [0.0, 0.03, 0.5, 2.0, 6.0, 30.0])
+@pytest.mark.parametrize("spread", [0.0, 0.03, 0.5, 2.0, 6.0, 30.0])
 def test_both_are_those_of_scipy(spread, size):
     draw = np.random.default_rng(1)
     x, y, z = np.exp(spread * draw.normal(size=(3, size)))

@@ -45,10 +45,10 @@ def of_case(case, *axes):
 
 
 @pytest.mark.slow
-@each("ratio", SPEEDS)
-@each("surface", [1, 2])
-@each(
-    "table, shape",
+@pytest.mark.parametrize("ratio", SPEEDS)
+@pytest.mark.parametrize("surface", [1, 2])
+@pytest.mark.parametrize(
+    ("table", "shape"),
     [
         (LINE, WAVES),
         (LINE, RANDOM),

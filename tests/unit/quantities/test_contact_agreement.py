@@ -34,7 +34,7 @@ def plain(text):
 
 
 @pytest.mark.slow
-@each("name", STORED)
+@pytest.mark.parametrize("name", STORED)
 def test_every_output_has_the_label_unit_digits_and_bound_of_the_book(results, name):
     result = results[name]
     geometry = "point" if isinstance(result, PointResult) else "line"

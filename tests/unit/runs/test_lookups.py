@@ -51,8 +51,8 @@ def test_functions_have_priority_over_packages_of_their_names():
 
 
 @pytest.mark.slow
-@each(
-    "found, words",
+@pytest.mark.parametrize(
+    ("found", "words"),
     [
         (lambda: ehlectric.oils(), ("oils",)),
         (lambda: ehlectric.bearings(), ("bearings",)),

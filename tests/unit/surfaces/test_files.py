@@ -35,8 +35,8 @@ def test_dektak_spacing_is_that_of_the_whole_length():
 
 # Computed by another reader and filter, and recorded with the file: nm.
 @pytest.mark.slow
-@each(
-    "steps, rq",
+@pytest.mark.parametrize(
+    ("steps", "rq"),
     [
         ({"form": "line"}, 94.0),
         ({"form": "parabola"}, 38.0),
@@ -54,8 +54,8 @@ def rq_of_line(surface, index, along, form="parabola"):
 
 # Sizes, spacings and roughness recorded with the files by another reader and filter: um and nm.
 @pytest.mark.slow
-@each(
-    "steps, rq",
+@pytest.mark.parametrize(
+    ("steps", "rq"),
     [
         ({"form": "line"}, 245.0),
         ({"form": "parabola"}, 138.0),

@@ -61,8 +61,8 @@ def check_same(together, single):
 
 
 @pytest.mark.slow
-@each("shape", [BALLS, ROLLERS])
-@each("contacts", ["atlas", "formula"])
+@pytest.mark.parametrize("shape", [BALLS, ROLLERS])
+@pytest.mark.parametrize("contacts", ["atlas", "formula"])
 def test_a_batch_has_the_numbers_and_codes_of_its_points(shape, contacts):
     """At random points, from touching surfaces to full films, and at loads that no bearing carries."""
     case = bearing_case(shape, contacts=contacts)

@@ -11,7 +11,6 @@ from scipy import stats
 
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.sweep_inputs import between, grid, paired, shares, sobol
-from tests.helpers.each import each
 
 lists = st.lists(st.lists(st.integers(), min_size=1, max_size=4, unique=True), min_size=1, max_size=4)
 linear = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-3, 1e6)).map(lambda ends: Range(ends[0], sum(ends)))
@@ -79,7 +78,7 @@ def test_the_seed_alone_makes_the_points():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("seed", [0, 1, 2])
+@pytest.mark.parametrize("seed", [0, 1, 2])
 def test_indices_of_a_function_that_are_known(seed):
     """Ishigami's function with a = 7, b = 0.1, whose variance is split so (Ishigami and Homma, 1990)."""
     a, b = 7.0, 0.1

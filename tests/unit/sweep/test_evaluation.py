@@ -51,7 +51,7 @@ def inputs(number, seed):
 
 
 @pytest.mark.slow
-@each("base", list(KINDS))
+@pytest.mark.parametrize("base", list(KINDS))
 def test_points_are_those_of_each_bearing_alone(base):
     case, given = bearing(base), inputs(POINTS, 1)
     found = evaluate(case, given)
@@ -129,7 +129,7 @@ def test_both_bearings_of_a_drive_are_evaluated():
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     "inputs",
     [
         {"bearing.temperature": [300.0, 330.0]},

@@ -9,7 +9,6 @@ from itertools import product
 import numpy as np
 import pytest
 
-from tests.helpers.each import each
 from tests.helpers.gate import gated
 from tests.helpers.kinds_of_bearings import KINDS, OIL, bearing_of, differences, near, numbers_of
 from tests.helpers.share import share
@@ -20,7 +19,7 @@ _STEP = 2e-3
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each(
+@pytest.mark.parametrize(
     ("kind", "key", "values"),
     [
         ("thrust needle", "bearing.roller_length", [7e-3, 7.5e-3, 8e-3]),

@@ -100,7 +100,7 @@ def test_samples_are_those_of_the_bearing_with_shares_of_its_inputs():
 
 
 @pytest.mark.slow
-@each(
+@pytest.mark.parametrize(
     "changes",
     [
         {"ranges": {"bearing.radial_load": ["1500 N", "2500 N"], TEMPERATURE: ["60 degC", "75 degC"]}},

@@ -13,7 +13,6 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS
-from tests.helpers.each import each
 
 PRINTED = {"contamination_factor": 0.5, "dynamic_rating": "29.1 kN", "static_rating": "17.9 kN"}
 HEADS = "time [s],speed [rpm],radial load [N]"
@@ -167,7 +166,7 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("command", ["check", "bearing"])
+@pytest.mark.parametrize("command", ["check", "bearing"])
 def test_every_number_states_the_point_or_the_cycle(command, tmp_path):
     case = case_of(tmp_path)
     solved = solve_bearing(case).summary(probable=False)

@@ -446,9 +446,9 @@ def by_cells(*, outer, shoulder, gap, cells=(200, 600)):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("outer", [False, True])
-@each("shoulder", [0.2, 0.07])
-@each("gap", [2e-6, 5e-6, 2e-5])
+@pytest.mark.parametrize("outer", [False, True])
+@pytest.mark.parametrize("shoulder", [0.2, 0.07])
+@pytest.mark.parametrize("gap", [2e-6, 5e-6, 2e-5])
 def test_a_6208_by_cells(outer, shoulder, gap):
     """Gap along the ball's radius or the raceway's normal, area of raceway or ball: ours is between them."""
     found = groove_capacitance(race_of(shoulder=shoulder, outer=outer), gap)

@@ -7,7 +7,6 @@ import pytest
 
 from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.impedance import impedance_of
-from tests.helpers.each import each
 from tests.unit.bearing.intermittency.test_duty import solved
 
 COATING = {"ring": "outer", "thickness": "200 um", "relative_permittivity": 9.0, "area": "45 cm^2"}
@@ -34,8 +33,8 @@ def expected(solution, resistance, frequency, tau):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("rq", ["0.02 um", "0.06 um", "0.5 um"])
-@each("resistance", [0.3, 1e3])
+@pytest.mark.parametrize("rq", ["0.02 um", "0.06 um", "0.5 um"])
+@pytest.mark.parametrize("resistance", [0.3, 1e3])
 def test_mean_over_the_states_of_all_elements(rq, resistance):
     solution = solved(bearing__composite_rq=rq, bearing__contact_resistance=resistance)
     found = impedance_of(solution)

@@ -255,9 +255,9 @@ def check_balance(state, radial, axial):
 
 
 @pytest.mark.slow
-@each("bearing", [QJ, TIGHT, PRELOADED])
-@each("radial, axial", [(0.0, 500.0), (800.0, 0.0), (800.0, -200.0), (30.0, 3000.0)])
-@each("speed", [0.0, 5.0, 3000.0])
+@pytest.mark.parametrize("bearing", [QJ, TIGHT, PRELOADED])
+@pytest.mark.parametrize(("radial", "axial"), [(0.0, 500.0), (800.0, 0.0), (800.0, -200.0), (30.0, 3000.0)])
+@pytest.mark.parametrize("speed", [0.0, 5.0, 3000.0])
 def test_balance(bearing, radial, axial, speed):
     check_balance(solve(bearing, radial, axial, speed), radial, axial)
 
@@ -283,8 +283,8 @@ def test_fast_balls_touch_three_arcs():
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("radial", [0.0, 400.0, 4000.0])
-@each("speed", [0.0, 800.0])
+@pytest.mark.parametrize("radial", [0.0, 400.0, 4000.0])
+@pytest.mark.parametrize("speed", [0.0, 800.0])
 def test_opposite_axial_loads_swap_the_diagonals(radial, speed):
     ahead, back = (solve(QJ, radial, axial, speed, 0.0, 0.2) for axial in (900.0, -900.0))
     swap = np.roll(np.arange(24), 12)
@@ -350,8 +350,8 @@ def test_one_diagonal_is_an_angular_contact_bearing(axial):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("axial", [0.0, 15.0, -40.0])
-@each("bearing", [QJ, dataclasses.replace(QJ, inner_groove=0.51, outer_groove=0.54)])
+@pytest.mark.parametrize("axial", [0.0, 15.0, -40.0])
+@pytest.mark.parametrize("bearing", [QJ, dataclasses.replace(QJ, inner_groove=0.51, outer_groove=0.54)])
 def test_balls_with_play_at_rest_have_the_largest_gaps(bearing, axial):
     """Smallest gap of the four of a free ball, against a search with constraints."""
     state = solve(bearing, 200.0, axial)

@@ -18,7 +18,6 @@ from ehlectric.drive.drive_bearings import bearing_element
 from ehlectric.drive.solver import prepare
 from tests.helpers.bearings import BALLS, bearing_case, with_values
 from tests.helpers.drives import small_drive
-from tests.helpers.each import each
 
 HEIGHT, RQ, SPEED = "bearing.summit_height", "bearing.composite_rq", "bearing.inner_speed"
 
@@ -69,7 +68,7 @@ def thicker(solution, factor):
 
 @pytest.mark.slow
 @pytest.mark.gate
-@each("changes", [{SPEED: 120.0}, {SPEED: 80.0}, {HEIGHT: 4.0}, {RQ: 6e-8}])
+@pytest.mark.parametrize("changes", [{SPEED: 120.0}, {SPEED: 80.0}, {HEIGHT: 4.0}, {RQ: 6e-8}])
 def test_quick_films_are_scaled_to_the_lambda_ratio_of_the_solution(rough, changes):
     """A solution whose films are 4 % thicker than those of the atlas, at inputs at which summits matter."""
     solution, _ = rough

@@ -7,7 +7,6 @@ from ehlectric import solve
 from ehlectric.contact.touching import MASS_ERROR, oil_balance
 from ehlectric.film import nested
 from ehlectric.tables.contact_tables import result_rows
-from tests.helpers.each import each
 from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
 from tests.unit.contact.spots.cases import LINE, solved
 
@@ -145,7 +144,7 @@ def test_a_film_that_makes_much_oil_is_not_converged():
 
 
 @pytest.mark.slow
-@each("geometry", ["line", "point"])
+@pytest.mark.parametrize("geometry", ["line", "point"])
 def test_of_a_film_that_keeps_its_oil_nothing_is_told(geometry):
     kept = solved(geometry)
     assert kept.asperities.balance.mass_error < MASS_ERROR

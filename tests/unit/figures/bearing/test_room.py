@@ -6,11 +6,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.figures.bearing_figure_files import figure
 from tests.helpers.bearings import BALLS, bearing_case
-from tests.helpers.each import each
 
 
 @pytest.mark.slow
-@each("speed, higher", [("3000 rpm", False), ("60 rpm", True)])
+@pytest.mark.parametrize(("speed", "higher"), [("3000 rpm", False), ("60 rpm", True)])
 def test_titles_and_legends_stay_in_the_figure(speed, higher):
     """At 60 rpm the surfaces touch: the title has a line more, and the legend of the films a row more."""
     case = bearing_case(BALLS, contacts="atlas", title="Ball bearing in a drive", bearing__inner_speed=speed)

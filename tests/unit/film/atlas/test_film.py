@@ -32,7 +32,6 @@ from ehlectric.film.patch import Patch
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus, roelands
 from ehlectric.runtime.threads import quiet_solution
-from tests.helpers.each import each
 
 PAPER = Lubricant.from_dict({"base": "paper"}).at(None)
 
@@ -111,7 +110,9 @@ STIFF = [
 
 
 @pytest.mark.slow
-@each("numbers", [(10.0, 10.0), (50.0, 8.0), (200.0, 12.0), (100.0, 5.0), (200.0, 0.7), (100.0, 0.8)])
+@pytest.mark.parametrize(
+    "numbers", [(10.0, 10.0), (50.0, 8.0), (200.0, 12.0), (100.0, 5.0), (200.0, 0.7), (100.0, 0.8)]
+)
 def test_lines_with_incompressible_oils(numbers):
     """Beside films solved here, also of nearly constant viscosity, with no room for another error."""
     groups = Groups(*numbers)
@@ -125,7 +126,9 @@ def test_lines_with_incompressible_oils(numbers):
 
 
 @pytest.mark.slow
-@each(("load", "lubricant", "ratio"), [(50.0, 8.0, 1.0), (200.0, 10.0, 3.0), (500.0, 6.0, 1.0)])
+@pytest.mark.parametrize(
+    ("load", "lubricant", "ratio"), [(50.0, 8.0, 1.0), (200.0, 10.0, 3.0), (500.0, 6.0, 1.0)]
+)
 def test_points_with_an_incompressible_oil(load, lubricant, ratio):
     """The mean film was up to 4 % off, where 1.7 to 2.4 % were stated."""
     laws = partial(roelands, **STIFF[0]), incompressible
@@ -139,7 +142,7 @@ def test_points_with_an_incompressible_oil(load, lubricant, ratio):
 
 
 @pytest.mark.slow
-@each(("load", "lubricant"), [(3.0, 3.0), (5.5, 1.0)])
+@pytest.mark.parametrize(("load", "lubricant"), [(3.0, 3.0), (5.5, 1.0)])
 def test_light_points_do_not_depend_on_the_domain_of_the_atlas(load, lubricant):
     """A tenth of the load lies outside of the domain; on one of twice the size the film is the same."""
     groups = groups_of(load, lubricant, 1.0)

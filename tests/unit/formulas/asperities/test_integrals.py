@@ -94,8 +94,8 @@ def quantiles():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("highest", [-1.0, 0.5, 3.0])
-@each("order", [0.0, 0.5, 1.0, 2.5])
-@each("below", [0.01, 1.0, 5.0])
+@pytest.mark.parametrize("order", [0.0, 0.5, 1.0, 2.5])
+@pytest.mark.parametrize("below", [0.01, 1.0, 5.0])
 def test_worn_summits(quantiles, order, highest, below):
     """Heights that are cut to the highest one."""
     level = highest - below
