@@ -139,6 +139,6 @@ def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
         unit = parameter.unit.replace("Ohm", "Ω")
         shown = f"{readable(parameter.value, 4)} rpm" if unit == "rpm" else amount(parameter.value, unit)
         yield Row(parameter.name, shown, "", f", {parameter.meaning}")
-    for one in subcircuit.found if subcircuit.tabulated else ():
+    for one in subcircuit.circuits if subcircuit.tabulated else ():
         breaks = "" if one.threshold is None else f", breakdown at {readable(one.threshold, 4)} V"
         yield Row(f"at {speed_text(one.speed)}", amount(one.capacitance, "F"), "", breaks)

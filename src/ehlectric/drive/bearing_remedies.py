@@ -27,8 +27,8 @@ def with_remedy(case: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
     Raises InputError if the changed bearing is not valid.
     """
     first = f"{BOTH}."
-    own = {key.removeprefix(first): value for key, value in changes.items() if key.startswith(first)}
-    return case.replace(own) if own else case
+    of_bearing = {key.removeprefix(first): value for key, value in changes.items() if key.startswith(first)}
+    return case.replace(of_bearing) if of_bearing else case
 
 
 def grounded_voltage(solution: BearingSolution, resistance: float, rise_time: float) -> float | None:
@@ -44,11 +44,11 @@ def grounded_voltage(solution: BearingSolution, resistance: float, rise_time: fl
     motor = solution.case.motor
     if motor is None:
         return None
-    own, second = float(shaft_capacitance(solution)), motor.second_bearing_capacitance
+    first, second = float(shaft_capacitance(solution)), motor.second_bearing_capacitance
     winding, frame = motor.winding_rotor_capacitance, motor.rotor_frame_capacitance
-    other = own if second is None else second
-    ratio = float(voltage_ratio(winding, frame, own, other))
-    periods = rise_time / (resistance * (winding + frame + own + other))
+    other = first if second is None else second
+    ratio = float(voltage_ratio(winding, frame, first, other))
+    periods = rise_time / (resistance * (winding + frame + first + other))
     return EDGE * motor.common_mode_voltage * ratio * -math.expm1(-periods) / periods
 
 
@@ -59,13 +59,13 @@ _RECIPROCAL = ("margin", "through_margin", "coating_margin", "element_margin")
 
 def at_shaft_voltage(summary: Mapping[str, Any], voltage: float) -> dict[str, Any]:
     """Summary of a bearing at another shaft voltage [V], without what follows from further bearings."""
-    own = dict(summary["bearing"])
-    factor = None if own["shaft_voltage"] is None else voltage / own["shaft_voltage"]
+    bearing = dict(summary["bearing"])
+    factor = None if bearing["shaft_voltage"] is None else voltage / bearing["shaft_voltage"]
     for keys, power in ((_PROPORTIONAL, 1), (_RECIPROCAL, -1)):
-        known = (key for key in keys if own[key] is not None)
-        own |= {key: None if factor is None else own[key] * factor**power for key in known}
+        known = (key for key in keys if bearing[key] is not None)
+        bearing |= {key: None if factor is None else bearing[key] * factor**power for key in known}
     rest = {key: value for key, value in summary.items() if key not in ("margin", "uncertainty")}
-    return {**rest, "bearing": {**own, "shaft_voltage": voltage, "breakdown_probability": None}}
+    return {**rest, "bearing": {**bearing, "shaft_voltage": voltage, "breakdown_probability": None}}
 
 
 def grounded_verdict(margin: float | None) -> Verdict:

@@ -117,10 +117,10 @@ def _breakdown(solution: BearingSolution, lowest: float) -> Array:
     effect: they discharge as soon as an arc burns. That holds for summits that touch, too.
     """
     least = _BURNS * lowest
-    smooth = [position.circuit(solution.case.bearing.fill) for position in solution.positions]
-    without, found = (
+    smooth_circuits = [position.circuit(solution.case.bearing.fill) for position in solution.positions]
+    smooth, rough = (
         np.array([circuit.through_breakdown for circuit in circuits])
-        for circuits in (smooth, solution.circuits())
+        for circuits in (smooth_circuits, solution.circuits())
     )
     # Arcs that a smooth film would not feed either are refused with the drive.
-    return np.where(without > least, np.maximum(found, least), found)
+    return np.where(smooth > least, np.maximum(rough, least), rough)

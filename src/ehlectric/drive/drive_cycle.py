@@ -62,7 +62,11 @@ _WARMER = 25.0
 _VOLTAGE = "common_mode_voltage"
 
 # Inputs of a drive in whose place a column of the cycle stands.
-_KEYS = {name: key_of_drive(one.key) for name, one in CYCLE.columns.items() if one.key and name != _VOLTAGE}
+_KEYS = {
+    name: key_of_drive(column.key)
+    for name, column in CYCLE.columns.items()
+    if column.key and name != _VOLTAGE
+}
 
 # SI unit and meaning of the columns of duty.csv.
 COLUMNS: Mapping[str, Mapping[str, str]] = data_file("ehlectric.quantities", "measured_columns.toml")[
@@ -164,9 +168,9 @@ class DriveDuty(Values):
             "simulated": self.simulated,
             "standstill_share": rows.share(rows.state[:, 0] == STANDSTILL),
             "left_out_share": rows.share(~rows.known),
-            "discharges": sum(one.value for one in self.discharges),
-            "energy": sum(one.value for one in self.energy),
-            "stretches": [asdict(one) for one in self.stretches],
+            "discharges": sum(expected.value for expected in self.discharges),
+            "energy": sum(expected.value for expected in self.energy),
+            "stretches": [asdict(expected) for expected in self.stretches],
         }
 
     def end_summary(self, b: int) -> dict[str, Any]:
@@ -174,12 +178,16 @@ class DriveDuty(Values):
         rows, state = self.rows, self.rows.state[:, b]
         shares = {"touching": TOUCHING, "partial_film": PARTIAL_FILM, "full_film": FULL_FILM}
         sums = {"discharges": self.discharges[b], "energy": self.energy[b]}
-        found: dict[str, Any] = {
+        values: dict[str, Any] = {
             f"duty_{name}_share": rows.share(state == place) for name, place in shares.items()
         }
-        for name, one in sums.items():
-            found |= {f"duty_{name}": one.value, f"duty_{name}_low": one.low, f"duty_{name}_high": one.high}
-        return found | {f"duty_{name}": value for name, value in self.lives[b].summary().items()}
+        for name, expected in sums.items():
+            values |= {
+                f"duty_{name}": expected.value,
+                f"duty_{name}_low": expected.low,
+                f"duty_{name}_high": expected.high,
+            }
+        return values | {f"duty_{name}": value for name, value in self.lives[b].summary().items()}
 
     def contents(self) -> dict[str, Content]:
         """Content of duty.csv by its name."""
@@ -212,7 +220,7 @@ class _Ready:
     @property
     def computed(self) -> Mask:
         """Rows at a standstill or with the films of both bearings, shape (n,)."""
-        known: Mask = np.all([one.state != LEFT_OUT for one in self.ends], axis=0)
+        known: Mask = np.all([end.state != LEFT_OUT for end in self.ends], axis=0)
         return known
 
     @property
@@ -244,18 +252,18 @@ def run_drive_cycle(
     if case.duty is None:
         return None
     ready = _ready(case, read_cycle(case.duty.file), peak)
-    found = _simulated(ready, solve, progress)
-    rows = _rows(ready, found.rates)
+    simulated = _simulated(ready, solve, progress)
+    rows = _rows(ready, simulated.rates)
     return DriveDuty(
         rows=rows,
-        discharges=(found.sums[0], found.sums[1]),
-        energy=(found.sums[2], found.sums[3]),
+        discharges=(simulated.sums[0], simulated.sums[1]),
+        energy=(simulated.sums[2], simulated.sums[3]),
         stretches=tuple(_stretches(rows)),
         source=ready.cycle.source,
-        points=found.simulation.done,
-        simulated=found.simulation.time,
-        touching_ratio=max(float(touching_ratio(one.bearing.summit_height)) for one in case.bearings),
-        warnings=tuple(_warnings(ready, found)),
+        points=simulated.simulation.done,
+        simulated=simulated.simulation.time,
+        touching_ratio=max(float(touching_ratio(bearing.bearing.summit_height)) for bearing in case.bearings),
+        warnings=tuple(_warnings(ready, simulated)),
         lives=ready.lives,
     )
 
@@ -267,14 +275,14 @@ def _ready(case: DriveCase, cycle: Cycle, peak: float) -> _Ready:
     if quick is None:
         raise InputError.worded("duty", f"needs bearings with contacts from the atlas, not as {refused} asks")
     drive_end, non_drive_end = quick.bearings
-    first, found = rows_of(drive_end, _of_bearing(cycle))
-    second, other = first, found
+    first, reasons_1 = rows_of(drive_end, _of_bearing(cycle))
+    second, reasons_2 = first, reasons_1
     if non_drive_end != drive_end:
-        second, other = rows_of(non_drive_end, _of_bearing(cycle))
-    reasons = {**other.reasons, **found.reasons}
-    own = np.full(cycle.time.size, peak)
-    given = {name: getattr(first, name) for name in _KEYS} | {_VOLTAGE: cycle.values.get(_VOLTAGE, own)}
-    lives = life_of(drive_end, first, found), life_of(non_drive_end, second, other)
+        second, reasons_2 = rows_of(non_drive_end, _of_bearing(cycle))
+    reasons = {**reasons_2.reasons, **reasons_1.reasons}
+    constant = np.full(cycle.time.size, peak)
+    given = {name: getattr(first, name) for name in _KEYS} | {_VOLTAGE: cycle.values.get(_VOLTAGE, constant)}
+    lives = life_of(drive_end, first, reasons_1), life_of(non_drive_end, second, reasons_2)
     return _Ready(quick, cycle, peak, given, (first, second), reasons, lives)
 
 
@@ -287,30 +295,32 @@ def _check(case: DriveCase, cycle: Cycle) -> None:
 
 def _of_bearing(cycle: Cycle) -> Cycle:
     """Cycle of a bearing, without the voltage, which is that of the source of the drive."""
-    return replace(cycle, values={key: one for key, one in cycle.values.items() if key != _VOLTAGE})
+    return replace(cycle, values={key: values for key, values in cycle.values.items() if key != _VOLTAGE})
 
 
-def _simulated(ready: _Ready, solve: Callable[[DriveCase], DriveSolution], progress: Progress) -> _Found:
+def _simulated(
+    ready: _Ready, solve: Callable[[DriveCase], DriveSolution], progress: Progress
+) -> _SimulatedRates:
     """Rates of discharges at all rows, and their sums over the cycle."""
     places, duration = np.flatnonzero(ready.runs), ready.ends[0].duration
     rates = np.where(ready.computed[:, np.newaxis], np.zeros(4), np.nan)
     simulation = _Simulation(ready, solve, progress)
     if not places.size:
-        return _Found(rates, [Expected(0.0, 0.0, 0.0)] * 4, simulation)
+        return _SimulatedRates(rates, [Expected(0.0, 0.0, 0.0)] * 4, simulation)
     at, drawn = _features(ready)[places], _drawn(duration[places], ready.case.drive.seed)
-    found = simulation.at(places[drawn])
-    rates[places] = between_places(at[drawn], found, at)
+    drawn_rates = simulation.at(places[drawn])
+    rates[places] = between_places(at[drawn], drawn_rates, at)
     known = np.isfinite(rates[places, 0])
     if not np.any(known):
         raise InputError.worded("duty", f"no row can be simulated: {next(iter(simulation.reasons.values()))}")
-    usable = known[drawn] & np.isfinite(found[:, 0])
+    usable = known[drawn] & np.isfinite(drawn_rates[:, 0])
     weights = duration[places[known]]
-    means, off = _compared(at[known], weights / np.sum(weights), at[drawn[usable]], found[usable])
+    means, off = _compared(at[known], weights / np.sum(weights), at[drawn[usable]], drawn_rates[usable])
     sums = _sums(means, off, float(np.sum(weights)), simulation)
     if not (np.all(known) and np.all(ready.computed)):
         # Nothing bounds the discharges in rows that are not known.
-        sums = [replace(one, high=None) for one in sums]
-    return _Found(rates, sums, simulation)
+        sums = [replace(expected, high=None) for expected in sums]
+    return _SimulatedRates(rates, sums, simulation)
 
 
 def _drawn(duration: Array, seed: int) -> IntArray:
@@ -329,13 +339,13 @@ def _compared(at: Array, weights: Array, nodes: Array, values: Array) -> tuple[A
     """
     group = np.arange(len(nodes)) % min(_GROUPS, len(nodes))
     means, off = [], np.empty_like(values)
-    for one in range(min(_GROUPS, len(nodes))):
-        others, own = group != one, group == one
-        if not np.any(others):
-            others = own
-        found = between_places(nodes[others], values[others], np.concatenate([at, nodes[own]]))
-        means.append(weights @ found[: len(at)])
-        off[own] = values[own] - found[len(at) :]
+    for k in range(min(_GROUPS, len(nodes))):
+        outside, in_group = group != k, group == k
+        if not np.any(outside):
+            outside = in_group
+        interpolated = between_places(nodes[outside], values[outside], np.concatenate([at, nodes[in_group]]))
+        means.append(weights @ interpolated[: len(at)])
+        off[in_group] = values[in_group] - interpolated[len(at) :]
     return np.mean(means, axis=0), off
 
 
@@ -355,7 +365,7 @@ class _Simulation:
         """Discharges per second of both bearings, and their powers [W], at rows; NaN where one has none,
         shape (rows, 4).
         """
-        found = np.full((places.size, 4), np.nan)
+        rates = np.full((places.size, 4), np.nan)
         for k, place in enumerate(places.tolist()):
             self.progress(round(100.0 * k / places.size), 100, "simulating the duty cycle")
             try:
@@ -369,12 +379,12 @@ class _Simulation:
                 self.time + record.duration,
                 self.counts + counts,
             )
-            found[k] = np.concatenate([counts, record.sums[:, ENERGY]]) / record.duration
-        return found
+            rates[k] = np.concatenate([counts, record.sums[:, ENERGY]]) / record.duration
+        return rates
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class _SimulatedRates:
     """Rates of discharges of both bearings and their powers at all rows, and what is behind them."""
 
     rates: Array  # [1/s] and [W], shape (n, 4)
@@ -405,10 +415,12 @@ def _features(ready: _Ready) -> Array:
     capacitance of both bearings, of the voltage of the source, and of the root of the speed; and the
     temperature, with which the oil conducts.
     """
-    films = [np.log(getattr(one, name)) for one in ready.ends for name in ("lambda_ratio", "capacitance")]
-    given = {name: np.where(ready.runs, one, 1.0) for name, one in ready.given.items()}
+    films = [
+        np.log(getattr(values, name)) for values in ready.ends for name in ("lambda_ratio", "capacitance")
+    ]
+    given = {name: np.where(ready.runs, values, 1.0) for name, values in ready.given.items()}
     others = [np.log(given[_VOLTAGE]), 0.5 * np.log(np.abs(given["speed"])), given["temperature"] / _WARMER]
-    return np.column_stack([*(math.sqrt(0.5) * one for one in films), *others])
+    return np.column_stack([*(math.sqrt(0.5) * values for values in films), *others])
 
 
 def _sums(means: Array, off: Array, time: float, simulation: _Simulation) -> list[Expected]:
@@ -442,8 +454,8 @@ def _rows(ready: _Ready, rates: Array) -> DriveDutyRows:
         speed=given["speed"],
         temperature=given["temperature"],
         common_mode_voltage=given[_VOLTAGE],
-        lambda_ratio=np.column_stack([one.lambda_ratio for one in ready.ends]),
-        state=np.column_stack([one.state for one in ready.ends]),
+        lambda_ratio=np.column_stack([end.lambda_ratio for end in ready.ends]),
+        state=np.column_stack([end.state for end in ready.ends]),
         discharge_rate=rates[:, :2],
         discharge_power=rates[:, 2:],
     )
@@ -455,10 +467,10 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
     power = np.nan_to_num(np.sum(rows.discharge_power, axis=1))
     often = rate > np.average(rate, weights=rows.duration)
     edges = edges_of(rows.time)
-    found = []
+    stretches = []
     for first, after in stretches_of(often):
         part, time = slice(first, after), rows.duration[first:after]
-        found.append(
+        stretches.append(
             DriveStretch(
                 start=float(edges[first]),
                 end=float(edges[after]),
@@ -468,17 +480,17 @@ def _stretches(rows: DriveDutyRows) -> Iterator[DriveStretch]:
                 lambda_ratio=float(np.min(rows.lambda_ratio[part])),
             )
         )
-    yield from sorted(found, key=lambda one: -one.discharges)[:MOST_STRETCHES]
+    yield from sorted(stretches, key=lambda stretch: -stretch.discharges)[:MOST_STRETCHES]
 
 
-def _warnings(ready: _Ready, found: _Found) -> Iterator[ResultWarning]:
+def _warnings(ready: _Ready, simulated: _SimulatedRates) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
     yield from file_warnings(ready.cycle, ready.case.bearings[0])
     yield from dict.fromkeys(warning for life in ready.lives for warning in life.warnings())
     yield from _of_ring(ready)
-    left_out = np.flatnonzero(~np.isfinite(found.rates[:, 0]))
+    left_out = np.flatnonzero(~np.isfinite(simulated.rates[:, 0]))
     if left_out.size:
-        reasons = {**ready.reasons, **found.simulation.reasons}
+        reasons = {**ready.reasons, **simulated.simulation.reasons}
         place, reason = next(iter(reasons.items()))
         line = ready.cycle.lines[place]
         yield ResultWarning.of("duty-left-out", "drive", rows=left_out.size, line=line, reason=reason)

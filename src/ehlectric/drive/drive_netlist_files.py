@@ -77,8 +77,8 @@ class DriveNetlist:
 
     def lines(self) -> Iterator[str]:
         """Lines of the file of the subcircuits."""
-        for one in self.subcircuits:
-            yield from one.lines()
+        for subcircuit in self.subcircuits:
+            yield from subcircuit.lines()
 
     def bench(self, library: str) -> Iterator[str]:
         """Lines of the test bench, which includes the file of the subcircuits."""
@@ -99,11 +99,11 @@ class DriveNetlist:
             signature=f"{SIGNATURE}test bench of a drive; ehlectric {__version__}",
             comments=[line for part in about for line in comment(part)],
             library=library,
-            parameters=[line for name, one in elements for line in _parameters(name, one)],
+            parameters=[line for name, element in elements for line in _parameters(name, element)],
             positive=positive,
             negative=negative,
             points=["+ " + " ".join(texts[k : k + _POINTS]) for k in range(0, len(texts), _POINTS)],
-            elements=[line for name, one in elements for line in _element(name, one)],
+            elements=[line for name, element in elements for line in _element(name, element)],
             step=number(step),
             duration=f"{points[-1][0]:.12g}",
             **{end: bearing.name for end, bearing in zip(ENDS, self.bearings, strict=True)},
@@ -158,16 +158,16 @@ def drive_netlist(
     raises it.
     """
     first, second = case.bearings
-    for end, one in zip(ENDS, (first, second), strict=True):
+    for end, bearing in zip(ENDS, (first, second), strict=True):
         try:
-            check_strength(one)
+            check_strength(bearing)
         except InputError as error:
             raise error.under(end) from None
     waveform, _ = measured_source(case.source, None)
     drive_end = solve_bearing(first, progress=progress, workers=workers)
     if second == first:
-        own = _subcircuit(case, ENDS[0], drive_end)
-        return DriveNetlist(case, (own, own), waveform)
+        shared = _subcircuit(case, ENDS[0], drive_end)
+        return DriveNetlist(case, (shared, shared), waveform)
     other = solve_bearing(second, progress=progress, workers=workers)
     ends = zip(ENDS, (drive_end, other), strict=True)
     pair = tuple(replace(_subcircuit(case, end, result), suffix=end) for end, result in ends)
@@ -225,25 +225,25 @@ def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float
 def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:
     """Elements with names after their nodes; a second one between two nodes has a number."""
     seen: Counter[str] = Counter()
-    for one in elements:
-        name = f"{_KINDS[one.kind][0]}_{one.first}_{one.second}"
+    for element in elements:
+        name = f"{_KINDS[element.kind][0]}_{element.first}_{element.second}"
         seen[name] += 1
-        yield name if seen[name] == 1 else f"{name}_{seen[name]}", one
+        yield name if seen[name] == 1 else f"{name}_{seen[name]}", element
 
 
-def _parameters(name: str, one: Element) -> Iterator[str]:
+def _parameters(name: str, element: Element) -> Iterator[str]:
     """Lines of the parameters of an element."""
-    letter, unit = _KINDS[one.kind]
-    value = 1.0 / one.value if letter == "R" else one.value
-    yield f".param {Parameter(name, value, unit, f'{one.first} to {one.second}').line}"
-    if one.kind == "inductor" and one.resistance:
-        yield f".param {Parameter(f'R{name}', one.resistance, 'Ohm', 'in series with it').line}"
+    letter, unit = _KINDS[element.kind]
+    value = 1.0 / element.value if letter == "R" else element.value
+    yield f".param {Parameter(name, value, unit, f'{element.first} to {element.second}').line}"
+    if element.kind == "inductor" and element.resistance:
+        yield f".param {Parameter(f'R{name}', element.resistance, 'Ohm', 'in series with it').line}"
 
 
-def _element(name: str, one: Element) -> Iterator[str]:
+def _element(name: str, element: Element) -> Iterator[str]:
     """Lines of an element; an inductor has its resistance behind it."""
-    first, second = _NODES[one.first], _NODES[one.second]
-    if one.kind != "inductor" or not one.resistance:
+    first, second = _NODES[element.first], _NODES[element.second]
+    if element.kind != "inductor" or not element.resistance:
         yield f"{name} {first} {second} {{{name}}}"
         return
     yield f"{name} {first} inner_{name} {{{name}}}"

@@ -156,7 +156,9 @@ class DriveSolution:
     highest_source: float = field(metadata=stored("", "V", "not negative"))
     # Whether the films of both bearings are converged.
     converged: bool = field(default=True, metadata=stored("", None, "0 or 1", dtype="i1"))
-    told: tuple[ResultWarning, ...] = ()  # warnings about the file of a measured source, and of the bearings
+    prior_warnings: tuple[
+        ResultWarning, ...
+    ] = ()  # warnings about the file of a measured source, and of the bearings
     # Rating lives at both ends, as in the table ``life`` of a bearing; empty for a file of version 1.0.
     lives: tuple[Mapping[str, Any], ...] = ()
     # Solved bearings at both ends; none in a loaded result, whose file does not hold them.

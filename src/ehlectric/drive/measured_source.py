@@ -125,7 +125,7 @@ def measured_source(
     if source.file is None:
         return None, ()
     try:
-        waveform, told = read_waveform(
+        waveform, warnings = read_waveform(
             source.file,
             column=source.column,
             time_column=source.time_column,
@@ -137,17 +137,17 @@ def measured_source(
     except InputError as error:
         raise error.under("source") from None
     if source.resample is not None:
-        waveform, told = _resampled(waveform, told, source.file, source.resample)
-    return waveform, (*told, *repeat_warnings(source.file, waveform, duration))
+        waveform, warnings = _resampled(waveform, warnings, source.file, source.resample)
+    return waveform, (*warnings, *repeat_warnings(source.file, waveform, duration))
 
 
 def _resampled(
-    waveform: Waveform, told: tuple[ResultWarning, ...], file: str, step: float
+    waveform: Waveform, warnings: tuple[ResultWarning, ...], file: str, step: float
 ) -> tuple[Waveform, tuple[ResultWarning, ...]]:
     """Waveform at a coarser step, and the warnings about its samples: its own edges are judged."""
     try:
         coarse = resample(waveform, step)
     except InputError as error:
         raise error.retold("source.resample", error.text) from None
-    others = (one for one in told if one.code != "edges-unresolved")
+    others = (warning for warning in warnings if warning.code != "edges-unresolved")
     return coarse, (*others, *edge_warnings(file, coarse))

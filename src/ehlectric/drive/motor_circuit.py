@@ -91,32 +91,32 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
     >>> round(float(system.rates[0, 0])), round(float(system.force[0]))
     (-1000000, 1000000)
     """
-    nodes = sorted({node for one in elements for node in (one.first, one.second)} - {FRAME})
+    nodes = sorted({node for element in elements for node in (element.first, element.second)} - {FRAME})
     positive, negative = source
     free = tuple(node for node in nodes if node != positive)
     into = _free_into_all(nodes, free, positive, negative)
     drive = np.array([float(node == positive) for node in nodes])
     c, g, n = _matrices(elements, nodes)
-    inductors = [one for one in elements if one.kind == "inductor"]
-    inductance = np.array([one.value for one in inductors])
-    resistance = np.array([one.resistance for one in inductors])
-    own, charge = into.T @ c @ into, into.T @ c @ drive
-    if np.linalg.matrix_rank(own, tol=1e-12 * np.max(np.abs(own), initial=1e-300)) < len(free):
+    inductors = [element for element in elements if element.kind == "inductor"]
+    inductance = np.array([element.value for element in inductors])
+    resistance = np.array([element.resistance for element in inductors])
+    matrix, charge = into.T @ c @ into, into.T @ c @ drive
+    if np.linalg.matrix_rank(matrix, tol=1e-12 * np.max(np.abs(matrix), initial=1e-300)) < len(free):
         raise ValueError("a node has no path of capacitors to the frame or the source")
     leak, through = into.T @ g @ into, into.T @ n
-    k = np.linalg.solve(own, charge)
+    k = np.linalg.solve(matrix, charge)
     states, potentials = len(free) + len(inductors), slice(len(free))
     currents = slice(len(free), states)
     rates, capacitance = np.zeros((states, states)), np.zeros((states, states))
-    rates[potentials, potentials] = -np.linalg.solve(own, leak)
-    rates[potentials, currents] = -np.linalg.solve(own, through)
+    rates[potentials, potentials] = -np.linalg.solve(matrix, leak)
+    rates[potentials, currents] = -np.linalg.solve(matrix, through)
     rates[currents, potentials] = through.T / inductance[:, None]
     rates[currents, currents] = -np.diag(resistance / inductance)
-    capacitance[potentials, potentials] = own
+    capacitance[potentials, potentials] = matrix
     capacitance[currents, currents] = np.diag(inductance)
     force = np.concatenate(
         [
-            np.linalg.solve(own, leak @ k - into.T @ g @ drive),
+            np.linalg.solve(matrix, leak @ k - into.T @ g @ drive),
             (n.T @ drive - through.T @ k) / inductance,
         ]
     )
@@ -142,13 +142,13 @@ def _free_into_all(nodes: Sequence[str], free: Sequence[str], positive: str, neg
 def _matrices(elements: Sequence[Element], nodes: Sequence[str]) -> tuple[Array, Array, Array]:
     """Capacitances and conductances of all nodes but the frame, and the nodes of the inductors."""
     count = len(nodes)
-    inductors = [one for one in elements if one.kind == "inductor"]
+    inductors = [element for element in elements if element.kind == "inductor"]
     matrices = {"capacitor": np.zeros((count, count)), "conductor": np.zeros((count, count))}
-    for one in elements:
-        if one.kind != "inductor":
-            across = _ends(one, nodes)
-            matrices[one.kind] += one.value * np.outer(across, across)
-    currents = np.array([_ends(one, nodes) for one in inductors]).reshape(len(inductors), count).T
+    for element in elements:
+        if element.kind != "inductor":
+            across = _ends(element, nodes)
+            matrices[element.kind] += element.value * np.outer(across, across)
+    currents = np.array([_ends(element, nodes) for element in inductors]).reshape(len(inductors), count).T
     return matrices["capacitor"], matrices["conductor"], currents
 
 
@@ -176,7 +176,8 @@ _PLATES = {
 def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
     """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
     return [
-        (ROTOR, f"ring_{end}" if one.path.coated else FRAME) for end, one in zip(ENDS, elements, strict=True)
+        (ROTOR, f"ring_{end}" if bearing.path.coated else FRAME)
+        for end, bearing in zip(ENDS, elements, strict=True)
     ]
 
 
@@ -192,8 +193,8 @@ def source_nodes(circuit: Circuit) -> tuple[str, str]:
 
 def _parted(circuit: Circuit) -> bool:
     """Whether earth and frame are two nodes: something is parallel to the inductance between them."""
-    beside = circuit.cable_capacitance or circuit.frame_earth_capacitance
-    return circuit.ground_inductance is not None and beside is not None
+    across_ground = circuit.cable_capacitance or circuit.frame_earth_capacitance
+    return circuit.ground_inductance is not None and across_ground is not None
 
 
 def _reactor(circuit: Circuit) -> bool:
@@ -208,19 +209,19 @@ def motor_elements(circuit: Circuit) -> Iterator[Element]:
         yield Element("capacitor", *_PLATES[key], value)
     if circuit.grounding_ring_resistance is not None:
         yield Element("conductor", ROTOR, FRAME, 1.0 / circuit.grounding_ring_resistance)
-    own, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
+    series, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
     if _parted(circuit):
-        if own:
-            yield Element("inductor", SOURCE, WINDING, own, circuit.common_mode_resistance)
+        if series:
+            yield Element("inductor", SOURCE, WINDING, series, circuit.common_mode_resistance)
         yield Element("inductor", FRAME, EARTH, ground, circuit.ground_resistance)
         if circuit.cable_capacitance is not None:
             yield Element("capacitor", WINDING, EARTH, circuit.cable_capacitance)
         if circuit.frame_earth_capacitance is not None:
             yield Element("capacitor", FRAME, EARTH, circuit.frame_earth_capacitance)
         return
-    if own or ground:
+    if series or ground:
         resistance = circuit.common_mode_resistance + circuit.ground_resistance
-        yield Element("inductor", SOURCE, WINDING, own + ground, resistance)
+        yield Element("inductor", SOURCE, WINDING, series + ground, resistance)
     if circuit.cable_capacitance is not None:
         yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
 
@@ -239,20 +240,20 @@ def _system(
 
 
 def bearing_elements(
-    one: BearingElement, nodes: tuple[str, str], place: int, conductance: float
+    bearing: BearingElement, nodes: tuple[str, str], place: int, conductance: float
 ) -> Iterator[Element]:
     """Elements of a bearing with its elements at a place, and a conductance of its films beside that of oil.
     ``conductance``, conductance of an arc or of touching asperities [S].
     """
-    yield Element("capacitor", *nodes, float(one.capacitance[place]))
-    if one.conductance + conductance > 0.0:
-        yield Element("conductor", *nodes, one.conductance + conductance)
-    if one.path.coated:
-        yield Element("capacitor", nodes[1], FRAME, one.path.coating)
-        if math.isfinite(one.path.resistance):
-            yield Element("conductor", nodes[1], FRAME, 1.0 / one.path.resistance)
-    if one.path.parallel:
-        yield Element("capacitor", ROTOR, FRAME, one.path.parallel)
+    yield Element("capacitor", *nodes, float(bearing.capacitance[place]))
+    if bearing.conductance + conductance > 0.0:
+        yield Element("conductor", *nodes, bearing.conductance + conductance)
+    if bearing.path.coated:
+        yield Element("capacitor", nodes[1], FRAME, bearing.path.coating)
+        if math.isfinite(bearing.path.resistance):
+            yield Element("conductor", nodes[1], FRAME, 1.0 / bearing.path.resistance)
+    if bearing.path.parallel:
+        yield Element("capacitor", ROTOR, FRAME, bearing.path.parallel)
 
 
 def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
@@ -262,12 +263,12 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
     if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
         return []
     rates = np.linalg.eigvals(_system(circuit, bearings).rates)
-    found = [
+    damped = [
         (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
         for rate in rates
         if rate.imag > 0.0
     ]
-    return sorted(found, key=lambda one: -one[1])
+    return sorted(damped, key=lambda oscillation: -oscillation[1])
 
 
 def states_of(
@@ -277,10 +278,11 @@ def states_of(
     state of the first and the second film, and each position of the elements of both bearings.
     """
     arc = 1.0 / breakdown.arc_resistance
-    doing = [[0.0, arc, 1.0 / one.touch_resistance][: 3 if touches else 2] for one in bearings]
-    places = [range(one.capacitance.size) for one in bearings]
+    doing = [[0.0, arc, 1.0 / bearing.touch_resistance][: 3 if touches else 2] for bearing in bearings]
+    places = [range(bearing.capacitance.size) for bearing in bearings]
     return [
-        _system(circuit, bearings, at, beside) for beside, at in product(product(*doing), product(*places))
+        _system(circuit, bearings, at, conductances)
+        for conductances, at in product(product(*doing), product(*places))
     ]
 
 
@@ -323,18 +325,18 @@ def modes_of(
     ``ring`` is the rate mu of the source's ringing [1/s]; without it the source does not ring.
     """
     first = systems[0]
-    rates = np.array([one.rates for one in systems])
-    charge = np.array([one.capacitance for one in systems])
-    own, shapes, inverse = _diagonal(rates, charge)
-    force = np.array([one.force for one in systems])
-    jump = np.array([one.jump for one in systems])
+    rates = np.array([system.rates for system in systems])
+    charge = np.array([system.capacitance for system in systems])
+    eigenvalues, shapes, inverse = _diagonal(rates, charge)
+    force = np.array([system.force for system in systems])
+    jump = np.array([system.jump for system in systems])
     across = np.array([first.potential(upper) - first.potential(lower) for upper, lower in films])
     ring_state = np.zeros(force.shape, dtype=complex)
     if ring is not None:
         identity = np.eye(rates.shape[1])
         ring_state = np.linalg.solve(ring * identity - rates, force.astype(complex)[..., None])[..., 0]
     return Modes(
-        rates=np.minimum(own.real, 0.0) + 1j * own.imag,
+        rates=np.minimum(eigenvalues.real, 0.0) + 1j * eigenvalues.imag,
         shapes=np.ascontiguousarray(shapes),
         inverse=np.ascontiguousarray(inverse),
         force=np.einsum("cij,cj->ci", inverse, force),
@@ -357,9 +359,9 @@ def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
     """
     energy = np.sqrt(np.diagonal(charge, axis1=1, axis2=2))
     scaled = energy[:, :, None] * rates / energy[:, None, :]
-    own, shapes = (part.astype(complex) for part in np.linalg.eig(scaled))
+    eigenvalues, shapes = (part.astype(complex) for part in np.linalg.eig(scaled))
     alike = np.linalg.cond(shapes) > _ALIKE
     if np.any(alike):
         order = np.arange(1, rates.shape[1] + 1)
-        own[alike], shapes[alike] = np.linalg.eig(scaled[alike] * (1.0 + _APART * order[:, None]))
-    return own, shapes / energy[:, :, None], np.linalg.inv(shapes) * energy[:, None, :]
+        eigenvalues[alike], shapes[alike] = np.linalg.eig(scaled[alike] * (1.0 + _APART * order[:, None]))
+    return eigenvalues, shapes / energy[:, :, None], np.linalg.inv(shapes) * energy[:, None, :]

@@ -163,16 +163,16 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
     resistances in series. The conductance is the mean over time of that of all elements. Raises InputError
     where the surfaces touch, and the case has no ``bearing.contact_resistance``.
     """
-    speed, own = solution.case.bearing.inner_speed, capacitance(solution)
+    speed, of_films = solution.case.bearing.inner_speed, capacitance(solution)
     if solution.conditions.ceramic:
-        return Equivalent(speed, "ceramic", own, None, None)
+        return Equivalent(speed, "ceramic", of_films, None, None)
     if lubrication(solution) == "conducting":
-        return Equivalent(speed, "metal", own, _metal_resistance(solution), None)
+        return Equivalent(speed, "metal", of_films, _metal_resistance(solution), None)
     tau, breakdown = oil_relaxation_time(solution), breakdown_of(solution)
     return Equivalent(
         speed,
         "films",
-        own,
+        of_films,
         None if tau is None else 1.0 / oil_conductance(solution, tau),
         None if breakdown is None else breakdown.through_breakdown,
     )
@@ -208,10 +208,10 @@ _FACTORS = 4
 
 def speeds_of(case: BearingCase, text: str) -> tuple[float, ...]:
     """Speeds of the inner ring [rad/s] from the text of an option; an InputError where a part is no speed."""
-    found = _RANGE.fullmatch(text)
-    if found is None:
+    match = _RANGE.fullmatch(text)
+    if match is None:
         return tuple(_speed(case, part) for part in text.split(","))
-    low, high, count = _speed(case, found["low"]), _speed(case, found["high"]), int(found["count"])
+    low, high, count = _speed(case, match["low"]), _speed(case, match["high"]), int(match["count"])
     if not (2 <= count <= _MOST and 0.0 < low < high):
         raise InputError(
             "--speeds",
@@ -237,15 +237,17 @@ def solve_at_speeds(
 
     The first result is at the speed of the case. Errors are those of ``solve_bearing``.
     """
-    own = case.bearing.inner_speed
-    others = [speed for speed in dict.fromkeys(speeds) if not np.isclose(speed, own, rtol=1e-9, atol=0.0)]
+    speed_of_case = case.bearing.inner_speed
+    others = [
+        speed for speed in dict.fromkeys(speeds) if not np.isclose(speed, speed_of_case, rtol=1e-9, atol=0.0)
+    ]
     results = []
-    for speed in (own, *others):
+    for speed in (speed_of_case, *others):
 
         def tell(done: int, of: int, text: str, at: str = speed_text(speed)) -> None:
             progress(done, of, f"{text}, {at}")
 
-        changed = case if speed == own else case.replace({SPEED: speed})
+        changed = case if speed == speed_of_case else case.replace({SPEED: speed})
         results.append(solve_bearing(changed, progress=tell, workers=workers))
     return results
 
@@ -256,36 +258,36 @@ def check_table(results: Sequence[BearingResult]) -> None:
     """
     if len(results) == 1:
         return
-    own = results[0].case.bearing.inner_speed
-    inputs = [result.case.replace({SPEED: own}).to_dict() for result in results]
-    if any(one != inputs[0] for one in inputs):
+    speed_of_case = results[0].case.bearing.inner_speed
+    inputs = [result.case.replace({SPEED: speed_of_case}).to_dict() for result in results]
+    if any(table != inputs[0] for table in inputs):
         raise InputError("result", got="bearings that differ in other inputs", takes="one bearing, at speeds")
     for low, high in pairwise(sorted(result.case.bearing.inner_speed for result in results)):
         if high < low * _APART:
-            told = f"{rpm(low):.6g} rpm and {rpm(high):.6g} rpm"
-            raise InputError(SPEED, got=told, takes="speeds that differ by 0.1 % or more")
+            speeds = f"{rpm(low):.6g} rpm and {rpm(high):.6g} rpm"
+            raise InputError(SPEED, got=speeds, takes="speeds that differ by 0.1 % or more")
     touching = [
         result.case.bearing.inner_speed for result in results if lubrication(result.solution) == "conducting"
     ]
     if touching:
-        told = ", ".join(speed_text(speed) for speed in sorted(touching))
+        speeds = ", ".join(speed_text(speed) for speed in sorted(touching))
         raise InputError(
             SPEED,
-            got=f"{told}, whose lambda ratio is so low that surfaces touch, at times at least,",
+            got=f"{speeds}, whose lambda ratio is so low that surfaces touch, at times at least,",
             takes="in a table over the speed, speeds at which films part the surfaces",
         )
 
 
-def nodes(found: Sequence[Equivalent], *, leaks: bool, breaks: bool) -> Iterator[Parameter]:
+def nodes(circuits: Sequence[Equivalent], *, leaks: bool, breaks: bool) -> Iterator[Parameter]:
     """Parameters of a table: speeds [rpm], and the quantities at them, by increasing speed."""
-    for k, one in enumerate(found, 1):
+    for k, circuit in enumerate(circuits, 1):
         at = f"at n_{k}"
-        yield Parameter(f"n_{k}", rpm(one.speed), "rpm", f"speed {k} of the table")
-        yield Parameter(f"C_{k}", one.capacitance, "F", f"capacitance of the films {at}")
-        if leaks and one.resistance is not None:
-            yield Parameter(f"R_{k}", one.resistance, "Ohm", f"leak of the films {at}")
-        if breaks and one.threshold is not None:
-            yield Parameter(f"V_{k}", one.threshold, "V", f"breakdown voltage of the films {at}")
+        yield Parameter(f"n_{k}", rpm(circuit.speed), "rpm", f"speed {k} of the table")
+        yield Parameter(f"C_{k}", circuit.capacitance, "F", f"capacitance of the films {at}")
+        if leaks and circuit.resistance is not None:
+            yield Parameter(f"R_{k}", circuit.resistance, "Ohm", f"leak of the films {at}")
+        if breaks and circuit.threshold is not None:
+            yield Parameter(f"V_{k}", circuit.threshold, "V", f"breakdown voltage of the films {at}")
 
 
 def parts(count: int) -> Iterator[str]:
@@ -331,7 +333,7 @@ class Subcircuit:
 
     # Results at one speed or several; the first one is at the speed that is the default.
     results: tuple[BearingResult, ...]
-    found: tuple[Equivalent, ...]  # equivalent circuits of the results, by increasing speed
+    circuits: tuple[Equivalent, ...]  # equivalent circuits of the results, by increasing speed
     arc: Arc | None  # arc across the films; None for a subcircuit without a switch
     notes: tuple[str, ...]  # what the circuit leaves out, or stands for
     suffix: str = ""  # end of the name, of one of several bearings in a file
@@ -360,29 +362,31 @@ class Subcircuit:
     @property
     def default(self) -> Equivalent:
         """Equivalent circuit at the speed that is the default."""
-        return next(one for one in self.found if one.speed == self.case.bearing.inner_speed)
+        return next(circuit for circuit in self.circuits if circuit.speed == self.case.bearing.inner_speed)
 
     @property
     def tabulated(self) -> bool:
         """Whether the speed is a parameter."""
-        return len(self.found) > 1
+        return len(self.circuits) > 1
 
     def parameters(self) -> Iterator[Parameter]:
         """Parameters that an instance may change."""
-        one = self.found[0]
+        circuit = self.circuits[0]
         if self.tabulated:
             speed = rpm(self.case.bearing.inner_speed)
             yield Parameter("speed", speed, "rpm", "speed of the inner ring")
         else:
-            yield Parameter("C_films", one.capacitance, "F", TEXTS["capacitances"][one.state])
-        if not self.tabulated or one.resistance is None:
-            if one.resistance is None:
+            yield Parameter("C_films", circuit.capacitance, "F", TEXTS["capacitances"][circuit.state])
+        if not self.tabulated or circuit.resistance is None:
+            if circuit.resistance is None:
                 yield Parameter("R_leak", OPEN, "Ohm", "stands for an insulator")
             else:
-                yield Parameter("R_leak", one.resistance, "Ohm", TEXTS["leaks"][one.state])
+                yield Parameter("R_leak", circuit.resistance, "Ohm", TEXTS["leaks"][circuit.state])
         if self.arc is not None:
-            if not self.tabulated and one.threshold is not None:
-                yield Parameter("V_break", one.threshold, "V", "voltage across the films at which they break")
+            if not self.tabulated and circuit.threshold is not None:
+                yield Parameter(
+                    "V_break", circuit.threshold, "V", "voltage across the films at which they break"
+                )
             yield Parameter(
                 "V_ext", self.arc.extinction, "V", "voltage across the films below which an arc ends"
             )
@@ -437,7 +441,7 @@ class Subcircuit:
             f"{lubrication(solution)}"
         )
         if self.tabulated:
-            speeds = ", ".join(rpm_text(one.speed) for one in self.found)
+            speeds = ", ".join(rpm_text(circuit.speed) for circuit in self.circuits)
             yield filled(TEXTS["notes"]["table"], speeds=speeds)
         converged = all(result.converged for result in self.results)
         yield f"contacts: {HOW[case.contacts]}, {'converged' if converged else 'NOT CONVERGED'}"
@@ -456,14 +460,14 @@ class Subcircuit:
             codes.update(warning.code for warning in new)
             at = speed_text(result.case.bearing.inner_speed)
             for warning in new:
-                own = result is self.results[0]
-                yield warning if own else ResultWarning(warning.code, f"at {at}: {warning}")
+                is_default = result is self.results[0]
+                yield warning if is_default else ResultWarning(warning.code, f"at {at}: {warning}")
 
     def _table(self) -> Iterator[str]:
         """Nodes over the speed, and the quantities at the speed of the instance."""
-        count, one = len(self.found), self.found[0]
-        leaks, breaks = one.resistance is not None, self.arc is not None
-        for parameter in nodes(self.found, leaks=leaks, breaks=breaks):
+        count, circuit = len(self.circuits), self.circuits[0]
+        leaks, breaks = circuit.resistance is not None, self.arc is not None
+        for parameter in nodes(self.circuits, leaks=leaks, breaks=breaks):
             yield f".param {parameter.line}"
         yield "* part of each interval that the speed has passed, from 0 to 1"
         yield from (f".param {line}" for line in parts(count))
@@ -472,8 +476,8 @@ class Subcircuit:
             ("R_leak", "R", "Ohm", leaks),
             ("V_break", "V", "V", breaks),
         ]
-        for name, letter, unit, wanted in quantities:
-            if wanted:
+        for name, letter, unit, present in quantities:
+            if present:
                 yield f"* {name} in {unit}, at the speed"
                 first, *others = interpolated(name, letter, count)
                 yield from (f".param {first}", *others)
@@ -505,13 +509,15 @@ def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircu
     above that of its extinction.
     """
     check_table(results)
-    found = sorted((equivalent_of(result.solution) for result in results), key=lambda one: one.speed)
-    films = found[0].state == "films"
+    circuits = sorted(
+        (equivalent_of(result.solution) for result in results), key=lambda circuit: circuit.speed
+    )
+    films = circuits[0].state == "films"
     if films and arc is not None:
         check_strength(results[0].case)
-        _check_arc(found, arc)
+        _check_arc(circuits, arc)
     return Subcircuit(
-        tuple(results), tuple(found), arc if films else None, tuple(_notes(results[0], found, arc))
+        tuple(results), tuple(circuits), arc if films else None, tuple(_notes(results[0], circuits, arc))
     )
 
 
@@ -526,9 +532,9 @@ def check_strength(case: BearingCase) -> None:
         )
 
 
-def _check_arc(found: Sequence[Equivalent], arc: Arc) -> None:
+def _check_arc(circuits: Sequence[Equivalent], arc: Arc) -> None:
     """Refuse an arc without a breakdown voltage, or that would go out above it."""
-    least = min(one.threshold for one in found if one.threshold is not None)
+    least = min(circuit.threshold for circuit in circuits if circuit.threshold is not None)
     if arc.extinction >= least:
         raise InputError(
             "extinction_voltage",
@@ -537,23 +543,25 @@ def _check_arc(found: Sequence[Equivalent], arc: Arc) -> None:
         )
 
 
-def _notes(result: BearingResult, found: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
+def _notes(result: BearingResult, circuits: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
     """Notes about the limits of the circuit: effects that it leaves out, and values that are bounds."""
-    one, path, notes = found[0], shaft_path(result.solution), TEXTS["notes"]
-    if one.state == "ceramic":
+    circuit, path, notes = circuits[0], shaft_path(result.solution), TEXTS["notes"]
+    if circuit.state == "ceramic":
         bound = capacitance_is_bound(result.solution)
         yield filled(notes["ceramic"], known=notes["ceramic_bound"] if bound else "C_films")
-    elif one.state == "metal":
+    elif circuit.state == "metal":
         yield notes["metal"]
     elif arc is None:
-        least = min((one.threshold for one in found if one.threshold is not None), default=None)
+        least = min(
+            (circuit.threshold for circuit in circuits if circuit.threshold is not None), default=None
+        )
         known = "" if least is None else f"; the films break down from ring to ring at {least:.4g} V"
         yield filled(notes["no_switch"], known=known)
     else:
         yield notes["switch"]
         if result.case.discharge.weibull is not None:
             yield notes["weibull"]
-    if one.state == "films" and one.resistance is None:
+    if circuit.state == "films" and circuit.resistance is None:
         yield filled(notes["no_leak"], open=f"{OPEN:g}")
     if path.coated and path.resistance >= OPEN:
         yield filled(notes["coating"], open=f"{OPEN:g}")

@@ -162,10 +162,10 @@ def _relative(path: Path, bench: Path) -> str:
     InputError if a netlist cannot hold the path.
     """
     try:
-        found = Path(os.path.relpath(path.resolve(), bench.resolve().parent)).as_posix()
+        link = Path(os.path.relpath(path.resolve(), bench.resolve().parent)).as_posix()
     except ValueError:  # on another drive of Windows
-        found = path.resolve().as_posix()
-    if _NAMEABLE.fullmatch(found) is None:
+        link = path.resolve().as_posix()
+    if _NAMEABLE.fullmatch(link) is None:
         takes = "a path of letters, digits, spaces and . _ + - / for --output with a test bench"
         raise InputError(path, "cannot be named in a netlist", takes=takes)
-    return found
+    return link

@@ -87,7 +87,7 @@ class DriveResult(Shown):
 
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
-        remedies = [(one.title, one.changes, one.tables) for one in self.variants]
+        remedies = [(variant.title, variant.changes, variant.tables) for variant in self.variants]
         summary = whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
         return summary if self.duty is None else with_cycle(summary, self.duty)
 
@@ -96,8 +96,8 @@ class DriveResult(Shown):
         """Remedies with what they change, in the order of the case."""
         duties = self.remedy_duties or (None,) * len(self.remedies)
         return tuple(
-            Variant(title, changes, DriveResult(found, duty=duty))
-            for (title, changes, found), duty in zip(self.remedies, duties, strict=True)
+            Variant(title, changes, DriveResult(solution, duty=duty))
+            for (title, changes, solution), duty in zip(self.remedies, duties, strict=True)
         )
 
     def events(self) -> list[dict[str, Any]]:
@@ -106,12 +106,12 @@ class DriveResult(Shown):
         ``voltage`` and ``charge`` have the sign of the shaft against the housing.
         """
         rows = self.solution.record.events
-        found = []
+        events = []
         for row in rows[np.argsort(rows[:, ON], kind="stable")]:
             values = {name: float(row[column]) for name, column in _RECORDED.items()}
             values["duration"] -= values["time"]
-            found.append({"bearing": ENDS[int(row[FILM])], **values})
-        return found
+            events.append({"bearing": ENDS[int(row[FILM])], **values})
+        return events
 
     def to_dataframe(self) -> pd.DataFrame:
         """Discharges as a table of pandas; ``attrs["units"]`` has the unit of each column of numbers."""
@@ -166,9 +166,9 @@ class DriveResult(Shown):
 
     def key_numbers(self) -> tuple[str | None, ...]:
         """Rates of both bearings and state, as texts."""
-        found = drive_summary(self.solution)
+        tables = drive_summary(self.solution)
         rates = (
-            f"{name} {readable(found[end]['events_per_second'])} discharges/s"
+            f"{name} {readable(tables[end]['events_per_second'])} discharges/s"
             for end, name in NAMES_OF_ENDS.items()
         )
         return *rates, "converged" if self.converged else "NOT CONVERGED"
@@ -196,10 +196,10 @@ def _parts(report: Progress, number: int) -> Iterator[Progress]:
     """Progress of each of a number of simulations as parts of the whole one."""
     for part in range(number):
 
-        def told(done: int, of: int, text: str, part: int = part) -> None:
+        def progress_of_part(done: int, of: int, text: str, part: int = part) -> None:
             report(round(100.0 * (part + done / of) / number), 100, text)
 
-        yield told
+        yield progress_of_part
 
 
 def solve_drive(
@@ -239,11 +239,14 @@ def solve_drive(
     parts = _parts(report, (1 + len(variants)) * (1 if case.duty is None else 2))
     solution = solve(case, next(parts), workers=workers)
     remedies = tuple(
-        (one.title, dict(one.changes), solve(variant, next(parts), workers=workers))
-        for one, variant in zip(case.remedies, variants, strict=True)
+        (remedy.title, dict(remedy.changes), solve(variant, next(parts), workers=workers))
+        for remedy, variant in zip(case.remedies, variants, strict=True)
     )
     duty, *others = _duties(
-        [(case, solution), *((one, found) for one, (*_, found) in zip(variants, remedies, strict=True))],
+        [
+            (case, solution),
+            *((remedy, solved) for remedy, (*_, solved) in zip(variants, remedies, strict=True)),
+        ],
         partial(solve, workers=workers),
         parts,
     )
@@ -257,9 +260,9 @@ def _duties(
     parts: Iterator[Progress],
 ) -> Iterator[DriveDuty | None]:
     """Duty cycle of a drive, and of each remedy; None without one."""
-    for number, (case, found) in enumerate(drives):
+    for number, (case, solution) in enumerate(drives):
         if case.duty is None:
             yield None
             continue
         with within(f"remedies.{number}.changes") if number else nullcontext():
-            yield run_drive_cycle(case, found.highest_source, solve, next(parts))
+            yield run_drive_cycle(case, solution.highest_source, solve, next(parts))

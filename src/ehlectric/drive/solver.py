@@ -63,7 +63,7 @@ class PreparedDrive:
     # settling and duration: times that are simulated before and after measuring begins [s].
     settling: float
     duration: float
-    told: tuple[ResultWarning, ...]  # warnings about the file of a measured source
+    prior_warnings: tuple[ResultWarning, ...]  # warnings about the file of a measured source
 
     @property
     def divider(self) -> tuple[float, float]:
@@ -89,9 +89,9 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
     systems = states_of(case.running_circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, voltage_nodes(elements), None if ringing is None else ringing.rate)
-    waveform, told = measured_source(case.source, case.drive.duration)
+    waveform, prior_warnings = measured_source(case.source, case.drive.duration)
     return PreparedDrive(
-        case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), told
+        case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), prior_warnings
     )
 
 
@@ -115,9 +115,9 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         record=record,
         divider=ready.divider,
         highest_source=ready.highest_source,
-        converged=all(one.converged for one in ready.bearings),
-        told=(*ready.told, *bearing_warnings(ready.bearings)),
-        lives=tuple(plain(life_summary(one.solution)) for one in ready.bearings),
+        converged=all(bearing.converged for bearing in ready.bearings),
+        prior_warnings=(*ready.prior_warnings, *bearing_warnings(ready.bearings)),
+        lives=tuple(plain(life_summary(bearing.solution)) for bearing in ready.bearings),
         bearings=ready.bearings,
     )
 
@@ -125,8 +125,8 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
 def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:
     """Refuse arcs that go out at a voltage at which films break down."""
     lowest = case.breakdown.lowest_voltage
-    for end, one in zip(ENDS, elements, strict=True):
-        least = float(np.min(one.breakdown))
+    for end, bearing in zip(ENDS, elements, strict=True):
+        least = float(np.min(bearing.breakdown))
         if lowest >= least:
             takes = f"less than {readable(least)} V, at which the films of {end} break down"
             if case.breakdown.extinction_voltage is not None:

@@ -105,19 +105,19 @@ def dataset_of(
     """
     import xarray as xr
 
-    solutions = [solution, *(found for _, _, found in remedies)]
-    records = [one.record for one in solutions]
-    elements = [one.elements for one in solutions]
-    traces = [one.trace for one in records]
+    solutions = [solution, *(solved for _, _, solved in remedies)]
+    records = [part.record for part in solutions]
+    elements = [part.elements for part in solutions]
+    traces = [part.trace for part in records]
     return xr.Dataset(
         {
             **_SOLUTION.written(solutions),
             **_RECORD.written(records),
-            **_EVENTS.written([_Events(*one.events.T) for one in records]),
-            **_SAMPLES.written([_Samples(one[:, 0], one[:, 1], one[:, 2:]) for one in traces]),
+            **_EVENTS.written([_Events(*part.events.T) for part in records]),
+            **_SAMPLES.written([_Samples(part[:, 0], part[:, 1], part[:, 2:]) for part in traces]),
             **_ELEMENT.written(elements),
-            **_PATH.written([[one.path for one in pair] for pair in elements]),
-            **{key: one for k, duty in enumerate(duties) for key, one in _duty(k).variables(duty).items()},
+            **_PATH.written([[part.path for part in pair] for pair in elements]),
+            **{key: part for k, duty in enumerate(duties) for key, part in _duty(k).variables(duty).items()},
         },
         coords={_END: list(ENDS), "limit": ("limit", records[0].limits, {"units": "V"})},
         attrs={
@@ -125,9 +125,9 @@ def dataset_of(
             "version": version,
             "case": solution.case.to_toml(),
             "seconds": seconds,
-            TEXTS: json.dumps([texts_and_codes(one.told) for one in solutions]),
-            _LIVES: json.dumps([list(one.lives) for one in solutions]),
-            **{key: one for k, duty in enumerate(duties) for key, one in _duty(k).attributes(duty).items()},
+            TEXTS: json.dumps([texts_and_codes(part.prior_warnings) for part in solutions]),
+            _LIVES: json.dumps([list(part.lives) for part in solutions]),
+            **{key: part for k, duty in enumerate(duties) for key, part in _duty(k).attributes(duty).items()},
         },
     )
 
@@ -143,17 +143,19 @@ def duties_of(dataset: xr.Dataset, remedies: int) -> tuple[DriveDuty | None, tup
 
     Raises UnfitError if a variable or an attribute is missing, or is not as it was written.
     """
-    own, *others = (_duty_of(dataset, variant) for variant in range(1 + remedies))
-    known = tuple(one for one in others if one is not None)
+    of_drive, *others = (_duty_of(dataset, variant) for variant in range(1 + remedies))
+    known = tuple(duty for duty in others if duty is not None)
     if len(known) not in (0, remedies):
         raise UnfitError("some remedies have no duty cycle")
-    return own, known
+    return of_drive, known
 
 
 def _duty_of(dataset: xr.Dataset, variant: int) -> DriveDuty | None:
     """Result of the duty cycle of the drive, or of a remedy by its number from 1; None without one."""
     duty = _duty(variant).read(dataset)
-    if duty is not None and any(len(one) != len(ENDS) for one in (duty.discharges, duty.energy, duty.lives)):
+    if duty is not None and any(
+        len(pair) != len(ENDS) for pair in (duty.discharges, duty.energy, duty.lives)
+    ):
         raise UnfitError("discharges, energy or lives of a duty cycle have not the values of two bearings")
     return duty
 
@@ -166,15 +168,17 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     case = case_of(attributes, _case)
     cases = [case, *case.variants()]
     check(dataset, len(cases))
-    values, told = values_of(dataset), warnings_in_tables(attributes)
-    if len(told) != len(cases):
+    values, prior_warnings = values_of(dataset), warnings_in_tables(attributes)
+    if len(prior_warnings) != len(cases):
         raise UnfitError(f"{TEXTS} is not as it was written")
     lives = _lives(attributes, len(cases))
     solutions = [
-        _solution_of(values, k, case=own, told=told[k], lives=lives[k]) for k, own in enumerate(cases)
+        _solution_of(values, k, case=variant, prior_warnings=prior_warnings[k], lives=lives[k])
+        for k, variant in enumerate(cases)
     ]
     remedies = tuple(
-        (one.title, dict(one.changes), found) for one, found in zip(case.remedies, solutions[1:], strict=True)
+        (remedy.title, dict(remedy.changes), solved)
+        for remedy, solved in zip(case.remedies, solutions[1:], strict=True)
     )
     return solutions[0], remedies, number_of(attributes, "seconds"), text_of(attributes, "version")
 
@@ -193,10 +197,10 @@ def _lives(attributes: Mapping[Any, Any], variants: int) -> list[tuple[dict[str,
         return [()] * variants
     checks = {key: _is_text_or_null if key.endswith("_source") else is_number_or_null for key in LIFE_KEYS}
     ends = partial(is_list, right=partial(is_table, columns=checks))
-    found = json_of(attributes, _LIVES, partial(is_list, right=ends))
-    if len(found) != variants or any(len(one) != len(ENDS) for one in found):
+    lives = json_of(attributes, _LIVES, partial(is_list, right=ends))
+    if len(lives) != variants or any(len(pair) != len(ENDS) for pair in lives):
         raise UnfitError(f"{_LIVES} is not as it was written")
-    return [tuple(one) for one in found]
+    return [tuple(pair) for pair in lives]
 
 
 def _case(tables: dict[str, Any]) -> DriveCase:
@@ -218,9 +222,9 @@ def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolu
         BearingElement(**_ELEMENT.read(values, k, b), path=Path(**_PATH.read(values, k, b)))
         for b in range(len(ENDS))
     )
-    found = _SOLUTION.read(values, k)
-    divider = tuple(found.pop("divider").tolist())
-    return DriveSolution(**found, **given, divider=divider, elements=(first, second), record=record)
+    parts = _SOLUTION.read(values, k)
+    divider = tuple(parts.pop("divider").tolist())
+    return DriveSolution(**parts, **given, divider=divider, elements=(first, second), record=record)
 
 
 def check(dataset: xr.Dataset, variants: int) -> None:
@@ -239,7 +243,7 @@ def check(dataset: xr.Dataset, variants: int) -> None:
     counted = np.sum(dataset["block_events"].values, axis=-1)
     values = values_of(dataset)
     for k, total in enumerate(counted):
-        own = _EVENTS.read(values, k)["bearing"].astype(int)
-        numbers = np.bincount(own, minlength=len(ENDS))
-        if np.any(numbers > total) or (own.size < KEPT and np.any(numbers != total)):
+        films = _EVENTS.read(values, k)["bearing"].astype(int)
+        numbers = np.bincount(films, minlength=len(ENDS))
+        if np.any(numbers > total) or (films.size < KEPT and np.any(numbers != total)):
             raise UnfitError("event_bearing does not belong to block_events")

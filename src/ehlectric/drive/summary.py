@@ -113,10 +113,10 @@ def _rates(rate: Rate) -> dict[str, float]:
 
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Summary of the bearing at one end: its film, its voltage, and its events."""
-    case, record, one = solution.case, solution.record, solution.elements[b]
+    case, record, bearing = solution.case, solution.record, solution.elements[b]
     peak = float(record.peak[b])
     return {
-        **_film(case, one),
+        **_film(case, bearing),
         "voltage_ratio": solution.divider[b],
         "waveform_ratio": peak / solution.highest_source,
         "peak_voltage": peak,
@@ -132,17 +132,17 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     }
 
 
-def _film(case: DriveCase, one: BearingElement) -> dict[str, Any]:
+def _film(case: DriveCase, bearing: BearingElement) -> dict[str, Any]:
     """Films of a bearing as an element of the circuit."""
-    breakdown = float(np.min(one.breakdown))
-    finite = math.isfinite(one.shape) and math.isfinite(breakdown)
+    breakdown = float(np.min(bearing.breakdown))
+    finite = math.isfinite(bearing.shape) and math.isfinite(breakdown)
     return {
-        "capacitance": one.mean_capacitance,
-        "conductance": one.conductance,
+        "capacitance": bearing.mean_capacitance,
+        "conductance": bearing.conductance,
         "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
-        "weibull_shape": one.shape if finite else None,
-        "renewal_time": (case.breakdown.renewal_time or one.transit) if finite else None,
-        "touching_time_share": one.touching,
+        "weibull_shape": bearing.shape if finite else None,
+        "renewal_time": (case.breakdown.renewal_time or bearing.transit) if finite else None,
+        "touching_time_share": bearing.touching,
     }
 
 
@@ -151,14 +151,16 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
     case, highest = ready.case, ready.highest_source
     ends = {
         end: {
-            **_film(case, one),
+            **_film(case, bearing),
             "voltage_ratio": ratio,
             "voltage_at_peak": ratio * highest,
             "films": result.case.contacts,
             "films_error": film_error(result.solution),
             "life": life_summary(result.solution),
         }
-        for end, one, ratio, result in zip(ENDS, ready.elements, ready.divider, ready.bearings, strict=True)
+        for end, bearing, ratio, result in zip(
+            ENDS, ready.elements, ready.divider, ready.bearings, strict=True
+        )
     }
     drive = {"duration": ready.duration, "remedies": len(case.remedies)}
     return {**_tables(case, highest, drive, ends), "inputs": case.all_inputs()}
@@ -167,8 +169,8 @@ def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
     """Rate and distributions of the events of a film."""
     rate, count = event_rate(record.counts[b], record.duration), int(np.sum(record.counts[b]))
-    own = record.events[record.events[:, FILM] == b]
-    found: dict[str, Any] = {
+    events = record.events[record.events[:, FILM] == b]
+    values: dict[str, Any] = {
         "events": count,
         **_rates(rate),
         "events_per_second_positive": float(record.positive[b]) / record.duration,
@@ -178,29 +180,29 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
     }
     for name, column in VALUES.items():
         total, largest = float(record.sums[b, column]), float(record.largest[b, column])
-        found |= _spread(name, np.abs(own[:, column]), count, total, largest)
-    lasting = own[:, OFF] - own[:, ON]
+        values |= _spread(name, np.abs(events[:, column]), count, total, largest)
+    lasting = events[:, OFF] - events[:, ON]
     total = float(record.sums[b, OFF] - record.sums[b, ON])
-    return found | _spread("time", lasting, count, total, float(np.max(lasting, initial=0.0)))
+    return values | _spread("time", lasting, count, total, float(np.max(lasting, initial=0.0)))
 
 
 def _spread(name: str, values: np.ndarray, count: int, total: float, largest: float) -> dict[str, Any]:
     """Statistics of a value of ``count`` events, of which the first ones are known one by one."""
-    found = spread(values, total / count, largest) if count else spread(values, None, None)
-    return {f"{name}_{key}": value for key, value in found.items()}
+    statistics = spread(values, total / count, largest) if count else spread(values, None, None)
+    return {f"{name}_{key}": value for key, value in statistics.items()}
 
 
 def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Largest currents of a film, and their current densities."""
-    one = solution.elements[b]
+    bearing = solution.elements[b]
     peak, through = solution.largest_current(b), solution.contact_current(b)
     return {
         "contact_current": through,
-        "real_area": one.real_area or None,
-        "real_current_density": through / one.real_area if through and one.real_area else None,
-        "hertz_area": one.hertz_area,
-        "current_density": peak / one.hertz_area if peak and one.hertz_area else None,
-        "element_current_density": peak / one.largest_area if peak and one.largest_area else None,
+        "real_area": bearing.real_area or None,
+        "real_current_density": through / bearing.real_area if through and bearing.real_area else None,
+        "hertz_area": bearing.hertz_area,
+        "current_density": peak / bearing.hertz_area if peak and bearing.hertz_area else None,
+        "element_current_density": peak / bearing.largest_area if peak and bearing.largest_area else None,
         "current_density_limits": list(CURRENT_DENSITY_LIMITS),
     }
 
@@ -216,11 +218,13 @@ _OF_BOTH = ("events", *(f"events_per_second{bound}" for bound in _BOUNDS.values(
 _OF_CYCLE = ("discharges", "energy", "left_out_share")
 
 
-def _remedy_tables(found: Mapping[str, Any]) -> dict[str, Any]:
+def _remedy_tables(of_remedy: Mapping[str, Any]) -> dict[str, Any]:
     """Tables of a remedy, from those of its drive: both bearings, and their sums."""
-    tables = {end: found[end] for end in ENDS} | {"drive": {key: found["drive"][key] for key in _OF_BOTH}}
-    if "duty" in found:
-        tables["duty"] = {key: found["duty"][key] for key in _OF_CYCLE}
+    tables = {end: of_remedy[end] for end in ENDS} | {
+        "drive": {key: of_remedy["drive"][key] for key in _OF_BOTH}
+    }
+    if "duty" in of_remedy:
+        tables["duty"] = {key: of_remedy["duty"][key] for key in _OF_CYCLE}
     return tables
 
 
@@ -247,8 +251,8 @@ def whole_summary(
         "inputs": solution.case.all_inputs(),
         **tables,
         "remedies": [
-            {"title": title, "changes": changes, **_remedy_tables(found)}
-            for title, changes, found in remedies
+            {"title": title, "changes": changes, **_remedy_tables(of_remedy)}
+            for title, changes, of_remedy in remedies
         ],
         "seconds": seconds,
     }

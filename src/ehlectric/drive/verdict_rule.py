@@ -83,7 +83,7 @@ def weakest_part(case: DriveCase, *, formula: bool) -> float:
     if not formula:
         # Films of the atlas and solved ones are far more exact than the strength is known.
         return part
-    return part / max(formula_factor(one.bearing.kind) for one in case.bearings)
+    return part / max(formula_factor(bearing_case.bearing.kind) for bearing_case in case.bearings)
 
 
 def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
@@ -204,18 +204,20 @@ def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[Statement]:
 
 def _bound(case: DriveCase) -> Bound:
     """Whether the voltages at which films break down are upper bounds, or best estimates."""
-    return "upper" if any(one.bearing.bounding for one in case.bearings) else "best"
+    return "upper" if any(bearing_case.bearing.bounding for bearing_case in case.bearings) else "best"
 
 
 def _assumptions(case: DriveCase, codes: set[str], *, films: bool) -> Iterator[Statement]:
     """Clauses on the films, where ``films``, and on the strength of the oil of bearings that have one."""
     if films:
-        rough = "rough" if all(one.bearing.summit_height for one in case.bearings) else "smooth"
+        rough = (
+            "rough" if all(bearing_case.bearing.summit_height for bearing_case in case.bearings) else "smooth"
+        )
         ideal = ("isothermal", "fully flooded") if "isothermal-film" in codes else ()
         yield Statement.of("films-of-drive", words=(*ideal, rough))
     clauses = [
-        strength_clause(one.discharge)
-        for one in case.bearings
-        if one.discharge is not None and one.discharge.has_strength
+        strength_clause(bearing_case.discharge)
+        for bearing_case in case.bearings
+        if bearing_case.discharge is not None and bearing_case.discharge.has_strength
     ]
     yield from (clause for place, clause in enumerate(clauses) if clause not in clauses[:place])

@@ -38,7 +38,7 @@ _DRAINED, _TOGETHER = 5.0, 0.1
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warnings of both bearings, each with its end, and those of the simulation."""
-    yield from solution.told
+    yield from solution.prior_warnings
     yield from machine_warnings(solution.case, solution.elements)
     yield from _of_threshold(solution)
     yield from _of_time(solution)
@@ -71,10 +71,10 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
     """Note of capacitances that follow from the geometry of the machine, and warning of its oscillations."""
     circuit = case.circuit
     if circuit.estimated:
-        told = ", ".join(
+        values = ", ".join(
             f"circuit.{key} {amount(circuit.capacitances[key], 'F')}" for key in circuit.estimated
         )
-        yield ResultWarning.of("capacitances-estimated", capacitances=told)
+        yield ResultWarning.of("capacitances-estimated", capacitances=values)
     for table in ("source", "circuit", "breakdown"):
         yield from raised(unusual_machine({f"{table}.{key}": value for key, value in getattr(case, table)}))
     yield from _of_ring(case)
@@ -105,7 +105,11 @@ def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Itera
     rise, frequency = source.rise_time, source.switching_frequency or source.fundamental_frequency
     if not rise or not frequency:
         return
-    times = [float(np.min(one.capacitance)) / one.conductance for one in bearings if one.conductance > 0.0]
+    times = [
+        float(np.min(bearing.capacitance)) / bearing.conductance
+        for bearing in bearings
+        if bearing.conductance > 0.0
+    ]
     if times and _SLOWER * rise < min(times) < _PERIODS / frequency:
         shortest = min(times)
         yield ResultWarning.of(
@@ -132,8 +136,8 @@ def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
 
 def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warning of thresholds without scatter, which hold for one film for ever."""
-    for end, one in zip(ENDS, solution.elements, strict=True):
-        if math.isinf(one.shape) and math.isfinite(float(np.min(one.breakdown))):
+    for end, bearing in zip(ENDS, solution.elements, strict=True):
+        if math.isinf(bearing.shape) and math.isfinite(float(np.min(bearing.breakdown))):
             yield ResultWarning.of("threshold-constant", end=end)
 
 
@@ -162,7 +166,7 @@ def _of_both_ends(solution: DriveSolution) -> Iterator[ResultWarning]:
         return
     circuit = solution.case.circuit.capacitances
     shaft = sum(circuit.get(key, 0.0) for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"))
-    shaft += sum(float(np.mean(one.capacitance)) for one in solution.elements)
+    shaft += sum(float(np.mean(bearing.capacitance)) for bearing in solution.elements)
     drains = solution.case.breakdown.arc_resistance * shaft
     share = float(np.mean(_distance(first, second) < _DRAINED * drains))
     if share > _TOGETHER:
@@ -177,8 +181,8 @@ def _distance(times: Array, others: Array) -> Array:
 
 def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warning of largest currents whose density is above the lowest of the published limits."""
-    for b, (end, one) in enumerate(zip(ENDS, solution.elements, strict=True)):
-        density = solution.largest_current(b) / one.hertz_area if one.hertz_area else 0.0
+    for b, (end, bearing) in enumerate(zip(ENDS, solution.elements, strict=True)):
+        density = solution.largest_current(b) / bearing.hertz_area if bearing.hertz_area else 0.0
         if density > CURRENT_DENSITY_LIMITS[0]:
             yield ResultWarning.of(
                 "current-density-high",

@@ -190,7 +190,7 @@ def _check_drive(case: DriveCase) -> Meaning:
         return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
     ready = prepare(quick, workers=1)
     summary = {**checked_summary(ready), "inputs": case.all_inputs()}
-    told = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
+    told = (*ready.prior_warnings, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
 
 

@@ -94,7 +94,7 @@ def test_the_step_from_rest_to_a_measured_voltage_is_no_discharge(case, square):
 
 def test_a_resampled_source_is_judged_by_its_own_edges(case, square):
     """Eight samples of 100 ns are one of 800 ns: the warning tells the interval that is simulated."""
-    told = solve(measured(case, square, resample="0.8 us"), workers=1).told
+    told = solve(measured(case, square, resample="0.8 us"), workers=1).prior_warnings
     unresolved = [str(one) for one in told if one.code == "edges-unresolved"]
     assert len(unresolved) == 1
     assert " 8e-07 s" in unresolved[0]

@@ -33,8 +33,8 @@ def drive():
         }
     )
     result = solve_drive(case, workers=1)
-    told = (ResultWarning("waveform-coarse", "told by hand"), *result.solution.told)
-    return replace(result, solution=replace(result.solution, told=told))
+    told = (ResultWarning("waveform-coarse", "told by hand"), *result.solution.prior_warnings)
+    return replace(result, solution=replace(result.solution, prior_warnings=told))
 
 
 @pytest.mark.slow

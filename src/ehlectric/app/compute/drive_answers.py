@@ -181,7 +181,11 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         raise InputError(key, got="films that have to be solved", takes="a simulation with solved contacts")
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
-    raised = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
+    raised = (
+        *ready.prior_warnings,
+        *bearing_warnings(ready.bearings),
+        *machine_warnings(case, ready.elements),
+    )
     warnings = merged(page_warnings_of(raised))
     shown = drive_numbers(summary, DRIVE_CHECK, warnings)
     # The divider does not say how often, and with which energy, the bearings discharge.

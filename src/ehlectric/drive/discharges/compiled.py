@@ -59,17 +59,15 @@ def _jit(function: F, **options: bool) -> F:
     return cast("F", jit(error_model="numpy", _nrt=False, **options)(function))
 
 
-def compile_for(
-    function: Callable[..., Any], arguments: tuple[Any, ...], told: Callable[[str], None]
-) -> None:
-    """Compile a function for the types of its arguments, or read it from the disk. ``told``, called with a
+def compile_for(function: Callable[..., Any], arguments: tuple[Any, ...], say: Callable[[str], None]) -> None:
+    """Compile a function for the types of its arguments, or read it from the disk. ``say``, called with a
     text before the function is compiled, and not where it is on the disk.
     """
     dispatcher, typeof = cast("Any", function), cast("Any", numba.typeof)
     if _uncompiled():
         _slow()
         return
-    listener = _Told(told, dispatcher)
+    listener = _CompileListener(say, dispatcher)
     try:
         with event.install_listener("numba:compile", listener):
             dispatcher.compile(tuple(typeof(each) for each in arguments))
@@ -81,17 +79,17 @@ def compile_for(
             _not_kept("no folder for it can be written to")
 
 
-class _Told(event.Listener):
+class _CompileListener(event.Listener):
     """Listener that tells once that a function is being compiled."""
 
-    def __init__(self, told: Callable[[str], None], function: Any) -> None:
-        self.told, self.function, self.called = told, function, False
+    def __init__(self, say: Callable[[str], None], function: Any) -> None:
+        self.say, self.function, self.called = say, function, False
 
     def on_start(self, event: Any) -> None:
         """Tell it at the begin of the function, and not of those that it calls."""
         if not self.called and event.data["dispatcher"] is self.function:
             self.called = True
-            self.told("compiling the simulation of discharges, once on this machine")
+            self.say("compiling the simulation of discharges, once on this machine")
 
     def on_end(self, event: Any) -> None:
         """Do nothing."""
@@ -152,7 +150,7 @@ def _bases(chosen: str) -> Iterator[Path]:
 
 def contents_of(folder: Path) -> str:
     """Short hash of the contents of all Python files of a folder and of those in it."""
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for path in sorted(folder.rglob("*.py")):
-        found.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return found.hexdigest()[:16]
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]

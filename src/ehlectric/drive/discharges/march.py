@@ -101,8 +101,8 @@ def spectrum_of(means: Array) -> Array:
     [1.0, 0.0, 0.0, 2.0, 0.0]
     """
     lines = np.arange(means.size // _MEANS + 1)
-    found = np.fft.rfft(means)[: lines.size] / means.size
-    amplitudes: Array = np.where(lines > 0, 2.0, 1.0) * np.abs(found) / np.sinc(lines / means.size) ** 2
+    spectrum = np.fft.rfft(means)[: lines.size] / means.size
+    amplitudes: Array = np.where(lines > 0, 2.0, 1.0) * np.abs(spectrum) / np.sinc(lines / means.size) ** 2
     return amplitudes
 
 
@@ -506,9 +506,9 @@ def _ended(piece: Complex, films: Films, state: State, t: float, end: float, fir
         elif state.phase[b] == ARC:
             near = low - bound <= level
         if near:
-            found = crossing(piece, b, t, end, level, way)
-            if 0.0 <= found <= end:
-                what, film, end = (_BROKEN if way == RISES else _OUT), b, found
+            crossed = crossing(piece, b, t, end, level, way)
+            if 0.0 <= crossed <= end:
+                what, film, end = (_BROKEN if way == RISES else _OUT), b, crossed
     return end, what, film
 
 

@@ -70,23 +70,25 @@ def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
     Films are replaced in the time that the oil takes through the most loaded contact, unless the case gives
     another time. Asperities touch for that time, and part for as long as their share of time asks for.
     """
-    count = max(one.breakdown.size for one in bearings)
+    count = max(bearing.breakdown.size for bearing in bearings)
     scale = np.full((2, count), math.inf)
     touch = np.full((2, 2), math.inf)
-    renewal = np.array([breakdown.renewal_time or one.transit for one in bearings])
-    for b, one in enumerate(bearings):
-        scale[b, : one.breakdown.size] = one.breakdown
-        if one.touching > 0.0:
-            closed = breakdown.touch_time or one.transit
+    renewal = np.array([breakdown.renewal_time or bearing.transit for bearing in bearings])
+    for b, bearing in enumerate(bearings):
+        scale[b, : bearing.breakdown.size] = bearing.breakdown
+        if bearing.touching > 0.0:
+            closed = breakdown.touch_time or bearing.transit
             # A film that never insulates opens for a part of the time that is not noticed.
-            touch[b] = closed * max(1.0 - one.touching, 1e-9) / one.touching, closed
-    still = [one.breakdown.size == 1 for one in bearings]
+            touch[b] = closed * max(1.0 - bearing.touching, 1e-9) / bearing.touching, closed
+    still = [bearing.breakdown.size == 1 for bearing in bearings]
     return Films(
         scale=scale,
-        positions=np.array([one.breakdown.size for one in bearings]),
-        step=np.array([math.inf if alone else one.step for alone, one in zip(still, bearings, strict=True)]),
-        shape=np.array([one.shape for one in bearings]),
-        renewal=np.where([math.isfinite(one.shape) for one in bearings], renewal, math.inf),
+        positions=np.array([bearing.breakdown.size for bearing in bearings]),
+        step=np.array(
+            [math.inf if fixed else bearing.step for fixed, bearing in zip(still, bearings, strict=True)]
+        ),
+        shape=np.array([bearing.shape for bearing in bearings]),
+        renewal=np.where([math.isfinite(bearing.shape) for bearing in bearings], renewal, math.inf),
         arc=np.full(2, breakdown.arc_resistance),
         extinction=np.full(2, breakdown.lowest_voltage),
         recovery=np.full(2, breakdown.recovery_time),
@@ -133,11 +135,11 @@ class _Log:
         events[:, [ON, OFF]] -= start
         block = np.minimum((events[:, ON] / self.duration * BLOCKS).astype(int), BLOCKS - 1)
         for b in range(2):
-            own = events[:, FILM] == b
-            self.counts[b] += np.bincount(block[own], minlength=BLOCKS)
-            self.positive[b] += np.count_nonzero(events[own, VOLTAGE] > 0.0)
-            self.sums[b] += np.sum(np.abs(events[own]), axis=0)
-            self.largest[b] = np.max(np.abs(events[own]), axis=0, initial=0.0).clip(self.largest[b])
+            of_film = events[:, FILM] == b
+            self.counts[b] += np.bincount(block[of_film], minlength=BLOCKS)
+            self.positive[b] += np.count_nonzero(events[of_film, VOLTAGE] > 0.0)
+            self.sums[b] += np.sum(np.abs(events[of_film]), axis=0)
+            self.largest[b] = np.max(np.abs(events[of_film]), axis=0, initial=0.0).clip(self.largest[b])
         if self.number < KEPT:
             self.kept.append(events[: KEPT - self.number])
             self.number += self.kept[-1].shape[0]

@@ -130,9 +130,9 @@ def voltages(piece: Complex) -> tuple[float, float]:
     """Voltages across both films at the time to which the piece was moved [V]."""
     first, second = 0.0, 0.0
     for m in range(piece.shape[1]):
-        y, one, other = piece[NOW, m], piece[FILMS, m], piece[FILMS + 1, m]
-        first += one.real * y.real - one.imag * y.imag
-        second += other.real * y.real - other.imag * y.imag
+        y, film_1, film_2 = piece[NOW, m], piece[FILMS, m], piece[FILMS + 1, m]
+        first += film_1.real * y.real - film_1.imag * y.imag
+        second += film_2.real * y.real - film_2.imag * y.imag
     return first, second
 
 
@@ -247,9 +247,9 @@ def unfold(piece: Complex, duration: float, course: Course) -> None:
             continue
         change = (abs(rate.real) + abs(rate.imag)) * duration
         if change < SERIES:
-            own, term = _FEW if change < _SLOWEST else _POWERS, start
-            powers = max(powers, own)
-            for k in range(own):
+            number, term = _FEW if change < _SLOWEST else _POWERS, start
+            powers = max(powers, number)
+            for k in range(number):
                 if k == 1:
                     term = rate * start + force
                 elif k == 2:
@@ -279,16 +279,16 @@ def all_at(course: Course, t: float) -> tuple[float, float, float]:
         first, second = first * t + course.powers[0, k], second * t + course.powers[1, k]
         shaft = shaft * t + course.powers[2, k]
     for m in range(course.number[0]):
-        rate, one, other = course.rates[m], course.amplitudes[0, m], course.amplitudes[1, m]
+        rate, film_1, film_2 = course.rates[m], course.amplitudes[0, m], course.amplitudes[1, m]
         third = course.amplitudes[2, m]
         if rate.real * t > LOWEST:
             grown = math.exp(rate.real * t)
             if rate.imag == 0.0:
-                first, second = first + one.real * grown, second + other.real * grown
+                first, second = first + film_1.real * grown, second + film_2.real * grown
                 shaft += third.real * grown
             else:
                 cosine, sine = math.cos(rate.imag * t), math.sin(rate.imag * t)
-                first += grown * (one.real * cosine - one.imag * sine)
-                second += grown * (other.real * cosine - other.imag * sine)
+                first += grown * (film_1.real * cosine - film_1.imag * sine)
+                second += grown * (film_2.real * cosine - film_2.imag * sine)
                 shaft += grown * (third.real * cosine - third.imag * sine)
     return first, second, shaft
