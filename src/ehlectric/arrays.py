@@ -1,6 +1,6 @@
 """Types of NumPy arrays that all packages share, and values of one point or of many."""
 
-from typing import Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +11,35 @@ Mask: TypeAlias = NDArray[np.bool_]
 IntArray: TypeAlias = NDArray[np.intp]
 
 # Number of one point of operation, or the numbers of many points: a float, or an array of shape (...).
-Numbers: TypeAlias = Any
+Numbers: TypeAlias = float | Array
+
+# Condition at one point of operation, or the conditions at many points.
+Booleans: TypeAlias = bool | np.bool_ | Mask
+
+# Texts of many points, shape (...).
+Texts: TypeAlias = NDArray[np.str_]
 
 # The same in a function whose result has the type of its arguments.
-N = TypeVar("N", float, Array)
+N = TypeVar("N", float, Array, Numbers)
+
+# Type of the numbers of a class: floats, unless it is declared for many points.
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar as DefaultTypeVar
+
+    V = DefaultTypeVar("V", float, Numbers, default=float)
+else:
+    V = TypeVar("V", float, Numbers)
 
 
-def where(known: Any, values: Numbers) -> Numbers | None:
+@overload
+def where(known: Booleans, values: Array) -> Array: ...
+
+
+@overload
+def where(known: Booleans, values: Numbers) -> Numbers | None: ...
+
+
+def where(known: Booleans, values: Numbers) -> Numbers | None:
     """Values where they are known: of one point the value or None, of many points NaN in place of None.
 
     ``known``, whether each point has its value, shape (...); ``values``, shape (...).
@@ -32,7 +54,7 @@ def where(known: Any, values: Numbers) -> Numbers | None:
     return np.where(known, values, np.nan)
 
 
-def any_of(*conditions: Any) -> Any:
+def any_of(*conditions: Booleans) -> Booleans:
     """Return whether any of some conditions, of shape () or (...), holds at each point; False without one.
 
     Examples
@@ -40,13 +62,13 @@ def any_of(*conditions: Any) -> Any:
     >>> any_of(False, np.array([True, False])).tolist(), any_of()
     ([True, False], False)
     """
-    found: Any = False
+    found: Booleans = False
     for condition in conditions:
         found = found | condition
     return found
 
 
-def as_float(values: Numbers) -> Numbers:
+def as_float(values: Numbers | np.floating[Any] | NDArray[np.floating[Any]]) -> Numbers:
     """Values of one point as a float of Python, of many points as they are.
 
     Examples
@@ -54,10 +76,10 @@ def as_float(values: Numbers) -> Numbers:
     >>> as_float(np.float64(2.0)), as_float(np.array([2.0, 3.0])).tolist()
     (2.0, [2.0, 3.0])
     """
-    return float(values) if np.ndim(values) == 0 else values
+    return float(values) if np.ndim(values) == 0 else np.asarray(values)
 
 
-def labels(*choices: Any) -> Any:
+def labels(*choices: tuple[Booleans, str | Texts] | str | Texts) -> str | Texts:
     """Text for each point: that of the first condition that holds, or the last one.
 
     ``choices``, pairs of a condition of shape (...) and its text, and the text of all other points. Returns a
@@ -68,7 +90,11 @@ def labels(*choices: Any) -> Any:
     >>> labels((False, "low"), "high"), labels((np.array([True, False]), "low"), "high").tolist()
     ('high', ['low', 'high'])
     """
-    *pairs, other = choices
+    pairs = [choice for choice in choices if isinstance(choice, tuple)]
+    other = choices[-1]
+    assert not isinstance(other, tuple)
     if all(np.ndim(condition) == 0 for condition, _ in pairs):
         return next((text for condition, text in pairs if condition), other)
-    return np.select([condition for condition, _ in pairs], [text for _, text in pairs], other)
+    return np.select(
+        [np.asarray(condition) for condition, _ in pairs], [np.asarray(text) for _, text in pairs], other
+    )

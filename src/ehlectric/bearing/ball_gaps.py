@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.special import elliprd, elliprf
 
-from ehlectric.arrays import Array, IntArray, Numbers
+from ehlectric.arrays import Array, IntArray, Numbers, as_float
 from ehlectric.bearing.gaps import (
     FINE,
     LoadedContact,
@@ -96,7 +96,8 @@ class UnitContact:
         ratio = _axis_ratios(radius_x, radius_y)
         # b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') and p_h = 3 F/(2 pi k b^2).
         size = elliprd(0.0, ratio**2, 1.0)
-        return cls(ratio, radius_y / radius_x, 0.75 / size, 1.5 * elliprf(0.0, 1.0, ratio**2) / size)
+        opening, approach = as_float(0.75 / size), as_float(1.5 * elliprf(0.0, 1.0, ratio**2) / size)
+        return cls(ratio, radius_y / radius_x, opening, approach)
 
     def gap(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Gap of the bodies in contact, and the deflection in it; ``x`` and ``y``, positions over b."""
@@ -146,7 +147,8 @@ def _axis_ratios(radius_x: Numbers, radius_y: Numbers) -> Numbers:
         return axis_ratio(float(radius_x), float(radius_y))
     radius_ratio = np.where(np.isfinite(radius_x * radius_y), radius_y / radius_x, 1.0)
     several, number = np.unique(radius_ratio, return_inverse=True)
-    return axis_ratio(np.ones_like(several), several)[number].reshape(radius_ratio.shape)
+    ratios = np.asarray(axis_ratio(np.ones_like(several), several))
+    return ratios[number].reshape(radius_ratio.shape)
 
 
 # Contacts that are matched together: few enough for the processor's cache.
@@ -202,7 +204,8 @@ def _around(
         DryContact(b, a, unit.opening * scale / a, 0.0), 1.0, offset, mismatch, unit.ratio
     )
     ends = b * inlet, b * outlet, a * side
-    return outside_capacitance(race, contact, ends, shoulders=shoulders, nodes=nodes), mismatch
+    capacitance = outside_capacitance(race, contact, ends, shoulders=shoulders, nodes=nodes)
+    return np.asarray(capacitance), mismatch
 
 
 # Nodes and weights on 0 to 1 with which the gap between two domains is integrated.

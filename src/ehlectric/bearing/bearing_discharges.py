@@ -136,12 +136,14 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
         "first_break_mean": np.mean(first, axis=0),
         "through_breakdown": np.min(through, axis=0),
         "through_breakdown_mean": np.mean(through, axis=0),
-        "shaft_first_break": np.min([shaft_first_break(one, path) for one in circuits], axis=0),
-        "shaft_through_breakdown": np.min([shaft_through_breakdown(one, path) for one in circuits], axis=0),
+        "shaft_first_break": np.min(np.array([shaft_first_break(one, path) for one in circuits]), axis=0),
+        "shaft_through_breakdown": np.min(
+            np.array([shaft_through_breakdown(one, path) for one in circuits]), axis=0
+        ),
     }
+    at: dict[str, Any] = {name: where(known, values) for name, values in voltages.items()}
     return Breakdown(
-        first_break_at=labels((known, _weakest(circuits, _first_of_least(first, axis=0))), ""),
-        **{name: where(known, values) for name, values in voltages.items()},
+        first_break_at=labels((known, _weakest(circuits, _first_of_least(first, axis=0))), ""), **at
     )
 
 
@@ -223,7 +225,8 @@ def strength_per_volt(solution: BearingSolution) -> Numbers | None:
             (1.0 - position.inner_share(circuit), position.outer),
         )
     ]
-    return where(insulating(solution), np.max(strengths, axis=0))
+    largest: Numbers = np.max(strengths, axis=0)
+    return where(insulating(solution), largest)
 
 
 @dataclass(frozen=True)
@@ -299,7 +302,8 @@ def _density(current: Numbers | None, area: Numbers) -> Numbers | None:
 
 def _discharged(solution: BearingSolution) -> Numbers | None:
     """Capacitance that a discharge empties [F]; None where nothing says what is connected to the bearing."""
-    return known(lambda total: where(insulating(solution), total), _connected(solution))
+    connected = _connected(solution)
+    return None if connected is None else where(insulating(solution), connected)
 
 
 def _connected(solution: BearingSolution) -> Numbers | None:
@@ -337,7 +341,7 @@ def current_flags(solution: BearingSolution) -> Iterator[Flag]:
             "current-density-high",
             "bearing",
             density=1e-6 * density,
-            limits=lambda: compared_with_limits(density),
+            limits=lambda: compared_with_limits(float(density)),
         )
 
 
@@ -427,7 +431,7 @@ class Decay:
             return np.where(zero, 1.0, np.expm1(exponent) / np.where(zero, 1.0, exponent))
 
         films, coating = self._along(mean)
-        return (films + coating)[()]
+        return np.asarray(films + coating)[()]
 
     def _along(self, function: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
         """Function f of the matrix A, f(A) x = f(a) x + (f(a) - f(b))/(a - b) (A x - a x), at the start x.
@@ -462,10 +466,12 @@ def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
     if tau is None or motor is None or not np.any(insulates):
         return None
     decay = _decay(solution, motor, tau)
+    constant, of_films = (where(insulates, time) for time in (decay.time_constant, decay.film_time_constant))
+    assert constant is not None and of_films is not None
     left = None if motor.switching_frequency is None else decay.after(1.0 / motor.switching_frequency)
     return ShaftLeakage(
-        time_constant=where(insulates, decay.time_constant),
-        film_time_constant=where(insulates, decay.film_time_constant),
+        time_constant=constant,
+        film_time_constant=of_films,
         after_period=None if left is None else where(insulates, left[0] + left[1]),
         film_after_period=None if left is None else where(insulates, left[0] / decay.start[0]),
         after_rise=None if motor.rise_time is None else where(insulates, decay.after_rise(motor.rise_time)),
@@ -477,6 +483,8 @@ def _decay(solution: BearingSolution, motor: Motor, tau: Numbers) -> Decay:
     own, path = capacitance(solution), shaft_path(solution)
     conductance, second = oil_conductance(solution, tau), motor.second_bearing_capacitance
     beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance
+    share: Numbers
+    leak: Numbers
     if second is None:
         # Two equal bearings share what is beside them: half of it belongs to each.
         share, leak = 0.5 * beside + path.parallel, 0.0
@@ -488,10 +496,9 @@ def _decay(solution: BearingSolution, motor: Motor, tau: Numbers) -> Decay:
 def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:
     """Conductance of the oil of a bearing with its relaxation time [s], mean over the positions [S]."""
     fill = solution.case.bearing.fill
-    values = []
-    for position in solution.positions:
-        values.append(leakage_conductance(*position.capacitances(fill), tau))
-    return np.mean(values, axis=0)
+    values = [leakage_conductance(*position.capacitances(fill), tau) for position in solution.positions]
+    mean: Numbers = np.mean(np.array(values), axis=0)
+    return mean
 
 
 def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
@@ -506,12 +513,12 @@ def leakage_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield Flag.of(
         leaks.film_time_constant < period,
         "shaft-leaks",
-        relaxation=lambda: amount(tau or 0.0, "s"),
+        relaxation=lambda: amount(float(tau or 0.0), "s"),
         part="part of the shaft voltage across the films" if coated else "shaft voltage",
-        decay=lambda: amount(leaks.film_time_constant, "s"),
+        decay=lambda: amount(float(leaks.film_time_constant), "s"),
         period=lambda: _period_text(frequency),
         shaft=shaft,
-        edge=lambda: _edge_text(motor, leaks, shaft or 0.0),
+        edge=lambda: _edge_text(motor, leaks, float(shaft or 0.0)),
     )
 
 
@@ -530,4 +537,5 @@ def _edge_text(motor: Motor, leaks: ShaftLeakage, shaft: float) -> str:
     """Voltage after an edge of the inverter as text, from the shaft voltage of the divider [V]."""
     if leaks.after_rise is None or motor.rise_time is None:
         return "give motor.rise_time for the voltage after an edge"
-    return f"after an edge of {amount(motor.rise_time, 's')} it is {readable(leaks.after_rise * shaft)} V"
+    left = float(leaks.after_rise * shaft)
+    return f"after an edge of {amount(motor.rise_time, 's')} it is {readable(left)} V"

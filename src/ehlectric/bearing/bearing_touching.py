@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -173,7 +173,8 @@ def regime_of(share: Numbers, *, touching: Any = False) -> Any:
 def _mean_share(pairs: list[tuple[Array, Array]]) -> Numbers:
     """Share of time in which a bearing conducts, mean over the positions, from the shares of its contacts."""
     inner, outer = (np.array(column) for column in zip(*pairs, strict=True))
-    return np.mean(bearing_time_share(inner, outer), axis=0)
+    mean: Numbers = np.mean(bearing_time_share(inner, outer), axis=0)
+    return mean
 
 
 def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: float) -> RingDuty:
@@ -215,11 +216,19 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: fl
     )
 
 
-def _of_contacts(values: Numbers | None, loaded: Mask) -> Numbers:
+@overload
+def _of_contacts(values: Numbers, loaded: Mask) -> Numbers: ...
+
+
+@overload
+def _of_contacts(values: Numbers | None, loaded: Mask) -> Numbers | None: ...
+
+
+def _of_contacts(values: Numbers | None, loaded: Mask) -> Numbers | None:
     """Values of the points for each of their loaded contacts, shape (k,); a float or None stays one."""
     if values is None or np.ndim(values) == 0:
         return values
-    return np.broadcast_to(values[..., np.newaxis], loaded.shape)[loaded]
+    return np.broadcast_to(np.asarray(values)[..., np.newaxis], loaded.shape)[loaded]
 
 
 def _touching(solution: BearingSolution, film: Array, loaded: Mask) -> AsperityContact:
@@ -258,7 +267,7 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
     }
     for k, name in enumerate(("inner", "outer")):
         least = [position.rings[k].least_film for position in solution.positions]
-        found[f"{name}_lambda_ratio"] = np.min(least, axis=0) / rq
+        found[f"{name}_lambda_ratio"] = np.min(np.array(least), axis=0) / rq
     for k, name in enumerate(("inner", "outer")):
         found[f"{name}_contact_time_share"] = _largest([rings[k].contact_time_share for rings in duty.rings])
     all_of = [ring for rings in duty.rings for ring in rings]
@@ -270,7 +279,8 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
 
 def _largest(of_contacts: list[Array]) -> Numbers:
     """Largest value of all contacts at all positions of the cage, shape (...)."""
-    return np.max(of_contacts, axis=(0, -1))
+    largest: Numbers = np.max(of_contacts, axis=(0, -1))
+    return largest
 
 
 def contact_duty(ring: RingDuty, k: int) -> dict[str, Any]:

@@ -43,7 +43,7 @@ class Several:
     parts: tuple[SolvedPart, ...]
     reasons: dict[int, str]  # why a point has no solution, by its place
 
-    def columns(self, numbers: Callable[[BearingSolution], Sequence[Numbers]], count: int) -> Array:
+    def columns(self, numbers: Callable[[BearingSolution], Sequence[Numbers | None]], count: int) -> Array:
         """Numbers of all solutions, shape (count, n), NaN without one. ``numbers``, those of a solution."""
         return gathered(self.parts, numbers, (count, self.size))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask, N, Numbers
+from ehlectric.arrays import Array, Mask, Numbers
 from ehlectric.quantities.field_metadata import stored
 from ehlectric.runtime.values import read_only_property
 
@@ -67,7 +67,8 @@ class Circuit:
     @read_only_property
     def capacitance(self) -> Numbers:
         """Capacitance of the bearing, shape (...) [F]."""
-        return np.sum(self.elements, axis=-1)
+        total: Numbers = np.sum(self.elements, axis=-1)
+        return total
 
     @read_only_property
     def inner_share(self) -> Array:
@@ -104,7 +105,7 @@ class Circuit:
 
         W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
         """
-        least = np.min(self.first_breaks, axis=-1)
+        least: Numbers = np.min(self.first_breaks, axis=-1)
         finite = np.isfinite(least)
         if self.shape is None or not np.any(finite):
             return least
@@ -113,7 +114,8 @@ class Circuit:
         shape = np.asarray(self.shape)[..., np.newaxis]
         weakest = np.where(finite, least, 1.0)[..., np.newaxis]
         number = np.sum((weakest / breaks) ** shape, axis=-1)
-        return np.where(finite, least * number ** (-1.0 / self.shape), least)[()]
+        together: Numbers = np.where(finite, least * number ** (-1.0 / self.shape), least)[()]
+        return together
 
     @property
     def through_breakdown(self) -> Numbers:
@@ -147,7 +149,7 @@ def leakage_conductance(
     """
     (first, first_oil), (second, second_oil) = inner, outer
     share = second / (first + second)
-    oil = np.sum(first_oil * share**2 + second_oil * (1.0 - share) ** 2, axis=-1)
+    oil: Numbers = np.sum(first_oil * share**2 + second_oil * (1.0 - share) ** 2, axis=-1)
     return oil / relaxation_time
 
 
@@ -207,14 +209,13 @@ class Path:
         """Whether a ring has a coating."""
         return bool(np.all(np.isfinite(self.coating)))
 
-    def film_share(self, films: N) -> N:
+    def film_share(self, films: Numbers) -> Numbers:
         """Share of the shaft voltage across films of a capacitance [F], C_c/(C_c + C), dimensionless.
 
         The share is that of a capacitive divider: right after an edge of the voltage, and at frequencies far
         above those at which oil and coating conduct.
         """
-        share: N = 1.0 / (1.0 + films / self.coating)
-        return share
+        return 1.0 / (1.0 + films / self.coating)
 
     def total(self, films: Numbers) -> Numbers:
         """Capacitance from shaft to housing with films of a capacitance [F]."""
@@ -270,9 +271,10 @@ def shaft_through_breakdown(circuit: Circuit, path: Path) -> Numbers:
     """
     other = np.where(circuit.inner_first, circuit.outer, circuit.inner)
     remaining = np.where(circuit.inner_first, circuit.outer_breakdown, circuit.inner_breakdown)
-    films = circuit.capacitance[..., np.newaxis]
+    films = np.asarray(circuit.capacitance)[..., np.newaxis]
     first, second = (
         1.0 + values / np.asarray(path.coating)[..., np.newaxis]
         for values in (films, films - circuit.elements + other)
     )
-    return np.min(np.maximum(circuit.first_breaks * first, remaining * second), axis=-1)
+    least: Numbers = np.min(np.maximum(circuit.first_breaks * first, remaining * second), axis=-1)
+    return least

@@ -137,9 +137,10 @@ class BearingConditions(Generic[G_co]):
 
         ``resolve_bearing`` of the single case of such a point raises its error.
         """
-        values = [number for ring in self.rings for number in (ring.oil.viscosity, ring.film_factor)]
+        values: list[Numbers | None] = [self.oil.viscosity]
+        values += [number for ring in self.rings for number in (ring.oil.viscosity, ring.film_factor)]
         values += [each.temperature for each in (self.discharge, self.inner.discharge, self.outer.discharge)]
-        values += [self.oil.viscosity, None if self.clearance is None else self.clearance.running.clearance]
+        values += [None if self.clearance is None else self.clearance.running.clearance]
         unknown = [np.isnan(value) for value in values if value is not None]
         return np.asarray(np.any(np.stack(np.broadcast_arrays(*unknown)), axis=0))
 
@@ -174,5 +175,6 @@ def gap_breakdown(discharge: Discharge, thickness: N) -> N:
     """
     if not discharge.has_strength:
         return thickness * 0.0 + np.inf
-    found: N = as_float(dielectric_strength(discharge, np.zeros(()))) * thickness
+    strength: Any = as_float(dielectric_strength(discharge, np.zeros(())))
+    found: N = strength * thickness
     return found

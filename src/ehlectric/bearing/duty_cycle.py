@@ -447,13 +447,13 @@ def _shaft_voltages(motor: Motor, rows: DutyRows) -> Array:
     """Shaft voltages that the rows would have if their surfaces did not conduct, shape (n,) [V]."""
     own = rows.capacitance
     second = motor.second_bearing_capacitance
-    ratio: Array = voltage_ratio(
+    ratio = voltage_ratio(
         motor.winding_rotor_capacitance,
         motor.rotor_frame_capacitance,
         own,
         own if second is None else second,
     )
-    return ratio * rows.common_mode_voltage
+    return np.asarray(ratio * rows.common_mode_voltage)
 
 
 def _between_nodes(case: BearingCase, rows: DutyRows, known: IntArray, at: Array) -> Array:

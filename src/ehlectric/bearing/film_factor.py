@@ -72,7 +72,7 @@ def half_time(solution: BearingSolution) -> Numbers | None:
             np.take_along_axis(quantity, most, -1)[..., 0] for quantity in quantities
         )
         times.append(contact_half_time(ring, pressure, (along, across), thickness))
-    return as_float(np.minimum(*times))
+    return as_float(np.minimum(*map(np.asarray, times)))
 
 
 def contact_half_time(
@@ -403,7 +403,7 @@ def rolling_power_loss(solution: BearingSolution) -> float | None:
             return None
         loads = np.array([position.rings[k].load for position in solution.positions])
         force = rolling_force(ring, own.friction, loads)
-        power += 2.0 * ring.speed * float(np.mean(np.sum(force, axis=-1)))
+        power += 2.0 * float(ring.speed) * float(np.mean(np.sum(force, axis=-1)))
     return power
 
 
@@ -509,7 +509,8 @@ def _film_words(solution: BearingSolution) -> tuple[str, str]:
     """Film factor of one bearing with its parts, and what it leaves out, in words."""
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
-    left, found = "any starvation and heat beyond this factor", readable(solution.conditions.film_factor)
+    left = "any starvation and heat beyond this factor"
+    found = readable(float(solution.conditions.film_factor))
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
         other = f"a given factor of {readable(float(factor))}" if given else _HEAT.get(factor)

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -128,13 +128,13 @@ class _Contacts:
         """Contacts with numbers that broadcast with those of their raceways."""
         row, unit, points = _points(race)
         shape = np.broadcast_shapes(points, *map(np.shape, numbers))
-        point = np.broadcast_to(np.arange(unit.ratio.size).reshape(points), shape).ravel()
+        point = np.broadcast_to(np.arange(np.size(unit.ratio)).reshape(points), shape).ravel()
         return cls(row, unit, point, shape)
 
     @property
     def angles(self) -> Array:
         """Angles of the points [rad], shape (n,)."""
-        return np.broadcast_to(np.abs(self.race.contact_angle), self.unit.ratio.shape)
+        return np.broadcast_to(np.abs(self.race.contact_angle), np.shape(self.unit.ratio))
 
     @read_only_property
     def size(self) -> _Size | None:
@@ -164,7 +164,7 @@ class _Contacts:
 
     def varying(self, rows: Any = slice(None)) -> list[Array]:
         """Values of what varies of the contacts ``rows``, in the order of the variables of the tables."""
-        found: dict[str, Numbers | None] = {
+        found: dict[str, Any] = {
             "pitch_radius": np.log(self.race.pitch_radius / self.length),
             "first_angle": self.race.first_angle,
         }
@@ -174,7 +174,13 @@ class _Contacts:
         """Numbers of all contacts in one row, shape (m,)."""
         return np.broadcast_to(numbers, self.shape).ravel()
 
-    def of_point(self, numbers: Numbers) -> Array:
+    @overload
+    def of_point(self, numbers: Mask) -> Mask: ...
+
+    @overload
+    def of_point(self, numbers: Numbers) -> Array: ...
+
+    def of_point(self, numbers: Numbers | Mask) -> Array | Mask:
         """Numbers of the points for each contact, shape (m,)."""
         return np.broadcast_to(numbers, self.angles.shape)[self.point]
 
@@ -209,8 +215,8 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
             break
         length = law.length(state, (inlet[rows], outlet[rows], side[rows]), unit.at(rows))
         edges = np.log(edge[rows] / unit_length[rows])
-        variables = np.square(angles), edges, *_logarithms(state, length, middle[rows])
-        variables = (*variables, *contacts.varying(rows))
+        lengths = _logarithms(state, length, middle[rows])
+        variables = np.square(angles), edges, *lengths, *contacts.varying(rows)
         table = _around(size, law, state, _box(variables))
         if table is not None:
             whole = table(*variables, group=contacts.point[rows])
@@ -241,7 +247,8 @@ def between_domains(race: Raceway, ends: Ends, middle: Numbers, law: DomainLaw) 
         if table is not None:
             found[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
     part = unit.at(np.flatnonzero(left))
-    near = np.full(part.ratio.shape, law.inlet), np.full(part.ratio.shape, law.outlet), law.side(part.ratio)
+    shape = np.shape(part.ratio)
+    near = np.full(shape, law.inlet), np.full(shape, law.outlet), law.side(part.ratio)
     found[left] = between_directly(part, near, (inlet[left], outlet[left], side[left]), middle[left])
     return found.reshape(contacts.shape)
 
@@ -258,7 +265,7 @@ def around_ellipses(race: Raceway, middle: Numbers, law: DomainLaw) -> tuple[Arr
     middle = contacts.row(middle)
     valid = np.isfinite(middle) & (middle > 0.0)
     variables = np.log(contacts.unit.radius_ratio), np.log(middle[valid])
-    ratio, found = contacts.unit.radius_ratio[contacts.point[valid]], []
+    ratio, found = np.asarray(contacts.unit.radius_ratio)[contacts.point[valid]], []
     for part in range(2):
         values, table = np.full(middle.shape, np.nan), None
         if np.count_nonzero(valid) >= LEAST:
@@ -428,7 +435,7 @@ def around_of_rollers(
             if size is None or np.count_nonzero(rows) < LEAST:
                 continue
             end = b[rows] * length[rows]
-            middle = np.log(films[rows] * races.roller_radius[rows] / end**2)
+            middle = np.log(films[rows] * np.asarray(races.roller_radius)[rows] / end**2)
             variables = np.zeros(1), np.log(end), np.log(length[rows]), middle
             table = _tail(size, _box(variables))
             if table is not None:

@@ -29,12 +29,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array, Mask, Numbers
+from ehlectric.arrays import Array, IntArray, Mask, Numbers
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.capacitances import charge_density, matched_offset, stretched
 from ehlectric.formulas.hertz import DryContact, line_opening, reduced_radius
@@ -116,8 +116,7 @@ class Raceway:
         angle = self.contact_angle
         if self.first_angle is None:
             angle = np.abs(angle)
-        inside: Mask = (angle > self.begins) & (angle < self.shoulder_angle)
-        return inside
+        return np.asarray((angle > self.begins) & (angle < self.shoulder_angle))
 
     @property
     def begins(self) -> Numbers:
@@ -139,10 +138,10 @@ class Raceway:
     def beside(self, axes: int) -> Raceway:
         """Raceways of many points with further axes, for their loads or for nodes."""
         numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
-        spread = {name: beside(value, axes) for name, value in numbers.items()}
+        spread: dict[str, Any] = {name: beside(value, axes) for name, value in numbers.items()}
         return replace(self, **spread) if spread else self
 
-    def at(self, points: Numbers) -> Raceway:
+    def at(self, points: IntArray | Mask | slice) -> Raceway:
         """Raceways of some of the points; ``points``, an index of arrays of shape (...)."""
         numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
         return replace(self, **{name: value[points] for name, value in numbers.items()}) if numbers else self
@@ -163,6 +162,14 @@ def _check_groove(groove: Numbers, shoulder_height: Numbers) -> None:
             f"must be above 0 and at most the groove radius over the ball diameter, {groove[wrong][0]:g}; "
             f"got {shown(float(shoulder_height[wrong][0]))}",
         )
+
+
+@overload
+def beside(values: Array, axes: int = 1) -> Array: ...
+
+
+@overload
+def beside(values: Numbers, axes: int = 1) -> Numbers: ...
 
 
 def beside(values: Numbers, axes: int = 1) -> Numbers:
@@ -436,7 +443,9 @@ def _in_chunks(
     found, step = np.empty(size), max(1, _BLOCK // nodes)
     for start in range(0, size, step):
         part = slice(start, start + step)
-        found[part] = function(race.at(part), *(v if np.ndim(v) == 0 else v[part] for v in numbers))
+        found[part] = function(
+            race.at(part), *(v if np.ndim(v) == 0 else np.asarray(v)[part] for v in numbers)
+        )
     return found.reshape(shape)
 
 
@@ -626,9 +635,11 @@ class RollerRaceway:
         """Distance R_o from the axis of the bearing to the centre of the roller, for a gap [m]."""
         return self.race_radius - (1.0 if self.outer else -1.0) * (self.roller_radius + gap)
 
-    def at(self, points: Numbers) -> RollerRaceway:
+    def at(self, points: IntArray | Mask | slice) -> RollerRaceway:
         """Raceways of some of the points; ``points``, an index of arrays of shape (...)."""
-        radii = (r if np.ndim(r) == 0 else r[points] for r in (self.roller_radius, self.race_radius))
+        radii = (
+            r if np.ndim(r) == 0 else np.asarray(r)[points] for r in (self.roller_radius, self.race_radius)
+        )
         return RollerRaceway(next(radii), next(radii), self.outer)
 
     def beside(self, axes: int) -> RollerRaceway:
@@ -729,7 +740,7 @@ def roller_tail(
         distance, tilt = _distances(nodes, 0.0, np.minimum(at, beside(last)))
         gap = distance + _opening(nodes, beside(half_width), at * nodes.race_radius)
         # Where nothing is left, the gap that would continue the film may be negative.
-        change = np.where(beside(first < last), beside(film) - gap[..., -1:], 0.0)
+        change = np.where(beside(first) < beside(last), beside(film) - gap[..., -1:], 0.0)
         charge = _charge(race, gap[..., :-1] + change, tilt[..., :-1], weights)
         return np.where(first < last, charge, 0.0)
 

@@ -18,7 +18,7 @@ from ehlectric.bearing.solution import (
     capacitance_is_bound,
     lubrication,
 )
-from ehlectric.discharge.discharge_laws import leakage
+from ehlectric.discharge.discharge_laws import known, leakage
 from ehlectric.discharge.film_capacitance import LEAST_RATIO, roughness_factor
 
 
@@ -81,7 +81,8 @@ def rough_capacitance(solution: BearingSolution) -> Numbers | None:
         return None
     smooth = of_contacts(lambda ring: ring.capacitance(bearing.fill))
     rough = smooth + hertz * (roughness_factor(np.maximum(ratio, LEAST_RATIO)) - 1.0)
-    return where(known, np.mean(np.sum(series(rough[0], rough[1]), axis=-1), axis=-1))
+    mean: Numbers = np.mean(np.sum(series(rough[0], rough[1]), axis=-1), axis=-1)
+    return where(known, mean)
 
 
 def meter_capacitance(solution: BearingSolution) -> Numbers | None:
@@ -191,7 +192,8 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
     Returns None without a conductivity, for ceramic elements, and where surfaces touch unless the case has
     the resistance of a closed contact; ``values`` are those of the smooth films, as if none touched.
     """
-    tau, resistance = oil_relaxation_time(solution), solution.case.bearing.contact_resistance
+    tau = known(float, oil_relaxation_time(solution))
+    resistance = solution.case.bearing.contact_resistance
     if tau is None or solution.conditions.ceramic:
         return None
     if resistance is None and lubrication(solution) == "conducting":

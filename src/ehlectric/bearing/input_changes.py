@@ -124,7 +124,7 @@ def usual_changes(case: BearingCase, table: Mapping[str, Any]) -> Iterator[Chang
     if oil is not None and oil.iso_vg is not None:
         label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
         at_40 = oil.at_40()
-        yield Change(_AT_40, label, at_40, _part(at_40, GRADE_WIDTH), _OF_GRADE)
+        yield Change(_AT_40, label, float(at_40), _part(float(at_40), GRADE_WIDTH), _OF_GRADE)
     yield from _clearance(bearing)
     # Cones of tapered rollers are ground to their angle; that of balls also follows from their clearance.
     if bearing.contact_angle is not None and not has_rollers(bearing.kind):

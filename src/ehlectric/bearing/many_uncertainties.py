@@ -51,8 +51,8 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     scaled = [_with_films_scaled(part, scales[part.points]) for part in parts]
     coarse, _ = gathered(scaled, margin_and_lambda, (2, len(spreads)))
     (coarse_apart,) = gathered(scaled, lambda at: (margin_apart(at),), (1, len(spreads)))
-    found = first_margin(solution)
-    own = np.broadcast_to(math.nan if found is None else found, coarse.shape)
+    first = first_margin(solution)
+    own = np.broadcast_to(math.nan if first is None else first, coarse.shape)
     # Margins of thicker films are compared where the surfaces touch.
     touching = np.isnan(own)
     own, coarse = np.where(touching, apart, own), np.where(touching, coarse_apart, coarse)

@@ -91,7 +91,7 @@ class QuickMargins:
         """
         touching = not np.any(insulating(solution))
         margin = 0.0 if touching else _margin_of(solution)
-        own = MarginPoint(margin, lambda_ratio(solution))
+        own = MarginPoint(float(margin), float(lambda_ratio(solution)))
         case = _quick(solution.case)
         _, several = over_parts(case)
         if OWN in several.reasons:
@@ -462,7 +462,8 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
 
     The analysis has no values where the bearing has no margin, or its films must not be used.
     """
-    margin = first_margin(solution)
+    first = first_margin(solution)
+    margin = None if first is None else float(first)
     if margin is None or not solution.converged:
         return MarginAnalysis(margin)
     try:

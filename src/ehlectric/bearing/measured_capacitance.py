@@ -156,15 +156,14 @@ class FilmState:
         """State of a solved bearing. Raises InputError where its films are so thin that the roughness leaves
         their capacitance open.
         """
-        capacitance, ratio = meter_capacitance(solution), lambda_ratio(solution)
+        capacitance, ratio = meter_capacitance(solution), float(lambda_ratio(solution))
         if capacitance is None:
             raise InputError.worded(
                 "bearing.composite_rq",
                 f"is more than 1/{LEAST_RATIO:g} of a central film (lambda ratio {readable(ratio, 2)}), "
-                "at which "
-                "asperities touch",
+                "at which asperities touch",
             )
-        return cls(capacitance, ratio)
+        return cls(float(capacitance), ratio)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,8 +198,7 @@ class OperatingPoint:
 
     def film_error(self, factor: float) -> float:
         """Relative error of the films at a film factor."""
-        error: float = film_error(self._solution(factor))
-        return error
+        return float(film_error(self._solution(factor)))
 
     def _solution(self, factor: float) -> BearingSolution:
         return solution_of_prepared(self.case, with_film_factor(self.prepared, factor))
@@ -462,7 +460,7 @@ def _row(
         raise NoFactorError(why)
     factor = film_factor_of(capacitance, target, guess)
     slope = slope_at(capacitance, factor)
-    ratio = correction.of(point.at(factor)).lambda_ratio
+    ratio = float(correction.of(point.at(factor)).lambda_ratio)
     if ratio < CONDUCTING:
         raise NoFactorError(
             f"its film would have a lambda ratio of {readable(ratio, 2)}, at which surfaces touch and conduct"

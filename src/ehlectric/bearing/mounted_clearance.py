@@ -38,7 +38,7 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
         return None
     mounting, running = _mounting(bearing, fits, unmounted), _temperatures(bearing, fits)
     states = Temperatures.same(fits.reference_temperature), running
-    pressing = np.maximum(*(mounting.interferences(at)[1] for at in states))
+    pressing = np.maximum(*(np.asarray(mounting.interferences(at)[1]) for at in states))
     found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
     clearance = found.running.clearance
     unknown = np.logical_and(fits.housing_diameter is None, pressing > 0.0)
@@ -47,10 +47,10 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
         known = np.where(unknown | beyond, np.nan, clearance)
         return replace(found, running=replace(found.running, clearance=known))
     if unknown:
-        overlap = f"whose interference with the outer ring is {readable(1e6 * pressing)} um"
+        overlap = f"whose interference with the outer ring is {readable(float(1e6 * pressing))} um"
         raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
     if beyond:
-        got = f"a clearance in operation of {readable(1e6 * clearance, 4)} um"
+        got = f"a clearance in operation of {readable(float(1e6 * clearance), 4)} um"
         takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
         raise InputError("fits", got=got, takes=takes)
     return found

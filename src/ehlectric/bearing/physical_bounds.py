@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.constants import epsilon_0
 
-from ehlectric.arrays import Array, Mask, Numbers, any_of
+from ehlectric.arrays import Array, Booleans, Mask, Numbers, any_of
 from ehlectric.bearing.bearing_discharges import first_margin
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance
 from ehlectric.discharge.discharge_laws import MOST_MARGIN
@@ -57,7 +57,7 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
     yield _Bound(
         thickest > radius,
         lambda: ConvergenceError(
-            f"a film of {readable(thickest)} m in the bearing is above the radius of its elements, "
+            f"a film of {readable(float(thickest))} m in the bearing is above the radius of its elements, "
             f"{readable(radius)} m; "
             "the result is not used"
         ),
@@ -66,9 +66,8 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
     yield _Bound(
         share > 1.0,
         lambda: ConvergenceError(
-            f"the capacitance of a contact is {readable(share)} times the capacitance of a plate at its "
-            "minimum "
-            "film; the result is not used"
+            f"the capacitance of a contact is {readable(float(share))} times the capacitance of a plate at "
+            "its minimum film; the result is not used"
         ),
     )
     margin = first_margin(solution)
@@ -77,14 +76,14 @@ def _bounds(solution: BearingSolution) -> Iterator[_Bound]:
             margin > MOST_MARGIN,
             lambda: InputError(
                 "motor.common_mode_voltage",
-                got=f"a margin of {readable(margin)}",
+                got=f"a margin of {readable(float(margin))}",
                 takes=f"voltages and capacitances with a margin of at most {MOST_MARGIN:.0e}; check [motor] "
                 "and the dielectric strength",
             ),
         )
 
 
-def _unknown(solution: BearingSolution) -> Iterator[tuple[str, Numbers]]:
+def _unknown(solution: BearingSolution) -> Iterator[tuple[str, Booleans]]:
     """Names of main numbers, and whether they have no value, shape (...)."""
     yield "minimum film", ~np.isfinite(solution.least_film)
     yield "capacitance", ~np.isfinite(capacitance(solution))
@@ -103,7 +102,8 @@ def _no_value(name: str) -> ConvergenceError:
 
 def _largest(rings: list[RingState], quantity: Callable[[RingState], Array]) -> Numbers:
     """Largest value of all contacts at all positions of the cage, shape (...); NaN is ignored."""
-    return np.fmax.reduce([np.fmax.reduce(quantity(ring), axis=-1) for ring in rings])
+    largest: Numbers = np.fmax.reduce([np.fmax.reduce(quantity(ring), axis=-1) for ring in rings])
+    return largest
 
 
 def _plate(solution: BearingSolution, ring: RingState) -> Array:

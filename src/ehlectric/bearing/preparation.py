@@ -59,7 +59,7 @@ def check_load(conditions: BearingConditions[Geometry]) -> None:
         raise InputError(
             "bearing.radial_load",
             got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
-            takes=f"more than {readable(weight, 2)} N, the weight of an element, which is left out",
+            takes=f"more than {readable(float(weight), 2)} N, the weight of an element, which is left out",
         )
 
 
@@ -189,12 +189,12 @@ def check_film(contact: Contact) -> None:
     """
     film, most, ring = contact.film, contact.thickest_film, contact.ring
     if too_thick(contact):
-        oil = ring.oil.viscosity
+        oil, load, speed = float(ring.oil.viscosity), float(contact.load), float(ring.speed)
         raise InputError(
             "bearing",
-            got=f"an {ring.name} film of {readable(1e6 * film)} um, at {readable(contact.load)} N, "
-            f"{readable(ring.speed)} m/s and {readable(oil)} Pa s; the bodies have room for at most "
-            f"{readable(1e6 * most)} um",
+            got=f"an {ring.name} film of {readable(float(1e6 * film))} um, at {readable(load)} N, "
+            f"{readable(speed)} m/s and {readable(oil)} Pa s; the bodies have room for at most "
+            f"{readable(float(1e6 * most))} um",
             takes="a thinner film; raise the load or the temperature, or reduce the speed or the viscosity",
         )
 
@@ -373,7 +373,7 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
-        found = [solved_contact(case, ring, largest_load(prepared, ring)) for ring in prepared.rings]
+        found = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
         # The friction of a bearing is that of both rings, or it is not known.
         known = all(friction is not None for _, friction in found)
         rings = zip(conditions.rings, found, strict=True)

@@ -248,7 +248,7 @@ def quick_curve(
         hertz=epsilon_0 * quick.hertz,
     )
 
-    def column(numbers: Numbers) -> Any:
+    def column(numbers: Numbers | Mask) -> Any:
         """Numbers with the axis of the loads last."""
         return np.ascontiguousarray(np.moveaxis(np.broadcast_to(numbers, shape), 0, -1))
 
@@ -284,7 +284,8 @@ def quick_warnings(quick: QuickContact) -> list[tuple[ResultWarning, ...]]:
     rows = zip(quick.load.tolist(), quick.left.tolist(), quick.error.tolist(), strict=True)
     for load, left, error in rows:
         contact = replace(quick.contact, load=load)
-        warnings = case_warnings(Setup(oil=ring.oil, grid=contact.grid), contact.conditions)
+        grid = contact.grid
+        warnings = case_warnings(Setup(oil=ring.oil, grid=grid), contact.conditions_on(grid))
         of_atlas = (outside_atlas(error),) if left else ()
         found.append((*of_atlas, *without_regime(warnings)))
     return found
@@ -382,7 +383,7 @@ def _down_to_rigid(film: Array, rigid: Array) -> Array:
 
 def _refused(contact: Contact) -> Mask:
     """Contacts beyond the model, shape (m, ...); those of a single bearing are refused with an InputError."""
-    refused, loads = beyond_model(contact), contact.load
+    refused, loads = beyond_model(contact), np.asarray(contact.load)
     if contact.ring.shape:
         pressure = np.where(refused, 0.0, contact.conditions.max_pressure)
         return np.asarray(refused | np.isnan(permittivity(contact.ring.oil, pressure)))
@@ -435,18 +436,20 @@ def by_atlas(contact: Contact) -> QuickContact:
     ellipse = contact.ring.ellipse if isinstance(contact, BallContact) else None
     film = contact_film(contact.conditions.contact, oil, ellipse, beyond=True)
     numbers = film.film
-    inlet, outlet = _around_hertz(contact, film.central_thickness)
+    least, central = np.asarray(film.minimum_thickness), np.asarray(film.central_thickness)
+    inlet, outlet = _around_hertz(contact, central)
     outside = oil.relative_permittivity * (numbers.inlet * inlet + numbers.outlet * outlet)
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
-    mass = film.central_thickness * numbers.mass / numbers.central
+    mass = central * numbers.mass / numbers.central
     # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
     # the middle, its pressure is not that of the zone.
     share = np.minimum(1.0, numbers.central_pressure)
     hertz = (
         numbers.zone * hertz_mean(contact, partial(_permittivity_of_mass, oil), share) * contact.area / mass
     )
-    films = film.minimum_thickness, film.central_thickness
-    quick = quick_contact(contact, films, inside=hertz + outside, hertz=hertz, refused=refused, wide=True)
+    quick = quick_contact(
+        contact, (least, central), inside=hertz + outside, hertz=hertz, refused=refused, wide=True
+    )
     error = np.maximum(film.errors["central"], film.errors["minimum"])
     return replace(quick, error=error, left=~np.asarray(numbers.known) & ~refused)
 

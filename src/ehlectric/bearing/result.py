@@ -27,6 +27,7 @@ from ehlectric.bearing.uncertainty import (
 from ehlectric.bearing.verdict_rule import bearing_verdict
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.discharge.discharge_laws import known
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.formats import amount, speed_text
 from ehlectric.quantities.result_warnings import ResultWarning, texts_and_codes
@@ -95,7 +96,7 @@ class BearingResult(Shown):
 
         None without a motor, where surfaces conduct, and for ceramic elements without a given capacitance.
         """
-        return shaft_voltage(self.solution)
+        return known(float, shaft_voltage(self.solution))
 
     def capacitance(self, fill: float | str | None = None) -> float:
         """Capacitance of the bearing from ring to ring, with smooth films, mean over cage positions.

@@ -224,7 +224,7 @@ class BallContact:
         )
 
     @read_only_property
-    def conditions(self) -> PointConditions:
+    def conditions(self) -> PointConditions[Numbers]:
         """Operating conditions of the point contact, which ``check_contact`` may still refuse."""
         bearing, oil, radii, dry = self.ring.conditions, self.ring.oil, self.ring.radii, self.dry
         return PointConditions(
@@ -302,7 +302,7 @@ class BallContact:
     @property
     def grid(self) -> Grid:
         """Grid of film and field in semi-axes, on the domain of the contact."""
-        inlet, outlet, side = self.domain
+        inlet, outlet, side = map(float, self.domain)
         nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
         return _point_grid(inlet, outlet, side, nodes)
 
@@ -314,7 +314,7 @@ class BallContact:
     def conditions_on(self, grid: Grid) -> PointConditions:
         """Operating conditions of a film on the domain of a grid."""
         assert grid.side is not None
-        return replace(self.conditions, side=grid.side)
+        return PointConditions(**vars(self.conditions) | {"side": grid.side})
 
     def around(self, nodes: tuple[Array, ...], thickness: Array) -> tuple[float, float]:
         """Capacitance between ball and groove outside the domain of the film, in vacuum.
@@ -329,7 +329,7 @@ class BallContact:
         domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
         raceway, modulus = self.ring.raceway, self.ring.conditions.modulus
         matched = match_film(raceway, self.dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
-        return as_float(outside_capacitance(raceway, matched, domain)), as_float(matched.mismatch)
+        return float(outside_capacitance(raceway, matched, domain)), float(matched.mismatch)
 
 
 @dataclass(frozen=True)
@@ -349,7 +349,7 @@ class RollerContact:
         return self.ring.conditions.geometry.roller_length
 
     @read_only_property
-    def conditions(self) -> Conditions:
+    def conditions(self) -> Conditions[Numbers]:
         """Operating conditions of the line contact, which ``check_contact`` may still refuse."""
         bearing, oil, radii = self.ring.conditions, self.ring.oil, self.ring.radii
         radius, modulus, load_per_length = radii.radius_x, bearing.modulus, self.load / self.length
@@ -440,7 +440,7 @@ class RollerContact:
 
     def conditions_on(self, _: Grid) -> Conditions:
         """Operating conditions of a film on the domain of a grid."""
-        return self.conditions
+        return Conditions(**vars(self.conditions))
 
     def around(self, nodes: tuple[Array, ...], thickness: Array) -> tuple[float, float]:
         """Capacitance in vacuum [F] between roller and raceway outside the domain of the film.
@@ -451,7 +451,7 @@ class RollerContact:
         (x,) = nodes
         ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
         tails = roller_tails(roller_raceway_of(self.ring), self.conditions.half_width, *ends)
-        return as_float(self.length * sum(tails)), 0.0
+        return float(self.length * sum(tails)), 0.0
 
 
 Contact: TypeAlias = BallContact | RollerContact
@@ -497,12 +497,12 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
         if speed < _LEAST_SPEED:
             raise InputError(
                 "contact",
-                f"the film would be that of an entrainment speed of {readable(speed)} m/s",
+                f"the film would be that of an entrainment speed of {readable(float(speed))} m/s",
                 takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
             )
         for half_width, radius in contact.widths:
-            check_width(half_width, radius)
-        check_pressure(conditions.max_pressure, contact.ring.oil)
+            check_width(float(half_width), float(radius))
+        check_pressure(float(conditions.max_pressure), contact.ring.oil)
         if grid is not None:
             check_grid(conditions.geometry, grid, rough=False)
     except InputError as error:
@@ -518,7 +518,7 @@ def error_of_contact(contact: Contact, error: InputError) -> InputError:
     if table not in ("contact", "grid"):
         return error
     text = error.text if error.key == "contact" else str(error)
-    where = f"{contact.ring.name} contact at {readable(contact.load, 4)} N"
+    where = f"{contact.ring.name} contact at {readable(float(contact.load), 4)} N"
     return error.retold("bearing", f"{where}: {text}")
 
 
@@ -526,7 +526,7 @@ def roller_raceway_of(ring: RingContacts[RollerBearing]) -> RollerRaceway:
     """Raceway of one ring, with a roller on it."""
     radii = ring.radii
     # The flat washer of a thrust bearing is a large circle.
-    race = np.minimum(abs(radii.ring_x), _FLAT * radii.element_x)
+    race = np.minimum(np.abs(radii.ring_x), _FLAT * radii.element_x)
     return RollerRaceway(radii.element_x, as_float(race), outer=not ring.inner)
 
 
@@ -639,20 +639,20 @@ def solution_of(
     outside, mismatch = around
     groups = contact.conditions.contact
     return ContactSolution(
-        load=contact.load,
+        load=float(contact.load),
         values=ContactValues(
-            max_pressure=contact.conditions.max_pressure,
-            semi_axis_x=contact.axes[0],
-            semi_axis_y=contact.axes[1],
+            max_pressure=float(contact.conditions.max_pressure),
+            semi_axis_x=float(contact.axes[0]),
+            semi_axis_y=float(contact.axes[1]),
             minimum_thickness=films[0],
             central_thickness=films[1],
-            outside_oil=outside * contact.ring.conditions.oil.relative_permittivity,
+            outside_oil=outside * float(contact.ring.conditions.oil.relative_permittivity),
             outside_air=outside,
             **values,
         ),
         error=error,
-        moes_m=groups.moes_m,
-        moes_l=groups.moes_l,
+        moes_m=float(groups.moes_m),
+        moes_l=float(groups.moes_l),
         mismatch=mismatch,
         converged=converged,
         warnings=warnings,

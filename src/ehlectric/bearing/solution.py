@@ -50,7 +50,9 @@ class RingState(Values):
     @property
     def least_film(self) -> Numbers:
         """Smallest film thickness of the loaded contacts, shape (...) [m]; infinite where none is loaded."""
-        return np.min(self.values.minimum_thickness, axis=-1, where=self.solved, initial=np.inf)
+        films = self.values.minimum_thickness
+        least: Numbers = np.min(films, axis=-1, where=self.solved, initial=np.inf)
+        return least
 
     def capacitance(self, fill: Numbers | str) -> Array:
         """Capacitance of each contact with a filling around the film, shape (..., n) [F].
@@ -87,7 +89,7 @@ def oil_part(fill: Numbers | str) -> Numbers:
     """
     if isinstance(fill, str):
         return _PARTS[fill]
-    return fill if np.ndim(fill) == 0 else fill[..., np.newaxis]
+    return fill if np.ndim(fill) == 0 else np.asarray(fill)[..., np.newaxis]
 
 
 def ring_state(
@@ -326,7 +328,9 @@ class BearingSolution(Values):
     @read_only_property
     def least_film(self) -> Numbers:
         """Smallest film thickness of the loaded contacts, at all positions of the cage, shape (...) [m]."""
-        return np.min([ring.least_film for position in self.positions for ring in position.rings], axis=0)
+        films = [ring.least_film for position in self.positions for ring in position.rings]
+        least: Numbers = np.min(np.array(films), axis=0)
+        return least
 
     def circuits(self, fill: Numbers | str | None = None) -> tuple[Circuit, ...]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
@@ -459,7 +463,8 @@ def capacitance(solution: BearingSolution, fill: Numbers | str | None = None) ->
     bearing = solution.case.bearing
     if bearing.element_capacitance is not None:
         return bearing.rows * bearing.elements * bearing.element_capacitance
-    return np.mean([circuit.capacitance for circuit in solution.circuits(fill)], axis=0)
+    mean: Numbers = np.mean(np.array([circuit.capacitance for circuit in solution.circuits(fill)]), axis=0)
+    return mean
 
 
 def capacitance_is_bound(solution: BearingSolution) -> bool:
@@ -480,7 +485,8 @@ def plate_capacitance(solution: BearingSolution) -> Numbers | None:
         loaded = (inner > 0.0) & (outer > 0.0)
         together = series(np.where(loaded, inner, 1.0), np.where(loaded, outer, 1.0))
         totals.append(np.sum(together, axis=-1, where=loaded))
-    return np.mean(totals, axis=0)
+    mean: Numbers = np.mean(totals, axis=0)
+    return mean
 
 
 def film_error(solution: BearingSolution) -> Numbers:
@@ -494,14 +500,19 @@ def film_error(solution: BearingSolution) -> Numbers:
         return formula_factor(solution.case.bearing.kind) - 1.0
     counted = [curve.counted for curve in solution.curves]
     own_of = counted if solution.case.contacts == "atlas" else solution.curves
-    own = np.maximum(*(curve.largest_error for curve in own_of))
-    between = np.maximum(*(curve.interpolation_error for curve in counted))
+    own, between = (
+        np.maximum(*map(np.asarray, errors))
+        for errors in (
+            (curve.largest_error for curve in own_of),
+            (curve.interpolation_error for curve in counted),
+        )
+    )
     return as_float(np.minimum(1.0, own + between))
 
 
 def error_text(solution: BearingSolution) -> str:
     """Text of ``film_error``, such as "30 %" or "5.9 %"."""
-    return percent(film_error(solution))
+    return percent(float(film_error(solution)))
 
 
 def percent(error: float) -> str:

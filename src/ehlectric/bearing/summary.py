@@ -163,7 +163,9 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         **dataclasses.asdict(bearing_costs(solution)),
         "discretisation_error": max(float(np.max(error)) for error in errors) if stated else None,
         "film_error": film_error(solution),
-        "interpolation_error": np.maximum(*(curve.interpolation_error for curve in solution.curves)),
+        "interpolation_error": np.maximum(
+            *(np.asarray(curve.interpolation_error) for curve in solution.curves)
+        ),
     }
 
 

@@ -99,7 +99,7 @@ def bearing_verdict(
     if unknown:
         warned.append(Statement.of("probability-unknown", reason=unknown))
     doubts = [*_doubts(solution, analysis, chance, follows=follows), *warned]
-    return _judged(solution, analysis, breakdown, shaft, doubts, chance)
+    return _judged(solution, analysis, breakdown, float(shaft), doubts, chance)
 
 
 def operating_point(case: BearingCase) -> Statement:
@@ -117,7 +117,7 @@ def _touching(solution: BearingSolution, chance: Chance | None) -> Verdict:
     reasons: tuple[Statement, ...] = (Statement.of("discharges-as-opening"), Statement.of("no-protection"))
     if chance is not None and chance.first:
         reasons += (Statement.of("probability-of-touching", probability=chance.stated),)
-    facts = (Fact("bearing.lambda_ratio", lambda_ratio(solution)),)
+    facts = (Fact("bearing.lambda_ratio", float(lambda_ratio(solution))),)
     return Verdict(level, code, answer, operating_point(solution.case), facts, reasons)
 
 
@@ -145,14 +145,14 @@ def _of_ceramics(solution: BearingSolution) -> Verdict:
     most = float(f"{most:.2g}")
     if voltage is None:
         return replace(no_verdict(Statement.of("no-ceramic-voltage", most=most)), **assumed)
-    margins = strength_interval(most / voltage)
+    margins = strength_interval(float(most / voltage))
     at_most = "at most " if capacitance_is_bound(solution) else ""
     answer = Statement.of(
         "ceramic-insulates", at_most=at_most, voltage=voltage, most=most, field=element_field(solution) or 0.0
     )
     level: Level = "green" if margins[0] >= 1.0 else "yellow"
     code = "discharge-excluded" if level == "green" else "discharge-possible"
-    facts = (Fact("bearing.element_voltage", voltage), Fact("bearing.element_breakdown", most))
+    facts = (Fact("bearing.element_voltage", float(voltage)), Fact("bearing.element_breakdown", most))
     return Verdict(level, code, answer, facts=facts, **assumed)
 
 
@@ -167,7 +167,8 @@ def _judged(
     """Verdict on a bearing with a margin; ``doubts`` state what neither its interval nor its probability
     contains.
     """
-    margin = breakdown.shaft_first_break / shaft
+    first = float(breakdown.shaft_first_break)
+    margin = first / shaft
     touching = [*_at_times(solution)]
     reasons = [*touching, *_unfavourable(solution, analysis, margin), *doubts]
     interval = None
@@ -179,7 +180,6 @@ def _judged(
         reasons += chance.statements(doubts=bool(doubts) and level == "green")
         reasons += _widths(solution, analysis, margin)
     level, code = doubted(level, code, doubts=bool(doubts), touching=bool(touching))
-    first = breakdown.shaft_first_break
     answer = Statement.of("bearing-voltages", shaft=shaft, breakdown=first, margin=margin, interval=interval)
     return Verdict(
         level,
@@ -261,8 +261,9 @@ def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float,
     thin, thick = film_factors(solution.case, float(film_error(solution)))
     if not solution.case.bearing.summit_height:
         return low * thin, high * thick
-    margins, own = margin_with_films(solution, np.array([thin, thick])), first_margin(solution)
-    assert own is not None
+    margins, first = margin_with_films(solution, np.array([thin, thick])), first_margin(solution)
+    assert first is not None
+    own = float(first)
     lowest = low * thin - (own * thin - float(margins[0]))
     return max(lowest, 0.0), high * float(margins[1]) / own
 

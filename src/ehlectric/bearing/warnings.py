@@ -18,7 +18,7 @@ from ehlectric.bearing.bearing_discharges import (
     shaft_voltage,
     strength_per_volt,
 )
-from ehlectric.bearing.bearing_touching import duty_of
+from ehlectric.bearing.bearing_touching import BearingDuty, duty_of
 from ehlectric.bearing.film_factor import conductivity_flag, film_note, supply_flags
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.input_changes import estimated_keys
@@ -171,6 +171,7 @@ def library_viscosity(oil: Lubricant) -> Numbers | None:
     if "viscosity" not in library.lubricant(oil.base):
         return None
     of_base = Lubricant.from_dict(library.lubricant(oil.base)).viscosity
+    assert of_base is not None
     return where(oil.viscosity == of_base, of_base)
 
 
@@ -280,10 +281,11 @@ def _seal_flags(bearing: Bearing) -> Iterator[Flag]:
 
 def _index_of(oil: OilTemperature) -> str:
     """Viscosity index of a grade with a given viscosity at 100 degC, in words; empty without one."""
-    if oil.kinematic_viscosity_100 is None or 1e6 * oil.at_100() < LEAST_AT_100:
+    at_40, at_100 = float(oil.at_40()), float(oil.at_100())
+    if oil.kinematic_viscosity_100 is None or 1e6 * at_100 < LEAST_AT_100:
         return ""
     given = f"{readable(1e6 * oil.kinematic_viscosity_100, 4)} mm²/s at 100 °C"
-    return f"; with {given} its viscosity index is {viscosity_index(oil.at_40(), oil.at_100()):.0f}"
+    return f"; with {given} its viscosity index is {viscosity_index(at_40, at_100):.0f}"
 
 
 def _static_rating(bearing: Bearing) -> Numbers:
@@ -340,6 +342,10 @@ def _assumed_text(coating: Coating) -> str:
     )
 
 
+def _touching_text(duty: BearingDuty) -> str:
+    return time_share_text(float(duty.touching_time_share))
+
+
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
     """Warning of surfaces that touch all or some of the time."""
     state, ratio = lubrication(solution), partial(lambda_text, solution)
@@ -354,7 +360,7 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[Flag]:
         return
     duty = duty_of(solution)
     partly = (partly | (duty.regime != "capacitive")) & (state != "conducting")
-    share = partial(time_share_text, duty.touching_time_share)
+    share = partial(_touching_text, duty)
     yield Flag.of(partly, "partial-film", "steel", ratio=ratio, share=share)
 
 

@@ -109,8 +109,10 @@ def _checked(oil: Properties, temperature: Numbers | None) -> Numbers | None:
     """Temperature [K] at which an oil has values; of many points, those at which it has none have NaN. Raises
     InputError if the temperature of all points is outside the range of the oil.
     """
-    if temperature is None or not is_many(temperature):
-        check_range(oil, temperature)
+    if temperature is None:
+        return None
+    if not is_many(temperature):
+        check_range(oil, float(temperature))
         return _held_by_laws(oil, temperature)
     tables = (oil.permittivity_table, oil.conductivity_table)
     for ends in (oil.temperature_range, *(table.temperature for table in tables if table is not None)):
@@ -120,9 +122,9 @@ def _checked(oil: Properties, temperature: Numbers | None) -> Numbers | None:
     return _held_by_laws(oil, temperature)
 
 
-def _held_by_laws(oil: Properties, temperature: Numbers | None) -> Numbers | None:
+def _held_by_laws(oil: Properties, temperature: Numbers) -> Numbers:
     """Temperature [K]; of many points, NaN where a law of the oil does not hold at it."""
-    if temperature is None or not is_many(temperature, *oil.arrays().values()):
+    if not is_many(temperature, *oil.arrays().values()):
         return temperature
     for key, name in law_names(oil).items():
         law = LAWS[key][name]
@@ -450,13 +452,13 @@ class KnownOil:
     def alpha(self) -> float | None:
         """Slope of ln(eta) at zero pressure [1/Pa]; None where it is not known."""
         law = self.laws.get("viscosity_law")
-        return None if law is None else initial_alpha(law)
+        return None if law is None else float(initial_alpha(law))
 
     @cached_property
     def alpha_star(self) -> float | None:
         """Reciprocal asymptotic pressure-viscosity coefficient [1/Pa]; None where it is not known."""
         law = self.laws.get("viscosity_law")
-        return None if law is None else reciprocal_asymptotic_alpha(law)
+        return None if law is None else float(reciprocal_asymptotic_alpha(law))
 
     def warnings(self, max_pressure: float) -> Iterator[ResultWarning]:
         """Warnings about the laws at pressures up to a largest one [Pa], and about an estimate."""
@@ -487,6 +489,10 @@ def _beyond(check: RangeCheck, pressure: float) -> bool:
     return any(warning.code == "law-range" for warning in check(pressure))
 
 
+def _number(value: Numbers | None) -> float | None:
+    return None if value is None else float(value)
+
+
 def known_oil(table: Properties, temperature: float | None, key: str = "temperature") -> KnownOil:
     """Oil at a temperature as far as its table goes.
 
@@ -499,7 +505,7 @@ def known_oil(table: Properties, temperature: float | None, key: str = "temperat
         check_range(table, temperature)
         found = _Found(table, temperature)
         viscosity = found.value(found.viscosity)
-        density, permittivity = density_at(table, temperature), found.value(found.permittivity)
+        density, permittivity = _number(density_at(table, temperature)), found.value(found.permittivity)
         known = {"density": density, "relative_permittivity": permittivity}
         values = {name: value for name, value in known.items() if value is not None}
         laws = dict(found.laws(viscosity, values))
@@ -509,7 +515,7 @@ def known_oil(table: Properties, temperature: float | None, key: str = "temperat
         sheet = sheet_conductivity(table)
         if sheet is not None:
             laws.setdefault("thermal_conductivity_law", sheet)
-        conductivity = conductivity_at(table, temperature, laws.get("conductivity_law"))
+        conductivity = _number(conductivity_at(table, temperature, laws.get("conductivity_law")))
     return KnownOil(
         table,
         temperature,
@@ -547,19 +553,19 @@ class _Found:
         check_parameters(self.table, choice, LAWS[choice][name])
         return name
 
-    def viscosity(self) -> Numbers:
+    def viscosity(self) -> float:
         """Viscosity at zero pressure [Pa s]."""
         check_viscosity(self.table)
         if LAWS["viscosity_law"][self.table.viscosity_law].atmospheric is not None:
             self.complete("viscosity_law")
         elif self.table.atmospheric_law is not None:
             self.complete("atmospheric_law")
-        return viscosity_at(self.table, self.temperature)
+        return float(viscosity_at(self.table, self.temperature))
 
-    def permittivity(self) -> Numbers:
+    def permittivity(self) -> float:
         """Relative permittivity at zero pressure."""
         self.complete("permittivity_law")
-        return permittivity_at(self.table, self.temperature)
+        return float(permittivity_at(self.table, self.temperature))
 
     def laws(self, viscosity: float | None, values: Mapping[str, float]) -> Iterator[tuple[str, BoundLaw]]:
         """Laws of which all parameters are known, at the temperature."""

@@ -166,7 +166,7 @@ _at_100 = lru_cache(maxsize=64)(viscosity_at_100)
 def _of_index(at_40: Numbers, index: Numbers) -> Numbers:
     """Kinematic viscosity at 100 degC [m^2/s] of an oil, or of many, with a viscosity index."""
     if not is_many(at_40, index):
-        return _at_100(at_40, index)
+        return _at_100(float(at_40), float(index))
     # One look at the list: another thread may replace its content at any time.
     latest = _latest[0] if _latest else None
     if latest is None or not (same(latest[0], at_40) and same(latest[1], index)):
@@ -233,7 +233,7 @@ class OilTemperature(Table, book="lubricant.temperature"):
             raise InputError(key, got="it without a viscosity", takes=takes)
         usual, elsewhere = (HOT, self.temperature_2) if number == 1 else (COLD, self.temperature_1)
         other = usual if elsewhere is None else elsewhere
-        if at is not None and abs(at - other) < _LEAST_APART:
+        if at is not None and abs(float(at) - float(other)) < _LEAST_APART:
             takes = f"one that differs by {_LEAST_APART:g} K or more from the other one, {other:g} K"
             raise InputError(key, got=f"{at:g} K", takes=takes)
 

@@ -60,14 +60,14 @@ def _rows(looked_up: LookedUp) -> Iterator[Row]:
     from ehlectric.quantities.rows import Row
 
     groups, film, found = looked_up.groups, looked_up.film, looked_up.contact
-    yield Row("Moes' M", groups.moes_m)
+    yield Row("Moes' M", float(groups.moes_m))
     if looked_up.moes_l is not None:
         yield Row("Moes' L", looked_up.moes_l, note=", with alpha* of the oil")
-    yield Row("Moes' L of the atlas", groups.moes_l, note=", with the film coefficient")
+    yield Row("Moes' L of the atlas", float(groups.moes_l), note=", with the film coefficient")
     if groups.ratio is not None:
-        yield Row("ratio of the semi-axes k", groups.ratio)
+        yield Row("ratio of the semi-axes k", float(groups.ratio))
     for name, title in _FILMS.items():
-        error = f", ± {readable(100.0 * film.errors[name], 2)} %"
+        error = f", ± {readable(float(100.0 * film.errors[name]), 2)} %"
         if found is None:
             yield Row(f"{title}, Moes' unit", getattr(film, name), note=error, digits=".4g")
         else:
@@ -75,6 +75,6 @@ def _rows(looked_up: LookedUp) -> Iterator[Row]:
     if looked_up.lambda_ratio is not None:
         note = ", minimum film / composite Rq"
         yield Row("lambda ratio", looked_up.lambda_ratio, note=note, digits=".3g")
-    yield Row("minimum at x/b", film.minimum_at[0])
+    yield Row("minimum at x/b", float(film.minimum_at[0]))
     if groups.ratio is not None:
-        yield Row("minimum at y/a", film.minimum_at[1])
+        yield Row("minimum at y/a", float(film.minimum_at[1]))

@@ -78,7 +78,7 @@ def meter_profile(contact: Metered, distances: int = 80) -> MeterProfile:
     outside = {
         "filled": contact.filled(coating),
         "air": contact.outside(1.0, coating),
-        "oil": contact.outside(contact.case.oil.relative_permittivity, coating),
+        "oil": contact.outside(contact.oil_permittivity, coating),
     }
     edges = [abs(float(end)) for axis in contact.film.axes for end in (axis[0], axis[-1])]
     farthest = max(float(np.max(at)) for at, _ in ((near, within), *outside.values()))
@@ -228,11 +228,19 @@ class Metered:
         gap, _ = self.gap(ring)
         return gap.radius, gap.capacitances(permittivity, coating)
 
+    @property
+    def oil_permittivity(self) -> float:
+        """Relative permittivity of the oil at ambient pressure."""
+        return float(self.case.oil.relative_permittivity)
+
     def filled(self, coating: float) -> tuple[Array, Array]:
         """Distance [m] and capacitance [F] of nodes outside the domain, filled as the case says."""
-        oil, fill, radius = self.case.oil.relative_permittivity, self.meter.fill, self.meter.oil_radius
+        oil, fill, radius = self.oil_permittivity, self.meter.fill, self.meter.oil_radius
         if radius is not None:
-            parts = self.outside(oil, coating, (0.0, radius)), self.outside(1.0, coating, (radius, np.inf))
+            parts = (
+                self.outside(oil, coating, (0.0, radius)),
+                self.outside(1.0, coating, (radius, np.inf)),
+            )
             return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
         assert fill is not None
         at, wet = self.outside(oil, coating)
@@ -240,7 +248,7 @@ class Metered:
 
     def parts(self, layers: Layers) -> dict[str, float]:
         """Capacitances of domain, Hertz zone and outer gap with the given coating and roughness [F]."""
-        zones, oil = self.domain(layers), self.case.oil.relative_permittivity
+        zones, oil = self.domain(layers), self.oil_permittivity
         return {
             "capacitance_domain": sum(zones.values()),
             "capacitance_hertz": zones["hertz"],

@@ -214,7 +214,7 @@ def _larger(
     if isinstance(conditions, PointConditions):
         across = length * math.sqrt(conditions.radius_y / conditions.radius_x) / conditions.ratio
     least = min(rule.most[0], factor * -start), end, min(rule.most[2], factor * wide)
-    inlet, outlet, side = rule.ends(least, length, across)
+    inlet, outlet, side = map(float, rule.ends(least, length, across))
     outlet, side = _rounded(outlet), _rounded(side)
     if inlet <= -start and side <= wide:
         return None

@@ -5,11 +5,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Generic
 
 import numpy as np
 
-from ehlectric.arrays import Numbers, as_float
+from ehlectric.arrays import Numbers, V, as_float
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact_inputs import Contact
 from ehlectric.cases.dry_contacts import line_load, line_radius, modulus_of, point_load, point_radius
@@ -86,10 +86,10 @@ _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class SharedConditions(ABC):
+class SharedConditions(ABC, Generic[V]):
     """Operating conditions that line and point contacts have in common, SI units.
 
-    Those of many contacts are arrays that broadcast to a shape (...).
+    They are floats of one contact, or arrays of many contacts that broadcast to a shape (...).
     """
 
     geometry: ClassVar[str]
@@ -97,25 +97,25 @@ class SharedConditions(ABC):
     # factor of the entrainment speed.
     film_exponent: ClassVar[float]
 
-    reduced_modulus: Numbers  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
-    entrainment_speed: Numbers  # (u1 + u2)/2 [m/s]
-    slide_to_roll_ratio: Numbers = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
+    reduced_modulus: V  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+    entrainment_speed: V  # (u1 + u2)/2 [m/s]
+    slide_to_roll_ratio: V = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
     # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
     # asymptotic coefficient alpha* [1/Pa].
-    viscosity: Numbers
-    pressure_viscosity_coefficient: Numbers
-    max_pressure: Numbers  # Hertz pressure p_h of the dry contact [Pa]
+    viscosity: V
+    pressure_viscosity_coefficient: V
+    max_pressure: V  # Hertz pressure p_h of the dry contact [Pa]
     # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
-    compliance_share: Numbers = 0.5
+    compliance_share: V = 0.5
     # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     boundary_film: float = 0.0
     # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     hardness: float | None = None
     # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
-    film_factor: Numbers = 1.0
+    film_factor: V = 1.0
 
     @property
-    def _speed_and_oil(self) -> tuple[Numbers, Numbers, Numbers]:
+    def _speed_and_oil(self) -> tuple[V, V, V]:
         """Speed at which a flooded film is thinner by the film factor [m/s], viscosity [Pa s], alpha* [1/Pa].
 
         An isothermal, fully flooded film is thinner by ``film_factor`` at the entrainment speed
@@ -126,21 +126,21 @@ class SharedConditions(ABC):
 
     @property
     @abstractmethod
-    def semi_axes(self) -> tuple[Numbers, ...]:
+    def semi_axes(self) -> tuple[V, ...]:
         """Half-width of a line contact, or semi-axes along and across entrainment [m]."""
 
     @property
     @abstractmethod
-    def radius_along(self) -> Numbers:
+    def radius_along(self) -> V:
         """Reduced radius along entrainment [m]."""
 
     @property
     @abstractmethod
-    def carried_load(self) -> Numbers:
+    def carried_load(self) -> V:
         """Load [N]; of a line contact, load per length [N/m]."""
 
     @property
-    def velocity_parameter(self) -> Numbers:
+    def velocity_parameter(self) -> V:
         """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
@@ -151,23 +151,23 @@ class SharedConditions(ABC):
         )
 
     @property
-    def thickness_scale(self) -> Numbers:
+    def thickness_scale(self) -> V:
         """Film thickness that corresponds to H = 1, b^2/R [m], with the radius R along entrainment."""
         return self.semi_axes[0] ** 2 / self.radius_along
 
 
 @dataclass(frozen=True, kw_only=True)
-class Conditions(SharedConditions):
+class Conditions(SharedConditions[V]):
     """Operating conditions of a line contact, SI units."""
 
     geometry: ClassVar[str] = "line"
     film_exponent: ClassVar[float] = 0.69  # Pan and Hamrock
 
-    reduced_radius: Numbers  # R [m]
-    load_per_length: Numbers  # w [N/m]
-    half_width: Numbers  # half-width b of the dry contact [m]
+    reduced_radius: V  # R [m]
+    load_per_length: V  # w [N/m]
+    half_width: V  # half-width b of the dry contact [m]
     # Surface 1's share of 1/R, dimensionless; 0.5 if only the reduced radius is known.
-    curvature_share: Numbers = 0.5
+    curvature_share: V = 0.5
 
     @property
     def contact(self) -> LineContact:
@@ -180,36 +180,36 @@ class Conditions(SharedConditions):
         )
 
     @property
-    def semi_axes(self) -> tuple[Numbers, ...]:
+    def semi_axes(self) -> tuple[V, ...]:
         """Half-width of the dry contact [m], as a tuple of one number."""
         return (self.half_width,)
 
     @property
-    def radius_along(self) -> Numbers:
+    def radius_along(self) -> V:
         """Reduced radius [m]."""
         return self.reduced_radius
 
     @property
-    def carried_load(self) -> Numbers:
+    def carried_load(self) -> V:
         """Load per length [N/m]."""
         return self.load_per_length
 
 
 @dataclass(frozen=True, kw_only=True)
-class PointConditions(SharedConditions):
+class PointConditions(SharedConditions[V]):
     """Operating conditions of a point contact, SI units; x runs along entrainment, y across it."""
 
     geometry: ClassVar[str] = "point"
     film_exponent: ClassVar[float] = 0.67  # Hamrock and Dowson
 
     # radius_x and radius_y: reduced radii along and across entrainment [m].
-    radius_x: Numbers
-    radius_y: Numbers
-    load: Numbers  # F [N]
+    radius_x: V
+    radius_y: V
+    load: V  # F [N]
     # semi_axis_x and semi_axis_y: semi-axes b along and a across entrainment of the dry contact [m].
-    semi_axis_x: Numbers
-    semi_axis_y: Numbers
-    side: Numbers  # half of the domain's width across entrainment, in semi-axes across
+    semi_axis_x: V
+    semi_axis_y: V
+    side: V  # half of the domain's width across entrainment, in semi-axes across
 
     @property
     def contact(self) -> PointContact:
@@ -222,27 +222,27 @@ class PointConditions(SharedConditions):
         )
 
     @property
-    def half_width(self) -> Numbers:
+    def half_width(self) -> V:
         """Semi-axis of the dry contact along entrainment [m], which scales x and y."""
         return self.semi_axis_x
 
     @property
-    def semi_axes(self) -> tuple[Numbers, ...]:
+    def semi_axes(self) -> tuple[V, ...]:
         """Semi-axes of the dry contact along and across entrainment [m]."""
         return self.semi_axis_x, self.semi_axis_y
 
     @property
-    def radius_along(self) -> Numbers:
+    def radius_along(self) -> V:
         """Reduced radius along entrainment [m]."""
         return self.radius_x
 
     @property
-    def carried_load(self) -> Numbers:
+    def carried_load(self) -> V:
         """Load [N]."""
         return self.load
 
     @property
-    def ratio(self) -> Numbers:
+    def ratio(self) -> V:
         """Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment."""
         return self.semi_axis_y / self.semi_axis_x
 
@@ -264,7 +264,7 @@ def line_conditions(oil: Oil, *, bodies: Sequence[float] = (), **inputs: Any) ->
     1.039
     """
     dry = inputs["load_per_length"], inputs["reduced_radius"], inputs["reduced_modulus"]
-    half_width, max_pressure = hertz.line_half_width(*dry), hertz.line_max_pressure(*dry)
+    half_width, max_pressure = float(hertz.line_half_width(*dry)), float(hertz.line_max_pressure(*dry))
     check_width(half_width, min([inputs["reduced_radius"], *bodies]))
     check_pressure(max_pressure, oil)
     return Conditions(
@@ -302,19 +302,20 @@ def point_conditions(
     0.791
     """
     dry = hertz.dry_contact(inputs["load"], *radii, inputs["reduced_modulus"])
-    check_width(dry.semi_axis_x, min([radii[0], *bodies[0]]))
-    check_width(dry.semi_axis_y, min([radii[1], *bodies[1]]))
-    check_pressure(dry.max_pressure, oil)
+    along, across, max_pressure = float(dry.semi_axis_x), float(dry.semi_axis_y), float(dry.max_pressure)
+    check_width(along, min([radii[0], *bodies[0]]))
+    check_width(across, min([radii[1], *bodies[1]]))
+    check_pressure(max_pressure, oil)
     return PointConditions(
         **inputs,
         radius_x=radii[0],
         radius_y=radii[1],
         viscosity=oil.viscosity,
         pressure_viscosity_coefficient=oil.alpha_star,
-        semi_axis_x=dry.semi_axis_x,
-        semi_axis_y=dry.semi_axis_y,
-        max_pressure=dry.max_pressure,
-        side=default_side(dry.semi_axis_y / dry.semi_axis_x) if side is None else side,
+        semi_axis_x=along,
+        semi_axis_y=across,
+        max_pressure=max_pressure,
+        side=float(default_side(across / along)) if side is None else side,
     )
 
 

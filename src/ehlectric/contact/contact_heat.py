@@ -410,4 +410,5 @@ def _has_values(oil_at: Callable[[float], Oil], temperature: float, max_pressure
     except (InputError, ArithmeticError, ValueError):
         return False
     thermal = [value for value in values[1:] if not np.all(value > 0.0)]
-    return not thermal and all(bool(np.all(np.isfinite(value))) for value in values) and oil.viscosity > 0.0
+    finite = all(bool(np.all(np.isfinite(value))) for value in values)
+    return not thermal and finite and float(oil.viscosity) > 0.0

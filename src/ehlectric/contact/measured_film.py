@@ -156,7 +156,7 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
             found = contact_film(contact, changed.oil)
         except InputError:
             return float(formula[number]), _FORMULA_ERROR
-        return found.central_thickness, found.errors["central"]
+        return float(found.central_thickness), float(found.errors["central"])
 
     films, errors = zip(*_once_each(rows, film), strict=True)
     error = max(errors)

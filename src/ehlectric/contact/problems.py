@@ -179,7 +179,7 @@ def point_film_problem(
             symmetric=_symmetric(setup, conditions, rough),
         ),
         added_gap=_added_gap(conditions, rough),
-        load_exponent=load_exponent(conditions.contact),
+        load_exponent=float(load_exponent(conditions.contact)),
     )
 
 
@@ -332,7 +332,7 @@ def smooth_problem(
         nodes=grid.nodes_along,
         inlet=inlet,
         outlet=outlet,
-        thickness_guess=guess / conditions.thickness_scale,
+        thickness_guess=float(guess / conditions.thickness_scale),
         wedge_order=wedge_order,
         tolerance=setup.solver.tolerance,
         max_iterations=setup.solver.max_iterations,

@@ -796,7 +796,7 @@ def _smooth_spots(
         spots="1 spot" if number == 1 else f"{number} spots",
         grid=" x ".join(str(axis.size) for axis in film.axes),
         error=stated,
-        expected=f"{readable(1e9 * expected, 2)} nm",
+        expected=f"{readable(float(1e9 * expected), 2)} nm",
     )
 
 

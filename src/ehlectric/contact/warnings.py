@@ -143,7 +143,7 @@ def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
     """Warning about a line contact in a regime for which the film formulas were not made."""
     regime = film_formulas.regime(conditions.contact)
     if regime == "isoviscous-rigid":
-        yield rigid_warning("Moes", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
+        yield rigid_warning("Moes", "half-widths", float(_RIGID_INLET / conditions.contact.moes_m))
     elif regime != "piezoviscous-elastic":
         yield ResultWarning.of("regime", "line", regime=regime)
 

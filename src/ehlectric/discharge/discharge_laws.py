@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import add, truediv
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -20,6 +20,8 @@ from ehlectric.field.zones import areas
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.quantity import data_file
+
+T = TypeVar("T")
 
 # Lateral size of the pits that discharges leave in bearings: maximum and mean [m].
 LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
@@ -127,7 +129,7 @@ def melted_volume(energy: Numbers, efficiency: Numbers, melting_energy: Numbers)
     return efficiency * energy / melting_energy
 
 
-def known(law: Callable[..., Any], *values: Numbers | None) -> Any:
+def known(law: Callable[..., T], *values: Numbers | None) -> T | None:
     """Value of a law; None where one of its arguments is not known."""
     return None if any(value is None for value in values) else law(*values)
 
@@ -171,7 +173,7 @@ def compared_with_limits(density: float) -> str:
 
     Examples
     --------
-    >>> beside_limits(0.364e6)
+    >>> compared_with_limits(0.364e6)
     'above 2 of the 3 published limits for bearings (0.1, 0.3 and 0.8 A/mm²)'
     """
     *first, last = (f"{1e-6 * limit:g}" for limit in CURRENT_DENSITY_LIMITS)
@@ -238,13 +240,16 @@ def discharge_costs(
     energy = known(stored_energy, together, voltage)
     volume = volume_of_pit(discharge.pit, energy)
     area = None if current is None else size.total(size.hertz)
+    numbers = {
+        "contact_energy": known(stored_energy, total, voltage),
+        "discharge_energy": energy,
+        "breakdown_energy": known(stored_energy, together, breaking_voltage),
+        "pit_volume": volume,
+        "pit_diameter": known(pit_diameter, volume),
+        "current_density": known(truediv, current, area),
+    }
     return DischargeCosts(
-        contact_energy=known(stored_energy, total, voltage),
-        discharge_energy=energy,
-        breakdown_energy=known(stored_energy, together, breaking_voltage),
-        pit_volume=volume,
-        pit_diameter=known(pit_diameter, volume),
-        current_density=known(truediv, current, area),
+        **{name: known(float, value) for name, value in numbers.items()},
         current_density_limits=None if area is None else CURRENT_DENSITY_LIMITS,
     )
 
@@ -261,7 +266,7 @@ class Leakage:
 def conductivity_of(discharge: Discharge | None, oil: Oil) -> float | None:
     """Electrical conductivity [S/m] of the table ``discharge``, or else of the oil; None without one."""
     given = None if discharge is None else discharge.conductivity
-    return oil.conductivity if given is None else given
+    return known(float, oil.conductivity) if given is None else given
 
 
 def leakage(
@@ -281,7 +286,7 @@ def leakage(
     if over is not None and film is not None and film.temperature is not None:
         conductivity = mean_conductivity(film, over(film.temperature), semi_axes)
     time = relaxation_time(oil.relative_permittivity, conductivity)
-    return Leakage(relaxation_time=time, corner_frequency=1.0 / (2.0 * np.pi * time))
+    return Leakage(relaxation_time=float(time), corner_frequency=float(1.0 / (2.0 * np.pi * time)))
 
 
 def mean_conductivity(film: Film | PointFilm, conductivity: Array, semi_axes: tuple[float, ...]) -> float:

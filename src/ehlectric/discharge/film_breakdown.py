@@ -129,7 +129,8 @@ def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Arra
     if table.over == "pressure":
         at: Numbers = pressure
     else:
-        warm: Numbers = discharge.temperature if temperature is None else temperature
+        warm = discharge.temperature if temperature is None else temperature
+        assert warm is not None
         at = np.zeros(np.shape(pressure)) + warm
     return np.asarray(np.interp(at, table.places, table.strength))
 

@@ -305,10 +305,10 @@ def capacitances(
     plate = epsilon_0 * oil.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
         capacitance=total[discharge.outlet],
-        capacitance_beyond=capacitance_beyond(film, oil.relative_permittivity),
+        capacitance_beyond=capacitance_beyond(film, float(oil.relative_permittivity)),
         **{"capacitance_sides": None} | zones_of,
-        capacitance_plate=plate,
-        capacitance_ratio=total[discharge.outlet] / plate,
+        capacitance_plate=float(plate),
+        capacitance_ratio=float(total[discharge.outlet] / plate),
         **of_outlet,
         **{f"capacitance_{name}": whole for name, whole in total.items()},
         outlet=discharge.outlet,

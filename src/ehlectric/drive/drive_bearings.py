@@ -76,7 +76,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     solution = result.solution
     bearing, ceramic = solution.case.bearing, solution.conditions.ceramic
     duty = duty_of(solution)
-    touching = duty.contact_time_share if duty.contact_time_share > _NEVER else 0.0
+    touching = float(duty.contact_time_share) if duty.contact_time_share > _NEVER else 0.0
     if touching and bearing.contact_resistance is None:
         raise InputError(
             f"{end}.bearing.contact_resistance",
@@ -96,17 +96,17 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     first = solution.positions[0]
     return BearingElement(
         capacitance=films,
-        conductance=0.0 if ceramic or tau is None else oil_conductance(solution, tau),
+        conductance=float(0.0 if ceramic or tau is None else oil_conductance(solution, tau)),
         breakdown=np.full(count, math.inf) if ceramic else strengths,
-        shape=breakdown.weibull_shape or circuits[0].shape or math.inf,
-        step=2.0 * math.pi / (bearing.elements * first.equilibrium.cage_speed * count),
+        shape=float(breakdown.weibull_shape or circuits[0].shape or math.inf),
+        step=float(2.0 * math.pi / (bearing.elements * first.equilibrium.cage_speed * count)),
         path=shaft_path(solution),
         touching=touching,
-        touch_resistance=_IN_SERIES * (bearing.contact_resistance or math.inf) / max(duty.closed, 1.0),
+        touch_resistance=float(_IN_SERIES * (bearing.contact_resistance or math.inf) / max(duty.closed, 1.0)),
         hertz_area=float(np.sum(areas)),
         largest_area=float(np.max(areas)),
-        transit=2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed,
-        real_area=(duty.real_area or 0.0) if touching else 0.0,
+        transit=float(2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed),
+        real_area=float((duty.real_area or 0.0) if touching else 0.0),
     )
 
 

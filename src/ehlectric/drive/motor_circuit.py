@@ -249,11 +249,11 @@ def bearing_elements(
     if bearing.conductance + conductance > 0.0:
         yield Element("conductor", *nodes, bearing.conductance + conductance)
     if bearing.path.coated:
-        yield Element("capacitor", nodes[1], FRAME, bearing.path.coating)
+        yield Element("capacitor", nodes[1], FRAME, float(bearing.path.coating))
         if math.isfinite(bearing.path.resistance):
-            yield Element("conductor", nodes[1], FRAME, 1.0 / bearing.path.resistance)
+            yield Element("conductor", nodes[1], FRAME, float(1.0 / bearing.path.resistance))
     if bearing.path.parallel:
-        yield Element("capacitor", ROTOR, FRAME, bearing.path.parallel)
+        yield Element("capacitor", ROTOR, FRAME, float(bearing.path.parallel))
 
 
 def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:

@@ -163,7 +163,7 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
     resistances in series. The conductance is the mean over time of that of all elements. Raises InputError
     where the surfaces touch, and the case has no ``bearing.contact_resistance``.
     """
-    speed, of_films = solution.case.bearing.inner_speed, capacitance(solution)
+    speed, of_films = solution.case.bearing.inner_speed, float(capacitance(solution))
     if solution.conditions.ceramic:
         return Equivalent(speed, "ceramic", of_films, None, None)
     if lubrication(solution) == "conducting":
@@ -173,8 +173,8 @@ def equivalent_of(solution: BearingSolution) -> Equivalent:
         speed,
         "films",
         of_films,
-        None if tau is None else 1.0 / oil_conductance(solution, tau),
-        None if breakdown is None else breakdown.through_breakdown,
+        None if tau is None else 1.0 / float(oil_conductance(solution, tau)),
+        None if breakdown is None else float(breakdown.through_breakdown),
     )
 
 
@@ -394,11 +394,11 @@ class Subcircuit:
         path = self.path
         if path.coated:
             leaks = path.resistance < OPEN
-            yield Parameter("C_coat", path.coating, "F", "capacitance of the coating")
+            yield Parameter("C_coat", float(path.coating), "F", "capacitance of the coating")
             meaning = "insulation of the coating" if leaks else "stands for an insulator"
-            yield Parameter("R_coat", path.resistance if leaks else OPEN, "Ohm", meaning)
+            yield Parameter("R_coat", float(path.resistance if leaks else OPEN), "Ohm", meaning)
         if path.parallel > 0.0:
-            yield Parameter("C_par", path.parallel, "F", "capacitance of cage, shields and wiring")
+            yield Parameter("C_par", float(path.parallel), "F", "capacitance of cage, shields and wiring")
 
     def lines(self) -> Iterator[str]:
         """Lines of the file."""

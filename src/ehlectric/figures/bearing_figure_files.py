@@ -122,11 +122,9 @@ def impedance(result: BearingResult) -> str:
     shown = [(prefixed(magnitude_at(found.mean or found, at), "Ω"), at) for at in read_at(result)]
     values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
     if found.mean is not None:
-        duty = duty_of(result.solution)
-        return (
-            f"An element touches both rings {time_share_text(duty.touching_time_share)}: mean |Z| = {values}"
-        )
-    value = prefixed(shaft_capacitance(result.solution), "F")
+        share = time_share_text(float(duty_of(result.solution).touching_time_share))
+        return f"An element touches both rings {share}: mean |Z| = {values}"
+    value = prefixed(float(shaft_capacitance(result.solution)), "F")
     return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
 
 
@@ -228,7 +226,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     """Line: how the films were computed, and what that means for voltages."""
     solution = result.solution
     factor = solution.conditions.film_factor
-    text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {readable(factor)}"
+    text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {readable(float(factor))}"
     text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:

@@ -308,7 +308,7 @@ def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
     here, mean = circuit.capacitance, result.capacitance(fill)
     total, of = unit_for(mean, "F", least=1.0)
     text = f"bearing, {fill_text(fill)}: mean {readable(total * mean, 4)} {of}\n"
-    text += f"at this cage position {readable(total * here, 4)} {of}"
+    text += f"at this cage position {readable(float(total * here), 4)} {of}"
     ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
     note(ax, 0.5, 0.97, text, ha="center", va="top")
     legend_above(ax)
@@ -566,7 +566,7 @@ def _mark_period(result: BearingResult, ax: Axes) -> None:
         return
     at, time = motor.switching_frequency, leaks.film_time_constant
     ax.axvline(at, color=ORANGE, lw=0.9, ls=":")
-    text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(time, 's')}"
+    text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(float(time), 's')}"
     if ax.get_yscale() == "log":
         # Above the name of the corner frequency, and in the upper panel only.
         note(ax, at, 0.24, text, data_axis="x", color=ORANGE)

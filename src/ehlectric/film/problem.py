@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ehlectric.arrays import Array, Numbers
+from ehlectric.arrays import Array, V
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.face_flow import Fluid
 from ehlectric.film.hot_oil import Physics
@@ -141,12 +141,12 @@ class FilmProblem:
 
 def velocity_parameter(
     *,
-    viscosity: Numbers,
-    entrainment_speed: Numbers,
-    radius: Numbers,
-    half_width: Numbers,
-    max_pressure: Numbers,
-) -> Numbers:
+    viscosity: V,
+    entrainment_speed: V,
+    radius: V,
+    half_width: V,
+    max_pressure: V,
+) -> V:
     """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
 
     ``viscosity``, viscosity eta0 of the lubricant at zero pressure [Pa s]; ``entrainment_speed``, mean

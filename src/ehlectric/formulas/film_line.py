@@ -305,7 +305,7 @@ def regime(contact: LineContact) -> str:
     >>> regime(LineContact(14.1e-3, 226e9, 1e3, 4.0, 0.04, 0.0))
     'isoviscous-rigid'
     """
-    return dominant(_moes_asymptotes(contact))
+    return dominant({name: float(film) for name, film in _moes_asymptotes(contact).items()})
 
 
 def dominant(films: Mapping[str, float]) -> str:

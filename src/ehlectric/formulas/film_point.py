@@ -243,7 +243,7 @@ def regime(contact: PointContact) -> str:
     >>> regime(PointContact(10e-3, 10e-3, 226e9, 1e-3, 2.0, 0.04, 0.0))
     'isoviscous-rigid'
     """
-    return dominant(_asymptotes(contact))
+    return dominant({name: float(film) for name, film in _asymptotes(contact).items()})
 
 
 # Ratios k of the semi-axes of the solutions behind the formula of Hamrock and Dowson.

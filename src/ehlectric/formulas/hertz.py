@@ -304,10 +304,10 @@ def _log_ratios(target: Array) -> Array:
     return np.asarray(log_ratio)
 
 
-def _excess(log_ratio: Numbers, target: Numbers) -> Numbers:
+def _excess(log_ratio: float, target: float) -> float:
     """Logarithm of Ry/Rx of a contact with the logarithm of k, less its target."""
     k2 = np.exp(2.0 * log_ratio)
-    return np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2)) - target
+    return float(np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2)) - target)
 
 
 @lru_cache(maxsize=256)
@@ -362,7 +362,7 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
     >>> round(point_load(1e9, 0.01, 0.01, 226e9), 2)
     40.47
     """
-    k: float = axis_ratio(radius_x, radius_y)
+    k = float(axis_ratio(radius_x, radius_y))
     semi_axis = 4.0 * max_pressure * radius_x * k * float(elliprd(0.0, k**2, 1.0)) / (3.0 * modulus)
     return 2.0 * np.pi / 3.0 * k * max_pressure * semi_axis**2
 

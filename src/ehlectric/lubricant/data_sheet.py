@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 
-from ehlectric.arrays import Array, Numbers, as_float
+from ehlectric.arrays import Array, N, Numbers, as_float
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.result_warnings import ResultWarning
 
@@ -72,7 +72,7 @@ def _reference(at_100: float) -> tuple[float, float]:
     return _curves(_REFERENCE[max(bisect_right(_FROM, at_100) - 1, 0)][1:], at_100)
 
 
-def _curves(row: Iterable[Numbers], at_100: Numbers) -> tuple[Numbers, Numbers]:
+def _curves(row: Iterable[N], at_100: N) -> tuple[N, N]:
     """Viscosities L and H by the six constants of a row."""
     a, b, c, d, e, f = row
     return (a * at_100 + b) * at_100 + c, (d * at_100 + e) * at_100 + f
@@ -114,14 +114,14 @@ def viscosity_at_100(at_40: Numbers, index: Numbers) -> Numbers:
     """
     if np.ndim(at_40) or np.ndim(index):
         return _many_at_100(1e6 * np.asarray(at_40), np.asarray(index, dtype=float))
-    target = 1e6 * at_40
+    target, of_oil = 1e6 * float(at_40), float(index)
     bottom, top = LEAST_AT_100, _MOST_AT_100
-    if not _at_40(bottom, index) <= target <= _at_40(top, index):
+    if not _at_40(bottom, of_oil) <= target <= _at_40(top, of_oil):
         raise ValueError(
             f"an oil with {target:g} mm^2/s at 40 degC and viscosity index {index:g} has less than "
             f"{LEAST_AT_100:g} mm^2/s at 100 degC, the least of ASTM D2270"
         )
-    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, index) - target, bottom, top, xtol=_CLOSE))
+    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, of_oil) - target, bottom, top, xtol=_CLOSE))
 
 
 def _at_40(at_100: float, index: float) -> float:

@@ -56,7 +56,7 @@ class Derivation:
     """Relation that gives a parameter of a law from the viscosity eta0 [Pa s] and other parameters."""
 
     # ``function(viscosity, *values)`` returns the value of the parameter in SI units.
-    function: Callable[..., float]
+    function: Callable[..., Numbers]
     parameters: tuple[str, ...]
 
 
@@ -124,7 +124,7 @@ class Law:
     # temperature [K]. The temperature is None where the case gives none.
     warnings: Callable[..., Iterator[ResultWarning]] | None = None
     # ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
-    hint: Callable[[float, Mapping[str, float]], str] | None = None
+    hint: Callable[[Numbers, Mapping[str, Numbers]], str] | None = None
     needs_temperature: bool = False
     # ``holds(temperature, **parameters)`` tells for each point whether the law has a value at its temperature
     # [K]; None for a law that has one at all temperatures.

@@ -154,16 +154,16 @@ def _roelands_warnings(
     **others: float,
 ) -> Iterator[ResultWarning]:
     """Warning about an exponent that differs by more than 10 % from Roelands' relation."""
-    z = roelands_exponent(viscosity, **others)
+    z = float(roelands_exponent(viscosity, **others))
     if abs(z / roelands_z - 1.0) > 0.1:
         yield ResultWarning.of("roelands-z", given=roelands_z, relation=z)
 
 
-def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:
+def _roelands_hint(viscosity: Numbers, given: Mapping[str, Numbers]) -> str:
     """Text with the exponent of Roelands' relation, if the exponent is the only missing parameter."""
     if given.keys() != {"pressure_viscosity_coefficient", "roelands_pressure"}:
         return ""
-    z = roelands_exponent(viscosity, **given)
+    z = float(roelands_exponent(viscosity, **given))
     if not math.isfinite(z):
         return ""
     return (

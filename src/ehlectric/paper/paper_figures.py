@@ -173,7 +173,7 @@ def _of(gigapascal: int) -> list[PaperContact]:
 
 def _name(contact: PaperContact, result: Result) -> str:
     """Name of a contact as printed, with the computed M if it differs from the print."""
-    computed, printed = result.conditions.contact.moes_m, float(contact.printed[1:].split("L")[0])
+    computed, printed = float(result.conditions.contact.moes_m), float(contact.printed[1:].split("L")[0])
     other = "" if abs(printed - computed) < 1.0 else f" (M = {computed:.1f})"
     return f"{contact.printed}{other}"
 

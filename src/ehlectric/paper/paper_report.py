@@ -162,7 +162,7 @@ def _width_law(study: Study) -> tuple[tuple[float, float], float]:
     """Exponents of M and L in a power law fitted to width/b, and the largest relative deviation."""
     results = list(study.smooth.values())
     groups = [of_paper(result) for result in results]
-    logs = np.column_stack([np.ones(len(groups)), np.log([[g.moes_m, g.moes_l] for g in groups])])
+    logs = np.column_stack([np.ones(len(groups)), np.log(np.array([[g.moes_m, g.moes_l] for g in groups]))])
     shares = np.log([r.field.high_field_width / r.conditions.half_width for r in results])
     law, *_ = np.linalg.lstsq(logs, shares, rcond=None)
     return (float(law[1]), float(law[2])), float(np.max(np.abs(np.expm1(shares - logs @ law))))

@@ -115,9 +115,9 @@ def printed_table(study: Study) -> PaperTable:
                 contact.u_s,
                 "yes" if all(agrees(*pair) for pair in pairs) else "no",
                 printed["moes_m"],
-                second.conditions.contact.moes_m,
+                float(second.conditions.contact.moes_m),
                 printed["moes_l"],
-                of_paper(second).moes_l,
+                float(of_paper(second).moes_l),
                 *films,
                 *(thickness * MICRO for thickness in computed),
                 100.0 * (second.film.discretisation_error or np.nan),
@@ -134,7 +134,7 @@ def printed_table(study: Study) -> PaperTable:
 def _row_head(contact: PaperContact, result: Result) -> tuple[str | float, ...]:
     """First cells of a row: name of the contact, M and L."""
     groups = of_paper(result)
-    return (contact.name, groups.moes_m, groups.moes_l)
+    return (contact.name, float(groups.moes_m), float(groups.moes_l))
 
 
 _HEAD = [("contact", ""), ("M", ".1f"), ("L", ".2f")]
@@ -239,7 +239,7 @@ def permittivity_table(study: Study) -> PaperTable:
         rows.append(
             (
                 *_row_head(contact, result),
-                oil.relative_permittivity,
+                float(oil.relative_permittivity),
                 at_hertz,
                 1e6 * (constant.field.max_strength / result.field.max_strength - 1.0),
                 1e6 * float(np.max(np.abs(change[inner]))),

@@ -206,7 +206,7 @@ def film_of(given: Mapping[str, Any], *, options: bool = False) -> LookedUp:
 
     Errors name ``options`` of the command if the arguments are texts of them, whose numbers have units.
     """
-    groups = [given.get(name) for name in _GROUPS]
+    groups: list[Any] = [given.get(name) for name in _GROUPS]
     others = {name: value for name, value in given.items() if name not in _GROUPS and value is not None}
     if all(value is None for value in groups):
         return _by_numbers(others, options=options)

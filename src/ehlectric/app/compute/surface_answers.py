@@ -62,8 +62,8 @@ def too_rough(table: Roughness, rough: RoughSurface | RoughMap, formula: Thickne
     formless = table.file is not None and table.form in ("none", "mean")
     advice = "remove the form first" if formless else "filter its long waves, and check the units of heights"
     text = (
-        f"{name} is {_times(ratio)} times the film thickness ({_length(heights)}, against "
-        f"{_length(film)} by formula), so the surfaces would touch: {advice}"
+        f"{name} is {_times(float(ratio))} times the film thickness ({_length(heights)}, against "
+        f"{_length(float(film))} by formula), so the surfaces would touch: {advice}"
     )
     return PageWarning("", "warning", text)
 

@@ -54,7 +54,7 @@ def _interpolated(ratio: Array, inner_groove: Array, outer_groove: Array) -> Arr
     nodes = chebpts1(_DEGREE + 1)
     bearing = BallBearing(3, 1.0, 1.0 / ratio, inner_groove, outer_groove, 0.0)
     angles = np.arccos(0.5 * (nodes + 1.0))[:, np.newaxis]
-    stiffness = [contact_stiffness(bearing, 1.0, angles, inner=inner) for inner in (True, False)]
+    stiffness = np.array([contact_stiffness(bearing, 1.0, angles, inner=inner) for inner in (True, False)])
     weights = chebvander(nodes, _DEGREE) / (0.5 * (_DEGREE + 1))
     weights[:, 0] *= 0.5
     return np.asarray(weights.T @ np.log(stiffness))

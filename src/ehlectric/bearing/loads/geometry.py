@@ -15,13 +15,14 @@ All dimensions, angles and speeds are floats, or arrays over points of operation
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.arrays import Array, Numbers, as_float
+from ehlectric.arrays import Array, Booleans, Numbers, as_float
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.hertz import reduced_radius
 
@@ -81,7 +82,7 @@ def is_thrust(contact_angle: Numbers) -> bool:
     return bool(np.all(np.abs(np.asarray(contact_angle) - 0.5 * math.pi) < _SQUARE))
 
 
-def _first(wrong: Numbers, *values: Numbers) -> tuple[float, ...] | None:
+def _first(wrong: Booleans, *values: Numbers) -> tuple[float, ...] | None:
     """Values of the first point that is wrong; None where all points are right."""
     if not np.any(wrong):
         return None
@@ -138,12 +139,20 @@ class Rows:
 ONE_ROW = Rows()
 
 
-class _Bearing:
+class _Bearing(ABC):
     """Properties that are computed in the same way for bearings with balls and with rollers."""
 
     rows: Rows
-    clearance: Numbers
-    free_angle: Numbers
+
+    @property
+    @abstractmethod
+    def clearance(self) -> Numbers:
+        """Radial internal clearance, the full diametral play P_d [m]."""
+
+    @property
+    @abstractmethod
+    def free_angle(self) -> Numbers:
+        """Contact angle without a load [rad]."""
 
     @property
     def tracks(self) -> int:
@@ -248,6 +257,7 @@ class BallBearing(_Bearing):
     def dimensions(self) -> tuple[Numbers, ...]:
         """All dimensions that may vary over points of operation."""
         play = self.contact_angle if self.radial_clearance is None else self.radial_clearance
+        assert play is not None
         sizes = self.ball_diameter, self.pitch_diameter, self.inner_groove, self.outer_groove
         return *sizes, play, *self.rows.values
 

@@ -15,7 +15,7 @@ from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
 
-from ehlectric.arrays import Array, IntArray, Mask, Numbers
+from ehlectric.arrays import Array, Booleans, IntArray, Mask, Numbers
 from ehlectric.bearing.loads.geometry import BallBearing, FourPointBearing, RollerBearing, Speeds
 from ehlectric.errors import ConvergenceError, InputError
 
@@ -82,7 +82,7 @@ class BearingEquilibrium:
     iterations: Numbers  # number of Newton steps for the ring
 
     @property
-    def balanced(self) -> Numbers:
+    def balanced(self) -> Booleans:
         """Whether all forces balance, with the stiffnesses of the contacts at their own contact angles."""
         return self.residual <= GOOD
 
@@ -182,7 +182,7 @@ class Batch(Generic[G]):
 
     @classmethod
     def of(
-        cls, bearing: G, operation: Operation, modulus: Numbers, density: Numbers, able: Numbers
+        cls, bearing: G, operation: Operation, modulus: Numbers, density: Numbers, able: Booleans
     ) -> Batch[G]:
         """Batch of numbers of shape (...). ``able``: where the bearing can carry the load; points with a
         number that is not finite are left out, too.

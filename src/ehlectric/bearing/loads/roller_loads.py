@@ -393,8 +393,8 @@ def check_roller_loads(bearing: RollerBearing, operation: Operation) -> None:
         raise InputError(
             "axial_load",
             got=f"{axial:g} N",
-            takes=f"one above {readable(least, 4)} N: with less, an inclined row is pushed apart by its "
-            "radial load",
+            takes=f"one above {readable(float(least), 4)} N: with less, an inclined row is pushed apart by "
+            "its radial load",
         )
 
 

@@ -226,7 +226,7 @@ def _is_solvable(groups: Groups) -> Mask | bool:
 
 def check_in_atlas(groups: Groups) -> None:
     """Raise an InputError for a single contact that the atlas does not have."""
-    films, at = _films(groups), _coordinates(groups)
+    films, at = _films(groups), [float(coordinate) for coordinate in _coordinates(groups)]
     films.check_range(*at)
     if not _is_solvable(groups):
         raise InputError(
@@ -337,7 +337,7 @@ def _errors(
     if groups.ratio is not None:
         total["central"] = total["central"] + np.where(groups.ratio < 1.0, _WIDE, 0.0)
         total["mean"] = total["mean"] + np.where(groups.load_group > _HEAVY, _HEAVY_ERROR, 0.0)
-        lost = _domain_error(groups, light & known)
+        lost = _domain_error(groups, np.asarray(light & known))
         for name in ("central", "minimum", "mean"):
             total[name] = total[name] + lost
     # The mean of 1/(rho h) is stored without the central film.

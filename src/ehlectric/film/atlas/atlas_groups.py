@@ -65,7 +65,7 @@ class Ellipse:
         """Shape of contacts with a ratio of the semi-axes; ``radius_ratio``, Ry/Rx, where it is known."""
         size = elliprd(0.0, ratio**2, 1.0)
         if radius_ratio is None:
-            radius_ratio = size / elliprd(0.0, 1.0, ratio**2)
+            radius_ratio = as_float(size / elliprd(0.0, 1.0, ratio**2))
         return cls(ratio, as_float(radius_ratio), as_float(2.0 / math.pi * size))
 
     def among(self, shape: tuple[int, ...], places: Any) -> Ellipse:
@@ -142,8 +142,8 @@ class Groups:
         """Central film in Moes' unit by the formula of Moes, or of Nijenbanning, Venner and Moes."""
         if self.ratio is None:
             line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, 0.5 * _U, 1.0, self.moes_l / _U**0.25)
-            return moes(line).central_thickness / _U**0.5
-        return nijenbanning_venner_moes(self._point).central_thickness / _U**0.5
+            return as_float(moes(line).central_thickness / _U**0.5)
+        return as_float(nijenbanning_venner_moes(self._point).central_thickness / _U**0.5)
 
     @property
     def _point(self) -> PointContact:
@@ -189,10 +189,10 @@ def film_problem(
     ln(eta/eta0) and density law rho/rho0 over pressure [Pa]; ``alpha``, coefficient [1/Pa] with which L is
     made.
     """
-    pressure = groups.hertz_number / alpha
-    guess = groups.formula / groups.thickness_unit
-    inlet, side = groups.domain
-    fluid = Fluid(_over(laws[1], pressure), _over(laws[0], pressure), groups.velocity_parameter, 0.0)
+    pressure = float(groups.hertz_number) / alpha
+    guess = float(groups.formula / groups.thickness_unit)
+    inlet, side = map(float, groups.domain)
+    fluid = Fluid(_over(laws[1], pressure), _over(laws[0], pressure), float(groups.velocity_parameter), 0.0)
     problem = FilmProblem(
         fluid,
         nodes=nodes,
@@ -205,10 +205,11 @@ def film_problem(
     )
     if groups.ratio is None:
         return problem
-    k = groups.ratio
-    load = (groups._q * groups.moes_m) ** (1.0 / 3.0)
-    compliance = 3.0 / math.pi**2 / k * groups.moes_m ** (1.0 / 3.0) * groups._q ** (-2.0 / 3.0) / load
-    geometry = point_geometry(radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance)
+    k, moes_m, q = float(groups.ratio), float(groups.moes_m), float(groups._q)
+    load: float = (q * moes_m) ** (1.0 / 3.0)
+    compliance = 3.0 / math.pi**2 / k * moes_m ** (1.0 / 3.0) * q ** (-2.0 / 3.0) / load
+    radius_ratio = 1.0 / float(groups.radius_ratio)
+    geometry = point_geometry(radius_ratio=radius_ratio, ellipse_ratio=k, compliance=compliance)
     return with_far_field(replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side)))
 
 

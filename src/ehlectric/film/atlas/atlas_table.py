@@ -120,7 +120,7 @@ class Table:
         refused with an InputError.
         """
         if np.ndim(at[0]) == 0:
-            self.check(*at)
+            self.check(*map(float, at))
         points = np.stack(np.broadcast_arrays(*at), axis=-1)
         logs = np.log(points)
         return np.moveaxis(self._spline(logs), -1, 0), np.moveaxis(self._error(logs), -1, 0)
