@@ -21,7 +21,7 @@ from ehlectric.bearing.gaps import (
     LoadedContact,
     Nodes,
     Raceway,
-    beside,
+    for_nodes,
     missing_gap,
     outside_capacitance,
 )
@@ -106,9 +106,9 @@ class UnitContact:
         gap: Array = 0.5 * (x2 + y2 / self.radius_ratio) + opened - self.approach
         return np.maximum(0.0, gap), opened
 
-    def beside(self, axes: int) -> UnitContact:
+    def for_nodes(self, axes: int) -> UnitContact:
         """Contacts with further axes for nodes."""
-        return UnitContact(*(beside(value, axes) for value in vars(self).values()))
+        return UnitContact(*(for_nodes(value, axes) for value in vars(self).values()))
 
     def at(self, points: IntArray) -> UnitContact:
         """Some of the contacts."""
@@ -124,7 +124,7 @@ def rims(unit: UnitContact, domain: tuple[Numbers, Numbers, Numbers]) -> tuple[A
     inlet, outlet, side = (
         np.asarray(end, dtype=float)[..., np.newaxis] for end in np.broadcast_arrays(*domain)
     )
-    unit = unit.beside(1)
+    unit = unit.for_nodes(1)
     along = inlet + (outlet - inlet) * np.linspace(0.0, 1.0, RIM[0])[1:-1]
     across = side * unit.ratio * np.linspace(0.0, 1.0, RIM[1] // 2 + 1)
     # Both ends from the middle to the side, and the side without its ends.
@@ -177,13 +177,13 @@ def around_directly(
     numbers = (b, films, *domain, *(getattr(race, name) for name in varies))
     shape = np.broadcast_shapes(*(np.shape(value) for value in numbers))
     flat = [np.broadcast_to(value, shape).ravel() for value in numbers]
-    found = np.empty((2, flat[0].size))
-    for start in range(0, found.shape[1], _BLOCK):
+    integral = np.empty((2, flat[0].size))
+    for start in range(0, integral.shape[1], _BLOCK):
         columns = [values[start : start + _BLOCK] for values in flat]
         values: dict[str, Any] = dict(zip(varies, columns[5:], strict=True))
         part = replace(race, **values)
-        found[:, start : start + _BLOCK] = _around(part, *columns[:5], shoulders=shoulders, nodes=nodes)
-    return found[0].reshape(shape)[()], found[1].reshape(shape)[()]
+        integral[:, start : start + _BLOCK] = _around(part, *columns[:5], shoulders=shoulders, nodes=nodes)
+    return integral[0].reshape(shape)[()], integral[1].reshape(shape)[()]
 
 
 def _around(
@@ -220,42 +220,42 @@ def between_directly(unit: UnitContact, near: Ends, far: Ends, middle: Array) ->
     ``unit``, dry contacts; ``near`` and ``far``, inlet, outlet and side of the domains in semi-axes;
     ``middle``, film over b^2/Rx; all of shape (m,). Returns the integral, dimensionless, shape (m,).
     """
-    found, rows = np.empty(middle.size), np.arange(middle.size)
+    integral, rows = np.empty(middle.size), np.arange(middle.size)
     for part in np.array_split(rows, 1 + rows.size // _BLOCK):
         ends = [np.broadcast_to(end, middle.shape)[part] for end in (*near, *far)]
-        found[part] = _between(unit.at(part), *ends, middle=middle[part])
-    return found
+        integral[part] = _between(unit.at(part), *ends, middle=middle[part])
+    return integral
 
 
 def _between(unit: UnitContact, *ends: Array, middle: Array) -> Array:
     """As ``between_directly``, for few contacts."""
     inlet, outlet, side, *far = ends
-    ratio, middle = unit.ratio, beside(middle, 3)
+    ratio, middle = unit.ratio, for_nodes(middle, 3)
     # Ahead and behind over the whole side, denser in the middle, and beside the default ends.
     ahead, behind, further = (_geometric(*pair) for pair in zip((inlet, outlet, side), far, strict=True))
-    whole = beside(far[2]) * _AT**2, beside(far[2]) * 2.0 * _AT * _PART
+    whole = for_nodes(far[2]) * _AT**2, for_nodes(far[2]) * 2.0 * _AT * _PART
     along = (
         ahead,
         behind,
-        (beside(inlet) * _AT, beside(inlet) * _PART),
-        (beside(outlet) * _AT, beside(outlet) * _PART),
+        (for_nodes(inlet) * _AT, for_nodes(inlet) * _PART),
+        (for_nodes(outlet) * _AT, for_nodes(outlet) * _PART),
     )
     across = whole, whole, further, further
     (x, along_weights), (y, across_weights) = (
         (np.stack(columns, axis=1) for columns in zip(*parts, strict=True)) for parts in (along, across)
     )
     x[:, ::2] *= -1.0
-    unit = unit.beside(3)
+    unit = unit.for_nodes(3)
     gap, _ = unit.gap(x[..., :, np.newaxis], unit.ratio * y[..., np.newaxis, :])
     over = np.add.reduce(across_weights[..., np.newaxis, :] / (middle + gap), axis=-1)
-    found: Array = 2.0 * ratio * np.add.reduce(along_weights * over, axis=(-2, -1))
-    return found
+    integral: Array = 2.0 * ratio * np.add.reduce(along_weights * over, axis=(-2, -1))
+    return integral
 
 
 def _geometric(near: Array, far: Array) -> tuple[Array, Array]:
     """Nodes and weights from ``near`` to ``far``, denser at the near end."""
-    near = beside(near)
-    ratio = np.log(beside(far) / near)
+    near = for_nodes(near)
+    ratio = np.log(for_nodes(far) / near)
     nodes = near * np.exp(ratio * _AT)
     return nodes, ratio * nodes * _PART
 
@@ -276,14 +276,14 @@ def around_ellipse_directly(radius_ratio: Array, middle: Array, law: DomainLaw) 
     ``radius_ratio``, Ry/Rx, and ``middle``, film over b^2/Rx; shape (m,). Returns both integrals,
     dimensionless, shape (m,).
     """
-    found = np.empty((2, middle.size))
+    integrals = np.empty((2, middle.size))
     ratios, number = np.unique(radius_ratio, return_inverse=True)
     for k, ratio in enumerate(ratios.tolist()):
         rows = np.flatnonzero(number == k)
         for part, (weights, gap) in enumerate(parts_around_ellipse(ratio, law)):
             for some in np.array_split(rows, 1 + rows.size // _BLOCK):
-                found[part, some] = (1.0 / (middle[some, np.newaxis] + gap)) @ weights
-    return found[0], found[1]
+                integrals[part, some] = (1.0 / (middle[some, np.newaxis] + gap)) @ weights
+    return integrals[0], integrals[1]
 
 
 @lru_cache(maxsize=64)

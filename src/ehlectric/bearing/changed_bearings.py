@@ -32,7 +32,7 @@ PARTS: tuple[float, ...] = tuple(
 )
 
 # Place of the speed of the case among them.
-OWN = PARTS.index(1.0)
+AT_CASE = PARTS.index(1.0)
 
 
 @dataclass(frozen=True)

@@ -124,12 +124,12 @@ class DutyRows(CycleRows):
     @property
     def probabilities(self) -> tuple[Array, Array, Array]:
         """Probability of breakdown of each row, and its bounds, NaN at a standstill; shape (n,)."""
-        own, low, high = (
+        middle, low, high = (
             self.breakdown_probability,
             self.breakdown_probability_low,
             self.breakdown_probability_high,
         )
-        return own, own if low is None else low, own if high is None else high
+        return middle, middle if low is None else low, middle if high is None else high
 
 
 @dataclass(frozen=True)
@@ -254,7 +254,7 @@ class DutyResult(Values):
             "least_margin": None if worst is None else float(rows.margin[worst]),
             "least_margin_time": None if worst is None else float(rows.time[worst]),
             **self.lives[0].summary(),
-            "stretches": [asdict(one) for one in self.stretches],
+            "stretches": [asdict(stretch) for stretch in self.stretches],
         }
 
     def contents(self) -> dict[str, Content]:
@@ -283,37 +283,37 @@ def run_duty(case: BearingCase) -> DutyResult | None:
     cycle = read_cycle(case.duty.file)
     quick, refused = required_quick_case(case)
     _check_cycle(quick, cycle)
-    rows, found = rows_of(quick, cycle)
-    own, low, high = _probabilities(quick, rows).T
+    rows, points = rows_of(quick, cycle)
+    probability, low, high = _probabilities(quick, rows).T
     rows = replace(
         rows,
-        breakdown_probability=own,
+        breakdown_probability=probability,
         breakdown_probability_low=low,
         breakdown_probability_high=high,
     )
-    life = life_of(quick, rows, found)
+    life = life_of(quick, rows, points)
     result = DutyResult(
         rows=rows,
         stretches=tuple(_stretches(quick, rows)),
         source=cycle.source,
         contacts=quick.contacts,
-        points=found.solved,
-        interpolation_error=found.error,
+        points=points.solved,
+        interpolation_error=points.error,
         touching_ratio=float(touching_ratio(quick.bearing.summit_height)),
         lives=(life,),
     )
-    told = _warnings(quick, cycle, found, refused, result)
-    return replace(result, warnings=(*told, *life.warnings()))
+    warnings = _warnings(quick, cycle, points, refused, result)
+    return replace(result, warnings=(*warnings, *life.warnings()))
 
 
-def life_of(case: BearingCase, rows: DutyRows, found: PointValues) -> CycleLife:
+def life_of(case: BearingCase, rows: DutyRows, points: PointValues) -> CycleLife:
     """Rating lives of a bearing over the rows of its cycle, from the values of the rows that move, and its
     minimum static safety over all rows.
     """
     moves = rows.state != STANDSTILL
     names = ("speed", "radial_load", "axial_load", "duration")
     given = {name: getattr(rows, name)[moves] for name in names}
-    lives = cycle_life(case, given, found.values, float(np.sum(rows.duration)))
+    lives = cycle_life(case, given, points.values, float(np.sum(rows.duration)))
     return replace(lives, static_safety=minimum_static_safety(case, rows.radial_load, rows.axial_load))
 
 
@@ -351,14 +351,14 @@ def _given(case: BearingCase, cycle: Cycle) -> dict[str, Array]:
     column.
     """
     bearing, motor = case.bearing, case.motor
-    own = {
+    constant = {
         "speed": bearing.inner_speed,
         "radial_load": bearing.radial_load,
         "axial_load": bearing.axial_load,
         "temperature": bearing.oil_temperature,
         _VOLTAGE: math.nan if motor is None else motor.common_mode_voltage,
     }
-    return {name: cycle.values.get(name, np.full(cycle.time.size, own[name])) for name in _INPUTS}
+    return {name: cycle.values.get(name, np.full(cycle.time.size, constant[name])) for name in _INPUTS}
 
 
 def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
@@ -368,11 +368,11 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
     given, time = _given(case, cycle), cycle.time
     moves = _moves(given["speed"])
     moving = {name: values[moves] for name, values in given.items()}
-    found = _at(case, moving) if np.any(moves) else None
+    points = _at(case, moving) if np.any(moves) else None
     values = {name: np.full(time.size, np.nan) for name in (*NAMES, "breakdown_probability")}
-    if found is not None:
+    if points is not None:
         for name in NAMES:
-            values[name][moves] = found.values[name]
+            values[name][moves] = points.values[name]
     ratio, height = values["lambda_ratio"], case.bearing.summit_height
     state = np.select(
         [~moves, np.isnan(ratio), touches(ratio, height), ratio < PARTIAL],
@@ -381,10 +381,10 @@ def rows_of(case: BearingCase, cycle: Cycle) -> tuple[DutyRows, PointValues]:
     )
     edges = edges_of(time)
     rows = DutyRows(time=time, duration=np.diff(edges), **given, **values, state=state)
-    if found is None:
+    if points is None:
         return rows, PointValues({}, {}, 0)
     places = np.flatnonzero(moves).tolist()
-    return rows, replace(found, reasons={places[k]: why for k, why in found.reasons.items()})
+    return rows, replace(points, reasons={places[k]: why for k, why in points.reasons.items()})
 
 
 def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
@@ -392,15 +392,15 @@ def _at(case: BearingCase, given: Mapping[str, Array]) -> PointValues:
     motor, on which films do not depend. A row has no margin if its voltage is so small that the margin is
     above ``MOST_MARGIN``, as with an inverter that is off.
     """
-    found = values_at(case, _inputs_of_films(case, given))
+    points = values_at(case, _inputs_of_films(case, given))
     if case.motor is None:
-        return found
+        return points
     factor = given[_VOLTAGE] / case.motor.common_mode_voltage
-    values = dict(found.values)
+    values = dict(points.values)
     values["shaft_voltage"] = values["shaft_voltage"] * factor
     on = values["margin"] <= MOST_MARGIN * factor
     values["margin"] = np.where(on, values["margin"] / np.where(on, factor, 1.0), np.nan)
-    return replace(found, values=values)
+    return replace(points, values=values)
 
 
 def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str, Array]:
@@ -413,7 +413,9 @@ def _inputs_of_films(case: BearingCase, given: Mapping[str, Array]) -> dict[str,
     warmer = given["temperature"] - bearing.oil_temperature
     if np.any(warmer):
         # Rings and other parts that have their own temperature keep their difference from the oil.
-        inputs |= {f"bearing.{key}": own + warmer for key, own in bearing.all_temperatures().items()}
+        inputs |= {
+            f"bearing.{key}": temperature + warmer for key, temperature in bearing.all_temperatures().items()
+        }
     return inputs
 
 
@@ -423,9 +425,9 @@ def _probabilities(case: BearingCase, rows: DutyRows) -> Array:
     They are computed at rows that are spread over margin and lambda ratio, and interpolated between them.
     Rows with touching surfaces have no margin: the lambda ratio divided by the shaft voltage replaces it.
     """
-    found = np.full((rows.time.size, 3), np.nan)
+    probability = np.full((rows.time.size, 3), np.nan)
     if case.motor is None:
-        return found
+        return probability
     voltage = rows.common_mode_voltage
     driven = rows.turns & (voltage > 0.0)
     touching = driven & (rows.state == TOUCHING)
@@ -436,22 +438,22 @@ def _probabilities(case: BearingCase, rows: DutyRows) -> Array:
         known = np.flatnonzero(within)
         if known.size:
             at = np.log(np.column_stack([margin[known], rows.lambda_ratio[known]]))
-            found[known] = _between_nodes(case, rows, known, at)
-    if np.any(np.isfinite(found)):
-        found[rows.turns & (voltage == 0.0)] = 0.0
-        found[np.ix_(driven & np.isnan(found[:, 0]), [1, 2])] = _NOT_KNOWN
-    return found
+            probability[known] = _between_nodes(case, rows, known, at)
+    if np.any(np.isfinite(probability)):
+        probability[rows.turns & (voltage == 0.0)] = 0.0
+        probability[np.ix_(driven & np.isnan(probability[:, 0]), [1, 2])] = _NOT_KNOWN
+    return probability
 
 
 def _shaft_voltages(motor: Motor, rows: DutyRows) -> Array:
     """Shaft voltages that the rows would have if their surfaces did not conduct, shape (n,) [V]."""
-    own = rows.capacitance
+    capacitance = rows.capacitance
     second = motor.second_bearing_capacitance
     ratio = voltage_ratio(
         motor.winding_rotor_capacitance,
         motor.rotor_frame_capacitance,
-        own,
-        own if second is None else second,
+        capacitance,
+        capacitance if second is None else second,
     )
     return np.asarray(ratio * rows.common_mode_voltage)
 
@@ -499,25 +501,25 @@ def _reasons(case: BearingCase, rows: DutyRows, name: str, places: list[int]) ->
     would raise it most.
     """
     moves = _moves(rows.speed)
-    own = {column: getattr(rows, column) for column in _INPUTS}
+    inputs = {column: getattr(rows, column) for column in _INPUTS}
     means = {
         column: float(np.average(np.abs(values[moves]), weights=rows.duration[moves]))
-        for column, values in own.items()
+        for column, values in inputs.items()
         if places and np.ptp(values[moves]) > 0.0
     }
     if not means:
         return [""] * len(places)
-    changed = {column: np.repeat(values[places], len(means)) for column, values in own.items()}
+    changed = {column: np.repeat(values[places], len(means)) for column, values in inputs.items()}
     for k, (column, mean) in enumerate(means.items()):
         changed[column][k :: len(means)] = mean
     values = _at(case, changed).values
-    found, ratios = (values[key].reshape(len(places), len(means)) for key in (name, "lambda_ratio"))
+    results, ratios = (values[key].reshape(len(places), len(means)) for key in (name, "lambda_ratio"))
     texts = []
-    for place, row, ratio in zip(places, found, ratios, strict=True):
+    for place, row, ratio in zip(places, results, ratios, strict=True):
         best = int(np.argmax(np.nan_to_num(row, nan=-1.0)))
         column = list(means)[best]
         raised = _raised(float(row[best]), touching=bool(np.isfinite(ratio[best])))
-        texts.append(_reason(column, abs(float(own[column][place])), means[column], raised))
+        texts.append(_reason(column, abs(float(inputs[column][place])), means[column], raised))
     return texts
 
 
@@ -561,16 +563,16 @@ def file_warnings(cycle: Cycle, case: BearingCase) -> Iterator[ResultWarning]:
 
 
 def _warnings(
-    case: BearingCase, cycle: Cycle, found: PointValues, refused: InputError | None, result: DutyResult
+    case: BearingCase, cycle: Cycle, points: PointValues, refused: InputError | None, result: DutyResult
 ) -> Iterator[ResultWarning]:
     """Warnings about the file of a cycle and about what is not computed of it."""
     yield from file_warnings(cycle, case)
     if refused is not None:
         yield ResultWarning.of("duty-without-margin", reason=refused)
-    if found.reasons:
-        place, reason = next(iter(found.reasons.items()))
+    if points.reasons:
+        place, reason = next(iter(points.reasons.items()))
         yield ResultWarning.of(
-            "duty-left-out", "bearing", rows=len(found.reasons), line=cycle.lines[place], reason=reason
+            "duty-left-out", "bearing", rows=len(points.reasons), line=cycle.lines[place], reason=reason
         )
     known = result.summary()
     low, high = (known[f"breakdown_probability_{end}"] for end in ("low", "high"))

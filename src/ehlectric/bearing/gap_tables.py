@@ -73,12 +73,12 @@ class _Size:
 
     def race(self, square: Array, more: Array) -> Raceway:
         """Raceway at squares of contact angles [rad^2], and at values of what varies, shape (varying, m)."""
-        own: dict[str, Any] = {"pitch_radius": self.pitch_radius, "first_angle": self.first_angle}
+        fields: dict[str, Any] = {"pitch_radius": self.pitch_radius, "first_angle": self.first_angle}
         for name, values in zip(self.varying, more, strict=True):
-            own[name] = np.exp(values) if name == "pitch_radius" else values
+            fields[name] = np.exp(values) if name == "pitch_radius" else values
         angle = np.sqrt(np.maximum(0.0, square))
-        sizes = self.ball_radius, self.groove_radius, own["pitch_radius"], self.shoulder_angle
-        return Raceway(*sizes, angle, self.outer, own["first_angle"])
+        sizes = self.ball_radius, self.groove_radius, fields["pitch_radius"], self.shoulder_angle
+        return Raceway(*sizes, angle, self.outer, fields["first_angle"])
 
 
 # Relative difference of ratios of dimensions that is rounding.
@@ -104,12 +104,12 @@ def _points(race: Raceway) -> tuple[Raceway, UnitContact, tuple[int, ...]]:
     return row, UnitContact.of(*radii), shape
 
 
-def _is_one(values: Numbers | None) -> bool:
+def _is_single(values: Numbers | None) -> bool:
     """Whether all points have one value, up to rounding; so they have where there is none."""
     return values is None or np.ndim(values) == 0 or bool(np.ptp(values) <= _EQUAL * np.max(np.abs(values)))
 
 
-def _one(values: Numbers) -> float:
+def _single(values: Numbers) -> float:
     """Value that all points have."""
     return float(np.ravel(values)[0])
 
@@ -141,18 +141,18 @@ class _Contacts:
         """Dimensions of the raceway; None where the ratio of the radii or the shoulder varies."""
         race, unit = self.race, self.length
         groove, pitch = race.groove_radius / unit, race.pitch_radius / unit
-        if not (_is_one(groove) and _is_one(race.shoulder_angle)):
+        if not (_is_single(groove) and _is_single(race.shoulder_angle)):
             return None
         first = race.first_angle
         varying = [
-            name for name, value in (("pitch_radius", pitch), ("first_angle", first)) if not _is_one(value)
+            name for name, value in (("pitch_radius", pitch), ("first_angle", first)) if not _is_single(value)
         ]
         return _Size(
-            ball_radius=_one(race.ball_radius / unit),
-            groove_radius=_one(groove),
-            pitch_radius=0.0 if "pitch_radius" in varying else _one(pitch),
-            shoulder_angle=_one(race.shoulder_angle),
-            first_angle=None if first is None or "first_angle" in varying else _one(first),
+            ball_radius=_single(race.ball_radius / unit),
+            groove_radius=_single(groove),
+            pitch_radius=0.0 if "pitch_radius" in varying else _single(pitch),
+            shoulder_angle=_single(race.shoulder_angle),
+            first_angle=None if first is None or "first_angle" in varying else _single(first),
             outer=race.outer,
             varying=tuple(varying),
         )
@@ -164,11 +164,11 @@ class _Contacts:
 
     def varying(self, rows: Any = slice(None)) -> list[Array]:
         """Values of what varies of the contacts ``rows``, in the order of the variables of the tables."""
-        found: dict[str, Any] = {
+        sizes: dict[str, Any] = {
             "pitch_radius": np.log(self.race.pitch_radius / self.length),
             "first_angle": self.race.first_angle,
         }
-        return [self.of_point(found[name])[rows] for name in (self.size.varying if self.size else ())]
+        return [self.of_point(sizes[name])[rows] for name in (self.size.varying if self.size else ())]
 
     def row(self, numbers: Numbers) -> Array:
         """Numbers of all contacts in one row, shape (m,)."""
@@ -205,7 +205,7 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
     unit, size, angles = contacts.unit.at(contacts.point), contacts.size, contacts.angles
     edge, middle = b * unit.ratio * side, films * contacts.of_point(race.radius_x) / b**2
     unit_length = contacts.of_point(contacts.length)
-    found, left = np.full(b.shape, np.nan), np.isfinite(edge * middle * inlet * outlet)
+    integral, left = np.full(b.shape, np.nan), np.isfinite(edge * middle * inlet * outlet)
     left &= contacts.of_point(contacts.race.holds)
     reach, at = edge / contacts.of_point(contacts.race.groove_radius), angles[contacts.point]
     inside = left & (at + reach < contacts.of_point(contacts.race.shoulder_angle))
@@ -220,10 +220,10 @@ def around_of_balls(race: Raceway, b: Numbers, ends: Ends, films: Numbers, law: 
         table = _around(size, law, state, _box(variables))
         if table is not None:
             whole = table(*variables, group=contacts.point[rows])
-            found[rows], left[rows] = unit_length[rows] * whole, False
+            integral[rows], left[rows] = unit_length[rows] * whole, False
     ends = -inlet[left], outlet[left], side[left]
-    found[left] = around_directly(contacts.races(left), b[left], ends, films[left], nodes=law.nodes)[0]
-    return found.reshape(contacts.shape)
+    integral[left] = around_directly(contacts.races(left), b[left], ends, films[left], nodes=law.nodes)[0]
+    return integral.reshape(contacts.shape)
 
 
 def between_domains(race: Raceway, ends: Ends, middle: Numbers, law: DomainLaw) -> Array:
@@ -237,20 +237,20 @@ def between_domains(race: Raceway, ends: Ends, middle: Numbers, law: DomainLaw) 
     contacts = _Contacts.of(race, middle, *ends)
     middle, inlet, outlet, side = map(contacts.row, (middle, *ends))
     unit, radius_ratio = contacts.unit.at(contacts.point), np.log(contacts.unit.radius_ratio)
-    found, left = np.full(middle.shape, np.nan), np.isfinite(middle * inlet * outlet * side)
+    integral, left = np.full(middle.shape, np.nan), np.isfinite(middle * inlet * outlet * side)
     states = law.states((inlet, outlet, side), unit)
-    found[left & (states == 0)], left = 0.0, left & (states > 0)
+    integral[left & (states == 0)], left = 0.0, left & (states > 0)
     for state, rows in _states(states, left):
         length = law.length(state, (inlet[rows], outlet[rows], side[rows]), unit.at(rows))
         variables = radius_ratio, *_logarithms(state, length, middle[rows])
         table = _between(law, state, _box(variables))
         if table is not None:
-            found[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
+            integral[rows], left[rows] = table(*variables, group=contacts.point[rows]), False
     part = unit.at(np.flatnonzero(left))
     shape = np.shape(part.ratio)
     near = np.full(shape, law.inlet), np.full(shape, law.outlet), law.side(part.ratio)
-    found[left] = between_directly(part, near, (inlet[left], outlet[left], side[left]), middle[left])
-    return found.reshape(contacts.shape)
+    integral[left] = between_directly(part, near, (inlet[left], outlet[left], side[left]), middle[left])
+    return integral.reshape(contacts.shape)
 
 
 def around_ellipses(race: Raceway, middle: Numbers, law: DomainLaw) -> tuple[Array, Array]:
@@ -265,7 +265,7 @@ def around_ellipses(race: Raceway, middle: Numbers, law: DomainLaw) -> tuple[Arr
     middle = contacts.row(middle)
     valid = np.isfinite(middle) & (middle > 0.0)
     variables = np.log(contacts.unit.radius_ratio), np.log(middle[valid])
-    ratio, found = np.asarray(contacts.unit.radius_ratio)[contacts.point[valid]], []
+    ratio, integrals = np.asarray(contacts.unit.radius_ratio)[contacts.point[valid]], []
     for part in range(2):
         values, table = np.full(middle.shape, np.nan), None
         if np.count_nonzero(valid) >= LEAST:
@@ -274,8 +274,8 @@ def around_ellipses(race: Raceway, middle: Numbers, law: DomainLaw) -> tuple[Arr
             values[valid] = around_ellipse_directly(ratio, middle[valid], law)[part]
         else:
             values[valid] = np.exp(table(*variables, group=contacts.point[valid]))
-        found.append(values.reshape(contacts.shape))
-    return found[0], found[1]
+        integrals.append(values.reshape(contacts.shape))
+    return integrals[0], integrals[1]
 
 
 def rigid_balls(race: Raceway, gap: Numbers) -> Array:
@@ -290,16 +290,16 @@ def rigid_balls(race: Raceway, gap: Numbers) -> Array:
     gap, size = contacts.row(gap), contacts.size
     radius = contacts.of_point(contacts.race.ball_radius)
     valid = (gap > 0.0) & (gap <= radius) & contacts.of_point(contacts.race.holds)
-    found, table = np.full(gap.shape, np.nan), None
+    capacitance, table = np.full(gap.shape, np.nan), None
     unit_length = contacts.of_point(contacts.length)[valid]
     variables = np.square(contacts.angles), np.log(gap[valid] / unit_length), *contacts.varying(valid)
     if size is not None and np.count_nonzero(valid) >= LEAST:
         table = _rigid(size, _box(variables))
     if table is None:
-        found[valid] = groove_capacitance(contacts.races(valid), gap[valid])
+        capacitance[valid] = groove_capacitance(contacts.races(valid), gap[valid])
     else:
-        found[valid] = unit_length * np.exp(table(*variables, group=contacts.point[valid]))
-    return found.reshape(contacts.shape)
+        capacitance[valid] = unit_length * np.exp(table(*variables, group=contacts.point[valid]))
+    return capacitance.reshape(contacts.shape)
 
 
 def _states(states: IntArray, valid: Mask) -> Iterator[tuple[tuple[int, ...], IntArray]]:
@@ -427,7 +427,7 @@ def around_of_rollers(
     races, size = _roller_races(race, shape), _roller_size(race)
     total = np.zeros(b.shape)
     for length in lengths:
-        found, left = np.full(b.shape, np.nan), np.isfinite(b * films * length)
+        capacitance, left = np.full(b.shape, np.nan), np.isfinite(b * films * length)
         inside = left & (b * length < _NEAR * races.roller_radius) & (size is not None)
         # Default ends are alike: they need no variable of their own.
         shortest = np.min(length, initial=np.inf, where=inside)
@@ -439,9 +439,9 @@ def around_of_rollers(
             variables = np.zeros(1), np.log(end), np.log(length[rows]), middle
             table = _tail(size, _box(variables))
             if table is not None:
-                found[rows], left[rows] = table(*variables), False
-        found[left] = _one_tail(races.at(left), b[left], length[left], films[left])
-        total += found
+                capacitance[rows], left[rows] = table(*variables), False
+        capacitance[left] = _tail_of_side(races.at(left), b[left], length[left], films[left])
+        total += capacitance
     return total.reshape(shape)
 
 
@@ -456,15 +456,15 @@ def rigid_rollers(race: RollerRaceway, gap: Numbers) -> Array:
     races, size = _roller_races(race, shape), _roller_size(race)
     gap = np.broadcast_to(gap, shape).ravel()
     valid = np.isfinite(gap) & (gap > 0.0)
-    found, table = np.full(gap.shape, np.nan), None
+    capacitance, table = np.full(gap.shape, np.nan), None
     variables = np.zeros(1), np.log(gap[valid])
     if size is not None and np.count_nonzero(valid) >= LEAST:
         table = _rigid_roller(size, _box(variables))
     if table is None:
-        found[valid] = roller_capacitance(races.at(valid), gap[valid])
+        capacitance[valid] = roller_capacitance(races.at(valid), gap[valid])
     else:
-        found[valid] = np.exp(table(*variables))
-    return found.reshape(shape)
+        capacitance[valid] = np.exp(table(*variables))
+    return capacitance.reshape(shape)
 
 
 def _roller_size(race: RollerRaceway) -> _RollerSize | None:
@@ -480,7 +480,7 @@ def _roller_races(race: RollerRaceway, shape: tuple[int, ...]) -> RollerRaceway:
     return RollerRaceway(next(radii), next(radii), race.outer)
 
 
-def _one_tail(race: RollerRaceway, b: Array, length: Array, films: Array) -> Array:
+def _tail_of_side(race: RollerRaceway, b: Array, length: Array, films: Array) -> Array:
     """Capacitance per length [F/m] beyond one end of the domains of films, at a length over b."""
     reduced = reduced_radius(race.roller_radius, -1.0 / race.curvature)
     thickness = films + b**2 / reduced * line_gap(length)
@@ -493,7 +493,7 @@ def _tail(size: _RollerSize, box: _Box) -> SmoothTable | None:
 
     def capacitance(at: Array) -> Array:
         films = np.exp(at[3] + 2.0 * at[1]) / size[0]
-        return _one_tail(RollerRaceway(*size), np.exp(at[1] - at[2]), np.exp(at[2]), films)
+        return _tail_of_side(RollerRaceway(*size), np.exp(at[1] - at[2]), np.exp(at[2]), films)
 
     return _normalised(capacitance, box, _LONG)
 

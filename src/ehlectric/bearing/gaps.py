@@ -135,10 +135,10 @@ class Raceway:
         """Reduced radius Ry of ball and groove across rolling [m], shape (...)."""
         return 1.0 / (1.0 / self.ball_radius - 1.0 / self.groove_radius)
 
-    def beside(self, axes: int) -> Raceway:
+    def for_nodes(self, axes: int) -> Raceway:
         """Raceways of many points with further axes, for their loads or for nodes."""
         numbers = {name: value for name, value in vars(self).items() if np.ndim(value) > 0}
-        spread: dict[str, Any] = {name: beside(value, axes) for name, value in numbers.items()}
+        spread: dict[str, Any] = {name: for_nodes(value, axes) for name, value in numbers.items()}
         return replace(self, **spread) if spread else self
 
     def at(self, points: IntArray | Mask | slice) -> Raceway:
@@ -165,14 +165,14 @@ def _check_groove(groove: Numbers, shoulder_height: Numbers) -> None:
 
 
 @overload
-def beside(values: Array, axes: int = 1) -> Array: ...
+def for_nodes(values: Array, axes: int = 1) -> Array: ...
 
 
 @overload
-def beside(values: Numbers, axes: int = 1) -> Numbers: ...
+def for_nodes(values: Numbers, axes: int = 1) -> Numbers: ...
 
 
-def beside(values: Numbers, axes: int = 1) -> Numbers:
+def for_nodes(values: Numbers, axes: int = 1) -> Numbers:
     """Values of many points with further axes for their nodes; a number stays one."""
     return values if np.ndim(values) == 0 else np.asarray(values)[(..., *[np.newaxis] * axes)]
 
@@ -194,7 +194,7 @@ def groove_gap(race: Raceway, gap: Numbers, x: Array, y: Array) -> Array:
     >>> print(np.round(groove_gap(race, 1e-6, x, np.zeros(2)) * 1e6, 3))
     [1.    2.041]
     """
-    race = race.beside(1)
+    race = race.for_nodes(1)
     psi = race.contact_angle + y / race.groove_radius
     return distance_at(race, gap, psi, np.sin(0.5 * x / race_radius(race, gap, psi)) ** 2)
 
@@ -250,7 +250,7 @@ class Nodes:
     The gap changes fastest behind a film, which ends close to the Hertz ellipse.
     """
 
-    beside: tuple[int, int]  # along rolling and across the groove, on either side of the film
+    per_side: tuple[int, int]  # along rolling and across the groove, on either side of the film
     tails: int  # along rolling, ahead of the film and behind it
     ahead: int  # across the groove ahead of the film
     behind: int  # across the groove in each of four parts behind the film
@@ -258,7 +258,7 @@ class Nodes:
     @property
     def number(self) -> int:
         """Number of all nodes."""
-        return 2 * self.beside[0] * self.beside[1] + self.tails * (self.ahead + 4 * self.behind)
+        return 2 * self.per_side[0] * self.per_side[1] + self.tails * (self.ahead + 4 * self.behind)
 
 
 # With fine nodes the error of each part is below 1e-9 of the whole contact, with coarse ones the error of all
@@ -308,8 +308,8 @@ def _opening_of(dry: DryContact, modulus: Numbers, axes: int, ratio: Numbers | N
         ratio = a / b
     if np.ndim(ratio) and np.size(ratio) and np.ptp(ratio) <= _SAME * np.max(ratio):
         ratio = float(np.ravel(ratio)[0])
-    over, scale = beside(b**-2.0, axes), beside(dry.max_pressure * a / modulus, axes)
-    ratio = beside(ratio, axes)
+    over, scale = for_nodes(b**-2.0, axes), for_nodes(dry.max_pressure * a / modulus, axes)
+    ratio = for_nodes(ratio, axes)
     return lambda x2, y2: scale * unit_deflection(x2 * over, y2 * over, ratio)
 
 
@@ -341,12 +341,12 @@ def groove_capacitance(
         scale = np.sqrt(2.0 * gap / np.maximum(steepness, 2.0 * gap))
         ends = race.begins - race.contact_angle, race.shoulder_angle - race.contact_angle
         u, weights = stretched(*ends, scale, _ACROSS)
-        along = _along(race, gap, beside(race.contact_angle) + u, None, obliquity, None, _ALONG)
+        along = _along(race, gap, for_nodes(race.contact_angle) + u, None, obliquity, None, _ALONG)
         charge: Array = np.add.reduce(weights * along, axis=-1)
         return charge
 
-    found = _in_chunks(whole, shape, _ALONG * _ACROSS, race, gap)
-    return 2.0 * epsilon_0 * relative_permittivity * found
+    integral = _in_chunks(whole, shape, _ALONG * _ACROSS, race, gap)
+    return 2.0 * epsilon_0 * relative_permittivity * integral
 
 
 def outside_capacitance(
@@ -406,13 +406,13 @@ def _outside(
     inlet, outlet, side, focus = lengths
     rg = race.groove_radius
     total: Array = np.zeros(())
-    along, across = nodes.beside
+    along, across = nodes.per_side
     for (psi, weights), begins, number, count in (
         # Inlet and outlet are alike on both sides of the film.
         (_sides(race, side / rg, focus / rg, across, shoulders=shoulders), None, 2.0, along),
         _tails(race, tuple(end / rg for end in (-inlet, outlet, side, focus)), nodes, shoulders=shoulders),
     ):
-        starts = None if begins is None else begins * beside(rg)
+        starts = None if begins is None else begins * for_nodes(rg)
         charges = _along(race, offset, psi, starts, obliquity, opening, count)
         total = total + number * np.add.reduce(weights * charges, axis=-1)
     return total
@@ -440,13 +440,13 @@ def _in_chunks(
 
     race = replace(race, **{name: flat(value) for name, value in vars(race).items()})
     numbers = tuple(flat(value) for value in numbers)
-    found, step = np.empty(size), max(1, _BLOCK // nodes)
+    integral, step = np.empty(size), max(1, _BLOCK // nodes)
     for start in range(0, size, step):
         part = slice(start, start + step)
-        found[part] = function(
+        integral[part] = function(
             race.at(part), *(v if np.ndim(v) == 0 else np.asarray(v)[part] for v in numbers)
         )
-    return found.reshape(shape)
+    return integral.reshape(shape)
 
 
 def match_film(
@@ -483,7 +483,7 @@ def missing_gap(race: Raceway, undeflected: Array, x: Array, y: Array) -> Callab
     ``undeflected``, gap at the points x and y from the contact [m], shape (..., n). The offset has the shape
     (..., 1) [m].
     """
-    race = race.beside(1)
+    race = race.for_nodes(1)
     u = y / race.groove_radius
     psi = race.contact_angle + u
     across, cosine = 4.0 * race.groove_radius * np.sin(0.5 * u) ** 2, np.cos(psi)
@@ -517,8 +517,8 @@ def _sides(
     scale = 0.5 * (edge - focus)
     low = stretched(race.begins - angle + focus, within(-edge) + focus, scale, nodes)
     high = stretched(within(edge) - focus, race.shoulder_angle - angle - focus, scale, nodes)
-    middle = beside(angle)
-    psi = middle - beside(focus) + low[0], middle + beside(focus) + high[0]
+    middle = for_nodes(angle)
+    psi = middle - for_nodes(focus) + low[0], middle + for_nodes(focus) + high[0]
     return np.concatenate(psi, axis=-1), np.concatenate([low[1], high[1]], axis=-1)
 
 
@@ -536,15 +536,15 @@ def _tails(
     focus = np.minimum(focus, edge)
     parts = [stretched(within(-edge), within(edge), edge, nodes.ahead)]
     for near, far in ((-focus, -edge), (-focus, 0.0), (focus, 0.0), (focus, edge)):
-        middle = beside(near)
+        middle = for_nodes(near)
         u, weights = stretched(within(near) - near, within(far) - near, outlet, nodes.behind)
         parts.append((middle + u, np.abs(weights)))
     begins = [
-        np.broadcast_to(beside(start), part[0].shape)
+        np.broadcast_to(for_nodes(start), part[0].shape)
         for start, part in zip((inlet, outlet, outlet, outlet, outlet), parts, strict=True)
     ]
     u, weights = (np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True))
-    return (beside(angle) + u, weights), np.concatenate(begins, axis=-1), 1.0, nodes.tails
+    return (for_nodes(angle) + u, weights), np.concatenate(begins, axis=-1), 1.0, nodes.tails
 
 
 def _along(
@@ -561,7 +561,7 @@ def _along(
     ``gap``, shape (...); ``psi``, shape (..., m); ``begins``, distance along rolling from which on the
     integral counts [m], shape (..., m), None where it is all of the side. Returns shape (..., m).
     """
-    race, gap, psi = race.beside(2), beside(gap, 2), psi[..., np.newaxis]
+    race, gap, psi = race.for_nodes(2), for_nodes(gap, 2), psi[..., np.newaxis]
     r, rg, pitch, s = race.ball_radius, race.groove_radius, race.pitch_radius, 1.0 if race.outer else -1.0
     e, near, u, cosine = offset_centre(race, gap), r + gap, psi - race.contact_angle, np.cos(psi)
     radius = race_radius(race, gap, psi)
@@ -642,10 +642,12 @@ class RollerRaceway:
         )
         return RollerRaceway(next(radii), next(radii), self.outer)
 
-    def beside(self, axes: int) -> RollerRaceway:
+    def for_nodes(self, axes: int) -> RollerRaceway:
         """Raceways of many points with further axes, for their loads or for nodes."""
         return replace(
-            self, roller_radius=beside(self.roller_radius, axes), race_radius=beside(self.race_radius, axes)
+            self,
+            roller_radius=for_nodes(self.roller_radius, axes),
+            race_radius=for_nodes(self.race_radius, axes),
         )
 
 
@@ -675,7 +677,7 @@ def roller_capacitance(
         # Azimuth at which the gap is twice the smallest one.
         scale = np.sqrt(2.0 * race.roller_radius * gap / (race.race_radius * pitch))
         phi, weights = stretched(0.0, _reach(race, gap, obliquity), scale, _NODES)
-        distance, tilt = _distances(race.beside(1), beside(gap), phi)
+        distance, tilt = _distances(race.for_nodes(1), for_nodes(gap), phi)
         return _charge(race, distance, tilt, weights)
 
     shape = np.broadcast_shapes(np.shape(gap), np.shape(race.roller_radius), np.shape(race.race_radius))
@@ -733,14 +735,14 @@ def roller_tail(
     """
 
     def tail(race: RollerRaceway, half_width: Numbers, start: Numbers, film: Numbers) -> Array:
-        first, last, nodes = start / race.race_radius, _reach(race, 0.0, obliquity), race.beside(1)
+        first, last, nodes = start / race.race_radius, _reach(race, 0.0, obliquity), race.for_nodes(1)
         # The integral from the end on is zero where the domain reaches beyond it.
         phi, weights = stretched(np.minimum(first, last), last, first, _TAIL_NODES)
-        at = np.concatenate([phi, np.broadcast_to(beside(first), (*phi.shape[:-1], 1))], axis=-1)
-        distance, tilt = _distances(nodes, 0.0, np.minimum(at, beside(last)))
-        gap = distance + _opening(nodes, beside(half_width), at * nodes.race_radius)
+        at = np.concatenate([phi, np.broadcast_to(for_nodes(first), (*phi.shape[:-1], 1))], axis=-1)
+        distance, tilt = _distances(nodes, 0.0, np.minimum(at, for_nodes(last)))
+        gap = distance + _opening(nodes, for_nodes(half_width), at * nodes.race_radius)
         # Where nothing is left, the gap that would continue the film may be negative.
-        change = np.where(beside(first) < beside(last), beside(film) - gap[..., -1:], 0.0)
+        change = np.where(for_nodes(first) < for_nodes(last), for_nodes(film) - gap[..., -1:], 0.0)
         charge = _charge(race, gap[..., :-1] + change, tilt[..., :-1], weights)
         return np.where(first < last, charge, 0.0)
 
@@ -756,7 +758,7 @@ def _opening(race: RollerRaceway, half_width: Numbers, x: Array) -> Array:
 
 def _charge(race: RollerRaceway, gap: Array, tilt: Array, weights: Array) -> Array:
     """Integral of the charge density over the arc of the raceway, dimensionless, shape (...)."""
-    nodes = race.beside(1)
+    nodes = race.for_nodes(1)
     density = charge_density(gap, tilt, 1.0 / nodes.roller_radius, nodes.curvature)
     charge: Array = race.race_radius * np.add.reduce(weights * density, axis=-1)
     return charge

@@ -17,7 +17,7 @@ from ehlectric.bearing.bearing_discharges import (
     with_films_scaled,
 )
 from ehlectric.bearing.changed_bearings import (
-    OWN,
+    AT_CASE,
     PARTS,
     Sampled,
     Several,
@@ -71,7 +71,7 @@ class QuickMargins:
     """
 
     case: BearingCase
-    own: MarginPoint  # margin and lambda ratio of the solution
+    solved: MarginPoint  # margin and lambda ratio of the solution
     # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of bearings
     # that are solved together, dimensionless. Their films are taken to be ``lambda_factor`` times as thick.
     margin_factor: float
@@ -91,75 +91,78 @@ class QuickMargins:
         """
         touching = not np.any(insulating(solution))
         margin = 0.0 if touching else _margin_of(solution)
-        own = MarginPoint(float(margin), float(lambda_ratio(solution)))
+        solved = MarginPoint(float(margin), float(lambda_ratio(solution)))
         case = _quick(solution.case)
         _, several = over_parts(case)
-        if OWN in several.reasons:
-            raise InputError.worded(None, several.reasons[OWN])
-        ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+        if AT_CASE in several.reasons:
+            raise InputError.worded(None, several.reasons[AT_CASE])
+        ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, AT_CASE]
         quick = solution if is_quick(solution.case) else quick_solution(case)
-        scale, quick_scale = float(own.lambda_ratio / ratio), float(own.lambda_ratio / lambda_ratio(quick))
+        scale, quick_scale = (
+            float(solved.lambda_ratio / ratio),
+            float(solved.lambda_ratio / lambda_ratio(quick)),
+        )
         case = with_films_scaled(case, scale)
         scaled = replace(quick, case=with_films_scaled(quick.case, quick_scale))
         if touching:
             margin = _known(margin_apart(solution))
-            coarse = over_parts(case)[1].columns(lambda at: (margin_apart(at),), 1)[0, OWN]
+            coarse = over_parts(case)[1].columns(lambda at: (margin_apart(at),), 1)[0, AT_CASE]
             whole = _known(margin_apart(scaled))
         else:
-            coarse = over_parts(case)[1].columns(margin_and_lambda, 2)[0, OWN]
+            coarse = over_parts(case)[1].columns(margin_and_lambda, 2)[0, AT_CASE]
             whole = margin_and_lambda(scaled)[0]
         if not coarse * whole:
             raise InputError.worded(None, TOUCHING_ALREADY)
         factor, quick_factor = float(margin / coarse), float(margin / whole)
-        return cls(solution.case, own, factor, scale, case, quick, quick_scale, quick_factor)
+        return cls(solution.case, solved, factor, scale, case, quick, quick_scale, quick_factor)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
         margin is 0 where the surfaces touch. Raises InputError where the changed inputs make no valid case,
         or one that needs solved contacts.
         """
-        (found,) = self.at_all([changes])
-        if isinstance(found, InputError):
-            raise found
-        return found
+        (point,) = self.at_all([changes])
+        if isinstance(point, InputError):
+            raise point
+        return point
 
     def at_all(self, changes: Sequence[Mapping[str, Any]]) -> list[MarginPoint | InputError]:
         """Margins and lambda ratios at several changes of the inputs, which are solved together.
 
         Returns for each change what ``at`` returns, or the error that it raises.
         """
-        found: dict[int, MarginPoint | InputError] = {}
+        points: dict[int, MarginPoint | InputError] = {}
         films: dict[int, BearingCase] = {}
         others: dict[int, BearingCase] = {}
-        for place, one in enumerate(changes):
+        for place, changed in enumerate(changes):
             try:
-                case = self._changed(one)
-                if all(key.startswith(NOT_IN_FILMS) for key in one):
+                case = self._changed(changed)
+                if all(key.startswith(NOT_IN_FILMS) for key in changed):
                     others[place] = case
                 else:
                     films[place] = _quick(case)
             except InputError as error:
-                found[place] = error
-        for known, solve in ((others, self._beside_films), (films, self._with_films)):
+                points[place] = error
+        for known, solve in ((others, self._at_same_films), (films, self._with_films)):
             for places, case in alike(list(known.values())):
-                own = np.array(list(known))[places].tolist()
+                numbers = np.array(list(known))[places].tolist()
                 try:
-                    found |= zip(own, solve(case), strict=True)
+                    points |= zip(numbers, solve(case), strict=True)
                 except InputError as error:
-                    found |= dict.fromkeys(own, error)
-        return [found[place] for place in range(len(changes))]
+                    points |= dict.fromkeys(numbers, error)
+        return [points[place] for place in range(len(changes))]
 
-    def _beside_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
+    def _at_same_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays on which the films do not depend."""
         margin, _ = margin_and_lambda(replace(self.quick, case=with_films_scaled(case, self.quick_scale)))
-        ratio = self.own.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
+        ratio = self.solved.lambda_ratio * self.case.bearing.composite_rq / case.bearing.composite_rq
         columns = self.quick_factor * margin, ratio, np.ones(case.shape)
-        return [MarginPoint(*one) for one in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
+        return [MarginPoint(*pair) for pair in np.stack(np.broadcast_arrays(*columns)[:2], axis=-1).tolist()]
 
     def _with_films(self, case: BearingCase) -> list[MarginPoint | InputError]:
         """Points of a case with arrays, whose films are solved."""
         several = solve_several(with_films_scaled(case, self.lambda_factor))
-        points = [MarginPoint(*one) for one in self._scaled(several).T.tolist()]
+        points = [MarginPoint(*pair) for pair in self._scaled(several).T.tolist()]
         return [
             InputError.worded(None, several.reasons[k]) if k in several.reasons else point
             for k, point in enumerate(points)
@@ -273,15 +276,16 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     The temperature is that of the case at all speeds. The margin is computed at a series of speeds, and at
     more near each crossing, until it lies between two speeds that are 0.2 % apart.
     """
-    own = margins.case.bearing.inner_speed
+    at_case = margins.case.bearing.inner_speed
     speeds, points, reasons = margins.over_parts()
     left_out = tuple(
-        f"speed {speed_text(own * PARTS[place], 4)}: {reason}" for place, reason in sorted(reasons.items())
+        f"speed {speed_text(at_case * PARTS[place], 4)}: {reason}"
+        for place, reason in sorted(reasons.items())
     )
     known = np.isfinite(points[1])
     # The bearing itself has a result, which is exact.
-    known[OWN] = True
-    points[:, OWN] = margins.own.margin, margins.own.lambda_ratio
+    known[AT_CASE] = True
+    points[:, AT_CASE] = margins.solved.margin, margins.solved.lambda_ratio
     logarithms = partial(_logarithms, summit_height=margins.case.bearing.summit_height)
     sampled = Sampled(
         lambda log: logarithms(margins.at_speeds(np.exp(log))),
@@ -360,9 +364,9 @@ def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...]
     if temperature_is_unused(margins.case):
         left_out.append("temperature: without effect, because lubricant.viscosity is given")
     changes = changes_of(margins.case)
-    found = iter(_margins(margins, margin, [(change, end) for change in changes for end in change.ends]))
-    for change, low, high in zip(changes, found, found, strict=True):
-        error = next((one for one in (low, high) if isinstance(one, InputError)), None)
+    of_ends = iter(_margins(margins, margin, [(change, end) for change in changes for end in change.ends]))
+    for change, low, high in zip(changes, of_ends, of_ends, strict=True):
+        error = next((end_margin for end_margin in (low, high) if isinstance(end_margin, InputError)), None)
         if error is None:
             effects.append(Effect(change.key, change.label, *change.ends, low, high))
         else:
@@ -375,14 +379,14 @@ def _margins(margins: QuickMargins, margin: float, ends: Sequence[tuple[Change, 
     """Margins at the ends of changed inputs, each or the error of why it has none."""
     others = [change.changes(end) for change, end in ends if not proportional_to_strength(change.key)]
     points = iter(margins.at_all(others))
-    found: list[Any] = []
+    margins_at_ends: list[Any] = []
     for change, end in ends:
         if proportional_to_strength(change.key):
-            found.append(margin * end / change.value)
+            margins_at_ends.append(margin * end / change.value)
         else:
             point = next(points)
-            found.append(point if isinstance(point, InputError) else point.margin)
-    return found
+            margins_at_ends.append(point if isinstance(point, InputError) else point.margin)
+    return margins_at_ends
 
 
 def margin_range(
@@ -402,17 +406,17 @@ def margin_range(
         return None
     worst: dict[str, float] = {}
     best: dict[str, float] = {}
-    for one in ranges:
-        effect = by_key.get(one.key)
+    for entry in ranges:
+        effect = by_key.get(entry.key)
         if effect is None:
-            raise InputError.worded(f"ranges.{one.key}", "its ends have no margin without solved contacts")
-        ends = {one.low: effect.low_margin, one.high: effect.high_margin}
+            raise InputError.worded(f"ranges.{entry.key}", "its ends have no margin without solved contacts")
+        ends = {entry.low: effect.low_margin, entry.high: effect.high_margin}
         # The value of the case counts as well, as it may lie outside of its range or at the top of a curve.
         low, high = min(ends, key=ends.__getitem__), max(ends, key=ends.__getitem__)
         if ends[low] < margin:
-            worst[one.key] = low
+            worst[entry.key] = low
         if ends[high] > margin:
-            best[one.key] = high
+            best[entry.key] = high
     points = margins.at_all([worst, best])
     for point in points:
         if isinstance(point, InputError):

@@ -250,9 +250,9 @@ class Correction:
 
     def extended(self, formula: FilmState, solution: BearingSolution) -> Correction:
         """Correction with one more solved bearing, whose quick state is known."""
-        own = FilmState.of(solution)
+        solved = FilmState.of(solution)
         log = math.log(formula.capacitance)
-        ratio = own.capacitance / formula.capacitance, own.lambda_ratio / formula.lambda_ratio
+        ratio = solved.capacitance / formula.capacitance, solved.lambda_ratio / formula.lambda_ratio
         solves = self.solves + sum(int(np.count_nonzero(curve.used)) for curve in solution.curves)
         others = np.abs(self.logs - log) > _SAME
         logs = np.append(self.logs[others], log)
@@ -321,8 +321,8 @@ def _spread(targets: Array) -> list[int]:
     known = np.isfinite(values)
     logs, first = np.log(values[known]), first[known]
     number = min(_MOST, _LEAST + int((logs[-1] - logs[0]) / math.log(2.0)))
-    wanted = np.linspace(logs[0], logs[-1], number) if len(logs) > number else logs
-    places = [int(first[k]) for k in np.unique([int(np.argmin(np.abs(logs - at))) for at in wanted])]
+    levels = np.linspace(logs[0], logs[-1], number) if len(logs) > number else logs
+    places = [int(first[k]) for k in np.unique([int(np.argmin(np.abs(logs - at))) for at in levels])]
     return places if len(places) > 1 else 2 * places
 
 
@@ -359,17 +359,17 @@ def shared_effects(
         return effects, ()
     speeds = np.array([math.log(row[SPEED]) for row in rows])
     places = _spread_of_ranges(speeds)
-    for one in case.ranges or ():
-        if one.key.startswith(_WITHOUT):
+    for entry in case.ranges or ():
+        if entry.key.startswith(_WITHOUT):
             continue
         try:
-            half = [_half_width(case, one, rows[k], float(factors[k]), corrected) for k in places]
+            half = [_half_width(case, entry, rows[k], float(factors[k]), corrected) for k in places]
         except InputError as error:
-            left_out.append(ResultWarning.of("range-left-out", key=one.key, reason=error))
+            left_out.append(ResultWarning.of("range-left-out", key=entry.key, reason=error))
             continue
         order = np.argsort(speeds[places])
         change = np.interp(speeds, speeds[places][order], np.array(half)[order])
-        effects[one.key] = change / math.sqrt(3.0) / -slopes
+        effects[entry.key] = change / math.sqrt(3.0) / -slopes
     return effects, tuple(left_out)
 
 
@@ -379,8 +379,10 @@ def background_effect(case: BearingCase, targets: Array, slopes: Array) -> dict[
     ln(factor), shape (n,). Returns effect by the key; empty without a range of
     ``bearing.parallel_capacitance``, shape (n,).
     """
-    ranges = [one for one in case.ranges or () if one.key == PARALLEL]
-    return {one.key: 0.5 * (one.high - one.low) / math.sqrt(3.0) / targets / -slopes for one in ranges}
+    ranges = [limits for limits in case.ranges or () if limits.key == PARALLEL]
+    return {
+        limits.key: 0.5 * (limits.high - limits.low) / math.sqrt(3.0) / targets / -slopes for limits in ranges
+    }
 
 
 def _spread_of_ranges(speeds: Array) -> list[int]:
@@ -395,19 +397,19 @@ def _spread_of_ranges(speeds: Array) -> list[int]:
 
 def _half_width(
     case: BearingCase,
-    one: InputRange,
+    entry: InputRange,
     row: Mapping[str, Any],
     factor: float,
     corrected: Callable[[FilmState], FilmState],
 ) -> float:
     """Half of the difference of ln(capacitance) between both ends of a range, at the inputs of a row."""
     ends = []
-    for end in (one.low, one.high):
+    for end in (entry.low, entry.high):
         changes = dict(row)
-        if one.key in row:
+        if entry.key in row:
             # A measured temperature keeps its own value; the range is that of its error.
-            end = float(row[one.key]) + end - float(value_at(case.to_dict(), one.key))
-        changes[one.key] = end
+            end = float(row[entry.key]) + end - float(value_at(case.to_dict(), entry.key))
+        changes[entry.key] = end
         ends.append(math.log(corrected(OperatingPoint.of(case, changes).at(factor)).capacitance))
     return 0.5 * (ends[1] - ends[0])
 
@@ -488,7 +490,7 @@ def bearing_factors(
     """
     check_films_measured(case)
     meter = capacitance_of(measured, uncertainty)
-    own = background is None
+    fitted = background is None
     background = case.bearing.parallel_capacitance if background is None else background
     rows, off = _changes(case, measured), background or 0.0
     targets = meter.value - off
@@ -503,7 +505,7 @@ def bearing_factors(
     if case.contacts == "solved":
         correction = solved_correction(case, rows, targets, progress, workers)
     search = _search(case, correction, rows, targets, progress)
-    return _result(case, measured, meter, (background, own), search, correction, rows)
+    return _result(case, measured, meter, (background, fitted), search, correction, rows)
 
 
 def _changes(case: BearingCase, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
@@ -520,8 +522,8 @@ def _changes(case: BearingCase, measured: Measurement) -> tuple[Mapping[str, Any
     keys = {SPEED: speeds}
     if measured.has("temperature"):
         warmer = measured.values["temperature"] - case.bearing.oil_temperature
-        for key, own in case.bearing.all_temperatures().items():
-            keys[f"bearing.{key}"] = own + warmer
+        for key, temperature in case.bearing.all_temperatures().items():
+            keys[f"bearing.{key}"] = temperature + warmer
     rows = tuple(dict(zip(keys, map(float, row), strict=True)) for row in zip(*keys.values(), strict=True))
     different = len({tuple(row.values()) for row in rows})
     if different > MOST_POINTS:
@@ -543,21 +545,21 @@ def _result(
     rows: tuple[Mapping[str, Any], ...],
 ) -> FilmFactors:
     """Film factors with their uncertainties, mean and warnings."""
-    (background, own_background), (searched, reasons) = taken_off, search
+    (background, fitted_background), (searched, reasons) = taken_off, search
     factors, slopes = searched["film_factor"], searched["slope"]
-    found, targets = np.isfinite(factors), meter.value - (background or 0.0)
+    known, targets = np.isfinite(factors), meter.value - (background or 0.0)
     speeds = np.array([row[SPEED] for row in rows])
     stated = None if meter.uncertainty is None else meter.uncertainty / targets / -slopes
-    used = tuple(row for row, one in zip(rows, found, strict=True) if one)
-    shared, left_out = shared_effects(case, used, factors[found], slopes[found], correction.of)
-    if own_background:
-        shared |= background_effect(case, targets[found], slopes[found])
+    used = tuple(row for row, usable in zip(rows, known, strict=True) if usable)
+    shared, left_out = shared_effects(case, used, factors[known], slopes[known], correction.of)
+    if fitted_background:
+        shared |= background_effect(case, targets[known], slopes[known])
     error = _error(case, rows, factors) if is_quick(case) else None
     mean = trend = None
-    if np.any(found):
-        own = None if stated is None else stated[found]
-        mean = mean_factor(factors[found], own, shared)
-        trend = slope_of(speeds[found], factors[found], own)
+    if np.any(known):
+        stated_known = None if stated is None else stated[known]
+        mean = mean_factor(factors[known], stated_known, shared)
+        trend = slope_of(speeds[known], factors[known], stated_known)
     columns: dict[str, Array | None] = {
         "line": np.array(measured.lines, dtype=float),
         "time": measured.values.get("time"),
@@ -570,7 +572,7 @@ def _result(
         "computed": searched["computed"],
         "film_factor": factors,
         "factor_uncertainty": None if stated is None else stated * factors,
-        "factor_systematic": _systematic(shared, factors, found),
+        "factor_systematic": _systematic(shared, factors, known),
         **fitted_columns(targets, factors, slopes, mean),
         "minimum_thickness": searched["lambda_ratio"] * case.bearing.composite_rq,
         "lambda_ratio": searched["lambda_ratio"],
@@ -597,12 +599,12 @@ def _result(
     )
 
 
-def _systematic(shared: Mapping[str, Array], factors: Array, found: Array) -> Array | None:
+def _systematic(shared: Mapping[str, Array], factors: Array, known: Array) -> Array | None:
     """Standard uncertainty of the factors from ranges of inputs; None without ranges."""
     if not shared:
         return None
     column = np.full(len(factors), np.nan)
-    column[found] = factors[found] * np.sqrt(sum(change**2 for change in shared.values()))
+    column[known] = factors[known] * np.sqrt(sum(change**2 for change in shared.values()))
     return column
 
 

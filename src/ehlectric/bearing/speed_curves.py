@@ -14,9 +14,9 @@ from ehlectric.arrays import Array, Numbers
 from ehlectric.bearing.bearing_discharges import with_films_scaled
 from ehlectric.bearing.bearing_touching import CAPACITIVE, duty_of
 from ehlectric.bearing.changed_bearings import (
+    AT_CASE,
     LEAST,
     MOST,
-    OWN,
     PARTS,
     Sampled,
     Several,
@@ -111,7 +111,7 @@ def over_speed(
 def _with_ratio(case: BearingCase, own_ratio: float) -> BearingCase:
     """Case with a given lambda ratio at its own speed; unchanged without a result at this speed."""
     _, several = over_parts(case)
-    ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+    ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, AT_CASE]
     return with_films_scaled(case, own_ratio / ratio) if ratio > 0.0 else case
 
 
@@ -355,9 +355,9 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     if quick is None:
         return None
     speeds, several = over_parts(quick)
-    if OWN in several.reasons:
+    if AT_CASE in several.reasons:
         return None
-    scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),), 1)[0, OWN]
+    scale = lambda_ratio(solution) / several.columns(lambda at: (lambda_ratio(at),), 1)[0, AT_CASE]
     scales = solved_scales(solution)
 
     def excess(at: BearingSolution) -> tuple[Numbers]:
@@ -376,8 +376,8 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
 
     values = several.columns(excess, 1)[0]
     # From the speed of the case towards higher speeds, or from a capacitive bearing towards lower ones.
-    way = 1 if values[OWN] < 0.0 else -1
-    log, values = np.log(speeds)[OWN::way], values[OWN::way]
+    way = 1 if values[AT_CASE] < 0.0 else -1
+    log, values = np.log(speeds)[AT_CASE::way], values[AT_CASE::way]
     last = _first_change(values)
     if last is None and np.all(np.isfinite(values)):
         further = np.linspace(log[-1], log[0] + way * math.log(_FARTHEST), _BEYOND + 1)[1:]

@@ -187,7 +187,7 @@ class Uncertainty(MarginSpread):
         return Chance.of(self.margins, self.failed, **about)
 
     def _shares(self) -> dict[str, Any]:
-        return {"indices": [asdict(one) for one in self.inputs], "predicted": self.predicted}
+        return {"indices": [asdict(entry) for entry in self.inputs], "predicted": self.predicted}
 
 
 def sobol_points(width: int, number: int, seed: int) -> Array:
@@ -212,21 +212,21 @@ class Design:
     left_out: tuple[str, ...]
 
     @classmethod
-    def of(cls, solution: BearingSolution, *, beside_films: bool = False) -> Design:
+    def of(cls, solution: BearingSolution, *, same_films: bool = False) -> Design:
         """Design of a solved bearing, with inputs ``beside_films`` only, on which they do not depend."""
-        return cls.of_case(solution.case, film_error(solution), beside_films=beside_films)
+        return cls.of_case(solution.case, film_error(solution), same_films=same_films)
 
     @classmethod
-    def of_case(cls, case: BearingCase, off: Numbers, *, beside_films: bool = False) -> Design:
+    def of_case(cls, case: BearingCase, off: Numbers, *, same_films: bool = False) -> Design:
         """Design of a bearing whose films are ``off`` by at most this part either way."""
         left_out, computed, factors = [], [], []
-        stated = {one.key for one in case.ranges or ()}
+        stated = {entry.key for entry in case.ranges or ()}
         changes = changes_of(case)
         for change in changes:
             if proportional_to_strength(change.key):
                 factors.append(change)
             elif is_quantity(change.key) and change.key not in ONLY_SOLVED:
-                if not beside_films or change.key.startswith(NOT_IN_FILMS):
+                if not same_films or change.key.startswith(NOT_IN_FILMS):
                     computed.append(change)
             else:
                 left_out.append(f"{change.key}: its range has no part in the probability")
@@ -392,13 +392,13 @@ def quick_chance(solution: BearingSolution, *, samples: int = QUICK_SAMPLES) -> 
     """
     if not has_chance(solution):
         return None
-    design = Design.of(solution, beside_films=True)
+    design = Design.of(solution, same_films=True)
     at = sobol_points(design.width, samples, SEED)
     arrays = design.arrays(at)
     case = solution.case.with_arrays(arrays) if arrays else solution.case
-    found = first_margin(replace(solution, case=case))
+    margins = first_margin(replace(solution, case=case))
     # Points whose surfaces touch count as breakdown.
-    margin = design.film_scale(at) * np.nan_to_num(np.zeros(len(at)) if found is None else found)
+    margin = design.film_scale(at) * np.nan_to_num(np.zeros(len(at)) if margins is None else margins)
     return Chance.of(margin * np.exp(np.sum(design.log_factors(at), axis=-1)))
 
 
@@ -421,21 +421,21 @@ def _inputs(design: Design, computed: Array, at: Array) -> tuple[tuple[Uncertain
     """
     number = design.number
     separated = computed > 0.0
-    own = np.var(design.log_factors(at), axis=0)
+    separate = np.var(design.log_factors(at), axis=0)
     first, total, variance, missed = np.zeros(number), np.zeros(number), 0.0, 0.0
     if number and np.count_nonzero(separated) > 1:
         logs = np.log(computed[separated])
         with one_blas_thread():
-            found = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
-        first, total, variance = found.first, found.total, found.variance
-        missed = (1.0 - found.predicted) * float(np.var(logs))
-    whole = variance + float(np.sum(own)) or 1.0
-    shares = [*zip(variance * first, variance * total, strict=True), *zip(own, own, strict=True)]
+            decomposition = variance_shares(2.0 * at[separated, :number] - 1.0, logs)
+        first, total, variance = decomposition.first, decomposition.total, decomposition.variance
+        missed = (1.0 - decomposition.predicted) * float(np.var(logs))
+    whole = variance + float(np.sum(separate)) or 1.0
+    shares = [*zip(variance * first, variance * total, strict=True), *zip(separate, separate, strict=True)]
     inputs = [
-        UncertainInput(*names, first_order=float(one / whole), total=float(all_ / whole))
-        for names, (one, all_) in zip(_names(design), shares, strict=True)
+        UncertainInput(*names, first_order=float(part / whole), total=float(all_ / whole))
+        for names, (part, all_) in zip(_names(design), shares, strict=True)
     ]
-    return tuple(sorted(inputs, key=lambda one: -one.total)), 1.0 - missed / whole
+    return tuple(sorted(inputs, key=lambda part: -part.total)), 1.0 - missed / whole
 
 
 def _names(design: Design) -> Iterator[tuple[str, str, float | None, float | None, bool, str]]:
@@ -452,8 +452,14 @@ def _names(design: Design) -> Iterator[tuple[str, str, float | None, float | Non
     )
     computed, factors = (
         [
-            (one.key, one.label, *one.ends, one.key in design.assumed, design.assumed.get(one.key, ""))
-            for one in changes
+            (
+                change.key,
+                change.label,
+                *change.ends,
+                change.key in design.assumed,
+                design.assumed.get(change.key, ""),
+            )
+            for change in changes
         ]
         for changes in (design.computed, design.factors)
     )
@@ -484,23 +490,23 @@ def margin_band(
         """Quantiles and probability of ``Chance``, shape (4, n); NaN where they are not known."""
         computed = _computed(design, margins, np.tile(at, (speed.size, 1)), np.repeat(speed, _AT_EACH))
         rows = _with_factors(design, computed, np.tile(at, (speed.size, 1))).reshape(speed.size, _AT_EACH)
-        found = np.full((4, speed.size), np.nan)
+        columns = np.full((4, speed.size), np.nan)
         for k, row in enumerate(rows):
             solved = np.isfinite(row)
             failed = int(np.count_nonzero(~solved))
             if failed < UNLIKELY * row.size:
-                one = Chance.of(row[solved], failed)
-                found[:, k] = one.low, one.median, one.high, one.probability
-        return found
+                chance = Chance.of(row[solved], failed)
+                columns[:, k] = chance.low, chance.median, chance.high, chance.probability
+        return columns
 
     if speeds is not None:
         speed = np.asarray(speeds, dtype=float)
-        found = quantiles(speed)
+        columns = quantiles(speed)
     else:
-        own = solution.case.bearing.inner_speed
-        speed, found = _drawn_quantiles(quantiles, own * np.geomspace(LEAST, MOST, _SPEEDS))
-    known = np.isfinite(found[0])
-    return MarginBand(speed[known], *found[:, known])
+        speed_of_case = solution.case.bearing.inner_speed
+        speed, columns = _drawn_quantiles(quantiles, speed_of_case * np.geomspace(LEAST, MOST, _SPEEDS))
+    known = np.isfinite(columns[0])
+    return MarginBand(speed[known], *columns[:, known])
 
 
 def _drawn_quantiles(quantiles: Callable[[Array], Array], speed: Array) -> tuple[Array, Array]:
@@ -516,11 +522,11 @@ def _drawn_quantiles(quantiles: Callable[[Array], Array], speed: Array) -> tuple
         return _drawn(columns[-1])
 
     where_it_bends(logs, np.log(speed), _drawn(columns[0]), tolerance=_BEND, closest=_CLOSEST)
-    every, found = np.concatenate(speeds), np.concatenate(columns, axis=1)
+    every, quantiles_of_all = np.concatenate(speeds), np.concatenate(columns, axis=1)
     order = np.argsort(every)
-    return every[order], found[:, order]
+    return every[order], quantiles_of_all[:, order]
 
 
-def _drawn(found: Array) -> Array:
+def _drawn(quantiles_of_all: Array) -> Array:
     """Logarithms of the quantiles that a figure shows, shape (3, n)."""
-    return np.asarray(np.log(np.maximum(found[:-1], _DRAWN)))
+    return np.asarray(np.log(np.maximum(quantiles_of_all[:-1], _DRAWN)))
