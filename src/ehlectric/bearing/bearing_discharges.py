@@ -63,13 +63,13 @@ def bearing_voltage_ratio(solution: BearingSolution) -> Numbers | None:
     motor = solution.case.motor
     if motor is None or capacitance_is_bound(solution):
         return None
-    own = shaft_capacitance(solution)
+    first = shaft_capacitance(solution)
     second = motor.second_bearing_capacitance
     ratio = voltage_ratio(
         motor.winding_rotor_capacitance,
         motor.rotor_frame_capacitance,
-        own,
-        own if second is None else second,
+        first,
+        first if second is None else second,
     )
     return where(lubrication(solution) != "conducting", ratio)
 
@@ -87,8 +87,8 @@ def edge_current(solution: BearingSolution) -> Numbers | None:
     motor, ratio = solution.case.motor, bearing_voltage_ratio(solution)
     if motor is None or motor.voltage_slope is None or ratio is None:
         return None
-    own = shaft_capacitance(solution) - shaft_path(solution).parallel
-    return own * ratio * motor.voltage_slope
+    films = shaft_capacitance(solution) - shaft_path(solution).parallel
+    return films * ratio * motor.voltage_slope
 
 
 def film_voltage(solution: BearingSolution) -> Numbers | None:
@@ -136,9 +136,11 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
         "first_break_mean": np.mean(first, axis=0),
         "through_breakdown": np.min(through, axis=0),
         "through_breakdown_mean": np.mean(through, axis=0),
-        "shaft_first_break": np.min(np.array([shaft_first_break(one, path) for one in circuits]), axis=0),
+        "shaft_first_break": np.min(
+            np.array([shaft_first_break(circuit, path) for circuit in circuits]), axis=0
+        ),
         "shaft_through_breakdown": np.min(
-            np.array([shaft_through_breakdown(one, path) for one in circuits]), axis=0
+            np.array([shaft_through_breakdown(circuit, path) for circuit in circuits]), axis=0
         ),
     }
     at: dict[str, Any] = {name: where(known, values) for name, values in voltages.items()}
@@ -162,15 +164,15 @@ def _first_of_least(values: Array, axis: int) -> IntArray:
 def _weakest(circuits: Sequence[Circuit], at: IntArray) -> Any:
     """Name of the contact that breaks down first at the position ``at`` of each point, shape (...)."""
     points = tuple(np.indices(at.shape))
-    breaks = np.array([one.first_breaks for one in circuits])[at, *points]
+    breaks = np.array([circuit.first_breaks for circuit in circuits])[at, *points]
     element = _first_of_least(breaks, axis=-1)
-    inner = np.array([one.inner_first for one in circuits])[at, *points, element]
+    inner = np.array([circuit.inner_first for circuit in circuits])[at, *points, element]
     names = [
         [f"{ring} contact of element {k}" for ring in ("outer", "inner")]
         for k in range(circuits[0].inner.shape[-1])
     ]
-    found = np.array(names)[element, inner.astype(int)]
-    return found if found.ndim else str(found)
+    weakest = np.array(names)[element, inner.astype(int)]
+    return weakest if weakest.ndim else str(weakest)
 
 
 def first_margin(solution: BearingSolution) -> Numbers | None:
@@ -206,8 +208,8 @@ def margin_with_films(solution: BearingSolution, scale: Array) -> Array:
 
     Breakdown voltages follow the films and what summits leave of them; capacitances stay as they are.
     """
-    found = first_margin(replace(solution, case=with_films_scaled(solution.case, scale)))
-    margins: Array = np.zeros_like(scale) if found is None else scale * np.nan_to_num(found)
+    margin = first_margin(replace(solution, case=with_films_scaled(solution.case, scale)))
+    margins: Array = np.zeros_like(scale) if margin is None else scale * np.nan_to_num(margin)
     return margins
 
 
@@ -308,13 +310,15 @@ def _discharged(solution: BearingSolution) -> Numbers | None:
 
 def _connected(solution: BearingSolution) -> Numbers | None:
     """Capacitance of the films and of what is connected to them [F]; None where nothing says what that is."""
-    case, own, path = solution.case, capacitance(solution), shaft_path(solution)
+    case, films, path = solution.case, capacitance(solution), shaft_path(solution)
     motor, external = case.motor, case.discharge.external_capacitance
     if motor is not None:
         second = motor.second_bearing_capacitance
-        beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance + path.parallel
-        return own + path.behind_coating(beside + (shaft_capacitance(solution) if second is None else second))
-    return None if external is None else own + path.behind_coating(external + path.parallel)
+        machine = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance + path.parallel
+        return films + path.behind_coating(
+            machine + (shaft_capacitance(solution) if second is None else second)
+        )
+    return None if external is None else films + path.behind_coating(external + path.parallel)
 
 
 def conducting_areas(solution: BearingSolution) -> Array:
@@ -388,7 +392,7 @@ class Decay:
     films: Numbers
     conductance: Numbers
     elastance: Numbers  # reciprocal capacitance 1/C_c of the coating [1/F]; 0 without a coating, shape (...)
-    beside: Numbers  # all other capacitances C_s of the shaft [F], shape (...)
+    shaft: Numbers  # all other capacitances C_s of the shaft [F], shape (...)
     leak: Numbers  # conductance G_s parallel to them [S], shape (...)
 
     @property
@@ -399,10 +403,10 @@ class Decay:
 
     def rates(self, films: Numbers, coating: Numbers) -> tuple[Numbers, Numbers]:
         """Rates A x of voltages x across films and coating, in the unit of the voltages over s."""
-        own = self.conductance / self.films
-        current = own * films - self.leak / self.beside * (films + coating)
-        current = current / (1.0 / self.films + self.elastance + 1.0 / self.beside)
-        return current / self.films - own * films, current * self.elastance
+        leak_rate = self.conductance / self.films
+        current = leak_rate * films - self.leak / self.shaft * (films + coating)
+        current = current / (1.0 / self.films + self.elastance + 1.0 / self.shaft)
+        return current / self.films - leak_rate * films, current * self.elastance
 
     @property
     def time_constant(self) -> Numbers:
@@ -480,17 +484,17 @@ def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
 
 def _decay(solution: BearingSolution, motor: Motor, tau: Numbers) -> Decay:
     """Circuit of the shaft of a motor whose oil has a relaxation time [s]."""
-    own, path = capacitance(solution), shaft_path(solution)
+    films, path = capacitance(solution), shaft_path(solution)
     conductance, second = oil_conductance(solution, tau), motor.second_bearing_capacitance
-    beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance
+    machine = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance
     share: Numbers
     leak: Numbers
     if second is None:
         # Two equal bearings share what is beside them: half of it belongs to each.
-        share, leak = 0.5 * beside + path.parallel, 0.0
+        share, leak = 0.5 * machine + path.parallel, 0.0
     else:
-        share, leak = beside + path.parallel + second, conductance * second / own
-    return Decay(own, conductance, 1.0 / path.coating, share, leak)
+        share, leak = machine + path.parallel + second, conductance * second / films
+    return Decay(films, conductance, 1.0 / path.coating, share, leak)
 
 
 def oil_conductance(solution: BearingSolution, tau: Numbers) -> Numbers:

@@ -177,14 +177,14 @@ def _mean_share(pairs: list[tuple[Array, Array]]) -> Numbers:
     return mean
 
 
-def _ring(solution: BearingSolution, ring: RingState, film_scale: float, own: float) -> RingDuty:
+def _ring(solution: BearingSolution, ring: RingState, film_scale: float, thickness_factor: float) -> RingDuty:
     """Asperities in the contacts with one ring; elements without load have none.
 
-    ``own`` is the factor on the films from which shares and spots follow.
+    ``thickness_factor`` is the factor on the films from which shares and spots follow.
     """
     bearing, loaded = solution.case.bearing, ring.solved
     central = film_scale * ring.values.central_thickness[loaded]
-    film = own * central
+    film = thickness_factor * central
     rq = _of_contacts(bearing.composite_rq, loaded)
 
     def whole(values: Array, otherwise: float = 0.0) -> Array:
@@ -257,7 +257,7 @@ def _touching(solution: BearingSolution, film: Array, loaded: Mask) -> AsperityC
 def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     """Regime, shares of time and load shares of a bearing, as in the table ``bearing`` of summary.json."""
     rq = solution.case.bearing.composite_rq
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "regime": duty.regime,
         "contact_time_share": duty.contact_time_share,
         "insulating_time_share": 1.0 - duty.touching_time_share,
@@ -267,14 +267,14 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
     }
     for k, name in enumerate(("inner", "outer")):
         least = [position.rings[k].least_film for position in solution.positions]
-        found[f"{name}_lambda_ratio"] = np.min(np.array(least), axis=0) / rq
+        values[f"{name}_lambda_ratio"] = np.min(np.array(least), axis=0) / rq
     for k, name in enumerate(("inner", "outer")):
-        found[f"{name}_contact_time_share"] = _largest([rings[k].contact_time_share for rings in duty.rings])
+        values[f"{name}_contact_time_share"] = _largest([rings[k].contact_time_share for rings in duty.rings])
     all_of = [ring for rings in duty.rings for ring in rings]
     for key in ("asperity_share", "asperity_share_low", "asperity_share_high"):
-        found[key] = _largest([getattr(ring, key) for ring in all_of])
+        values[key] = _largest([getattr(ring, key) for ring in all_of])
     spots = [ring.expected_spots for ring in all_of if ring.expected_spots is not None]
-    return found | {"expected_spots": _largest(spots) if spots else None}
+    return values | {"expected_spots": _largest(spots) if spots else None}
 
 
 def _largest(of_contacts: list[Array]) -> Numbers:
@@ -285,6 +285,6 @@ def _largest(of_contacts: list[Array]) -> Numbers:
 
 def contact_duty(ring: RingDuty, k: int) -> dict[str, Any]:
     """Values of the contact of element ``k`` with a ring, for a row of ``contacts``."""
-    own = {name: None if values is None else values[k] for name, values in vars(ring).items()}
-    del own["real_area"]
-    return own
+    of_contact = {name: None if values is None else values[k] for name, values in vars(ring).items()}
+    del of_contact["real_area"]
+    return of_contact

@@ -24,9 +24,10 @@ def element_voltage(solution: BearingSolution) -> Numbers | None:
         return None
     if not capacitance_is_bound(solution):
         return film_voltage(solution)
-    own, second = solution.case.bearing.parallel_capacitance or 0.0, motor.second_bearing_capacitance
+    first, second = solution.case.bearing.parallel_capacitance or 0.0, motor.second_bearing_capacitance
     capacitances = motor.winding_rotor_capacitance, motor.rotor_frame_capacitance
-    return motor.common_mode_voltage * voltage_ratio(*capacitances, own, own if second is None else second)
+    second = first if second is None else second
+    return motor.common_mode_voltage * voltage_ratio(*capacitances, first, second)
 
 
 def element_breakdown(solution: BearingSolution) -> Numbers | None:

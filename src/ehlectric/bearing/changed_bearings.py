@@ -131,7 +131,7 @@ def _is_varied(key: str, value: object) -> bool:
 
 # Number of times that points are added, distance of logarithms of speeds up to which a crossing is bracketed,
 # and part of it by which the points beside an estimate are away from it.
-_ROUNDS, _CLOSE, _BESIDE = 12, 2e-3, 0.45
+_ROUNDS, _CLOSE, _OFFSET = 12, 2e-3, 0.45
 
 # Values at logarithms of speeds, shape (m,) -> (k, m); NaN where there is none.
 Values = Callable[[Array], Array]
@@ -149,16 +149,16 @@ class Sampled:
     def refine(self) -> None:
         """Add speeds until each crossing lies between two that are 0.2 % apart."""
         for number in range(_ROUNDS):
-            wanted = [
+            speeds = [
                 point
                 for row in range(len(self.values))
                 for k in self.brackets(row)
                 if self.log[k + 1] - self.log[k] > _CLOSE
                 for point in self._near(row, k, halve=number > 1)
             ]
-            if not wanted:
+            if not speeds:
                 return
-            self.add(np.unique(wanted))
+            self.add(np.unique(speeds))
 
     def add(self, log: Array) -> None:
         """Compute the quantities at further logarithms of speeds; those without any are left out."""
@@ -174,8 +174,8 @@ class Sampled:
         both = np.isfinite(values[:-1]) & np.isfinite(values[1:])
         rises = both & (values[:-1] < 0.0) & (values[1:] >= 0.0)
         falls = both & (values[:-1] >= 0.0) & (values[1:] < 0.0)
-        found: list[int] = np.flatnonzero(rises if row in self.last else rises | falls).tolist()
-        return found[-1:] if row in self.last else found
+        intervals: list[int] = np.flatnonzero(rises if row in self.last else rises | falls).tolist()
+        return intervals[-1:] if row in self.last else intervals
 
     def crossings(self, row: int) -> list[float]:
         """Logarithms of the speeds at which a quantity crosses 0, in increasing order."""
@@ -184,8 +184,8 @@ class Sampled:
     def _near(self, row: int, k: int, *, halve: bool) -> Iterator[float]:
         """Speeds on both sides of an estimated crossing, and in the middle of its bracket."""
         low, high, at = self.log[k], self.log[k + 1], self._estimate(row, k)
-        beside = at - _BESIDE * _CLOSE, at + _BESIDE * _CLOSE
-        yield from (float(one) for one in beside if low < one < high)
+        nearby = at - _OFFSET * _CLOSE, at + _OFFSET * _CLOSE
+        yield from (float(value) for value in nearby if low < value < high)
         if halve:
             yield float(0.5 * (low + high))
 
@@ -196,9 +196,9 @@ class Sampled:
         at, over = self.log[nodes], values[nodes]
         low, high = self.log[k], self.log[k + 1]
         if np.all(np.diff(over) > 0.0) or np.all(np.diff(over) < 0.0):
-            found = _through(over, at)
-            if low <= found <= high:
-                return found
+            root = _through(over, at)
+            if low <= root <= high:
+                return root
         first, second = values[k], values[k + 1]
         return float(low + (high - low) * first / (first - second))
 

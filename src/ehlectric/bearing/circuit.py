@@ -233,8 +233,8 @@ class Path:
         omega = 2.0 * np.pi * frequency
         through = films
         if self.coated:
-            own = 1j * omega * self.coating + 1.0 / self.resistance
-            through = films * own / (films + own)
+            of_coating = 1j * omega * self.coating + 1.0 / self.resistance
+            through = films * of_coating / (films + of_coating)
         y: Array = through + 1j * omega * self.parallel
         return y
 

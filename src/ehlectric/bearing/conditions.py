@@ -176,5 +176,5 @@ def gap_breakdown(discharge: Discharge, thickness: N) -> N:
     if not discharge.has_strength:
         return thickness * 0.0 + np.inf
     strength: Any = as_float(dielectric_strength(discharge, np.zeros(())))
-    found: N = strength * thickness
-    return found
+    voltage: N = strength * thickness
+    return voltage

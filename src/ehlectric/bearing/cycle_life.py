@@ -87,7 +87,7 @@ def cycle_life(
     fatigue = Fatigue(**{each.name: values[each.name] for each in fields(Fatigue)})
     lives = lives_of(bearing, life, fatigue, least_ratio=LOWEST_RATIO)
     computed, turns = np.isfinite(fatigue.reference_turns), speed * duration / _TURN
-    found: dict[str, Any] = {
+    of_lives: dict[str, Any] = {
         name: _miner(total, duration, getattr(lives, name), computed | (name in _OF_LOADS)) for name in LIVES
     }
     power = life_exponent(bearing)
@@ -100,7 +100,7 @@ def cycle_life(
     return CycleLife(
         mean_speed=float(np.sum(speed * duration) / total),
         equivalent_load=plain(mean),
-        **found,
+        **of_lives,
         **{name: float(np.sum(turns[within]) / np.sum(turns)) for name, within in rows.items()},
     )
 
@@ -126,5 +126,5 @@ def _miner(total: float, duration: Array, life: Any, counted: Mask) -> float | N
     """
     if life is None:
         return None
-    found: float | None = plain(total / np.sum((duration / life)[counted])) if np.any(counted) else None
-    return found
+    life_of_all: float | None = plain(total / np.sum((duration / life)[counted])) if np.any(counted) else None
+    return life_of_all

@@ -80,13 +80,13 @@ def written_columns(
     ``columns``, values of the rows by name, shape (n,); ``about``, unit of a column by its name, or by the
     part of it after a point, none for a text.
     """
-    found: dict[str, Written] = {}
+    written: dict[str, Written] = {}
     for name, values in columns.items():
         quantity = name.rpartition(".")[2]
         unit = about[quantity].get("unit")
         shown = np.array(STATES, dtype=object)[values.astype(int)] if quantity == "state" else values
-        found[name] = (None if unit is None else unit.removeprefix("-"), shown)
-    return found
+        written[name] = (None if unit is None else unit.removeprefix("-"), shown)
+    return written
 
 
 def duty_csv(columns: Mapping[str, Written]) -> dict[str, Content]:
@@ -138,8 +138,8 @@ class StoredDuty(Generic[R]):
             return {}
         names = (*self.lists, *self.later)
         lists = {f"{self.name}_{name}": many_numbers_of(getattr(duty, name)) for name in names}
-        told = json.dumps(texts_and_codes(duty.warnings))
-        return {self.name: numbers_of(duty), f"{self.name}_warnings": told, **lists}
+        warnings = json.dumps(texts_and_codes(duty.warnings))
+        return {self.name: numbers_of(duty), f"{self.name}_warnings": warnings, **lists}
 
     def read(self, dataset: xr.Dataset) -> R | None:
         """Duty cycle with these variables and attributes; None without one. Raises UnfitError where one is
@@ -149,16 +149,16 @@ class StoredDuty(Generic[R]):
         if self.name not in attributes:
             return None
         check_parts(dataset, [self._part])
-        found = self._part.read(values_of(dataset))
-        if np.any(found["state"] >= len(STATES)):
+        values = self._part.read(values_of(dataset))
+        if np.any(values["state"] >= len(STATES)):
             raise UnfitError(f"{self.name}_state is no state")
         known = {name: kind for name, kind in self.later.items() if f"{self.name}_{name}" in attributes}
         lists: dict[str, Any] = {
-            name: tuple(kind(**one) for one in read_many_numbers(kind, attributes, f"{self.name}_{name}"))
+            name: tuple(kind(**row) for row in read_many_numbers(kind, attributes, f"{self.name}_{name}"))
             for name, kind in {**self.lists, **known}.items()
         }
         return self.kind(
-            rows=self.rows(**found),
+            rows=self.rows(**values),
             **lists,
             **read_numbers(self.kind, attributes, self.name),
             warnings=warnings_in_tables(attributes, depth=0, name=f"{self.name}_warnings"),

@@ -67,13 +67,13 @@ def values_at(case: BearingCase, inputs: Mapping[str, Array]) -> PointValues:
     """
     table, place = np.unique(np.column_stack(list(inputs.values())), axis=0, return_inverse=True)
     if len(table) <= MOST_SOLVED:
-        found = _solved(case, tuple(inputs), table)
+        points = _solved(case, tuple(inputs), table)
     else:
-        found = _interpolated(case, tuple(inputs), table)
+        points = _interpolated(case, tuple(inputs), table)
     place = place.reshape(-1)
-    reasons = {k: found.reasons[p] for k, p in enumerate(place.tolist()) if p in found.reasons}
-    values = {name: column[place] for name, column in found.values.items()}
-    return PointValues(values, reasons, found.solved, found.error)
+    reasons = {k: points.reasons[p] for k, p in enumerate(place.tolist()) if p in points.reasons}
+    values = {name: column[place] for name, column in points.values.items()}
+    return PointValues(values, reasons, points.solved, points.error)
 
 
 def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
@@ -81,19 +81,19 @@ def _solved(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValu
     reasons: dict[int, str] = {}
     many = case.with_arrays(dict(zip(keys, table.T, strict=True)))
     names = NAMES if case.bearing.life is None else (*NAMES, *_OF_LIFE)
-    found = gathered(solved_parts(many, reasons=reasons), _numbers, (len(names), len(table)))
-    return PointValues(dict(zip(names, found, strict=True)), reasons, len(table))
+    columns = gathered(solved_parts(many, reasons=reasons), _numbers, (len(names), len(table)))
+    return PointValues(dict(zip(names, columns, strict=True)), reasons, len(table))
 
 
 def _numbers(solution: BearingSolution) -> tuple[Numbers | None, ...]:
     """Quantities of solved points in the order of ``NAMES`` and ``_OF_LIFE``; None for what no point has."""
     broken, life = breaks(solution), solution.case.bearing.life
     voltages = broken["first_break"], shaft_voltage(solution), broken["margin"]
-    found = lambda_ratio(solution), capacitance(solution), *voltages
+    columns = lambda_ratio(solution), capacitance(solution), *voltages
     if life is None:
-        return found
+        return columns
     fatigue = fatigue_of(solution, life)
-    return *found, *(getattr(fatigue, name) for name in _OF_LIFE)
+    return *columns, *(getattr(fatigue, name) for name in _OF_LIFE)
 
 
 def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> PointValues:
@@ -122,7 +122,9 @@ def _interpolated(case: BearingCase, keys: tuple[str, ...], table: Array) -> Poi
     places = np.flatnonzero(edge)[:MOST_SOLVED]
     compared = np.setdiff1d(np.linspace(0, len(table) - 1, _COMPARED).astype(int), places)
     exact = _solved(case, keys, table[np.concatenate([places, compared])])
-    error = _largest_error(values, {name: one[places.size :] for name, one in exact.values.items()}, compared)
+    error = _largest_error(
+        values, {name: column[places.size :] for name, column in exact.values.items()}, compared
+    )
     for name, column in exact.values.items():
         values[name][places] = column[: places.size]
     reason = next(iter({**design.reasons, **exact.reasons}.values()), "")
@@ -159,14 +161,14 @@ def _design(unit: Array) -> tuple[Array, IntArray, Array]:
     corner = np.array(list(product((0, 1), repeat=unit.shape[1])))
     for steps in _STEPS:
         cell = np.minimum((steps * unit).astype(int), steps - 1)
-        own, place = np.unique(cell, axis=0, return_inverse=True)
-        around = own[:, np.newaxis, :] + corner
+        cells, place = np.unique(cell, axis=0, return_inverse=True)
+        around = cells[:, np.newaxis, :] + corner
         nodes, corners = np.unique(around.reshape(-1, unit.shape[1]), axis=0, return_inverse=True)
         if len(nodes) <= MOST_SOLVED - _COMPARED:
             break
     part = (steps * unit - cell)[:, np.newaxis, :]
     weights = np.prod(np.where(corner == 1, part, 1.0 - part), axis=-1)
-    return nodes / steps, corners.reshape(len(own), -1)[place.reshape(-1)], weights
+    return nodes / steps, corners.reshape(len(cells), -1)[place.reshape(-1)], weights
 
 
 def between_places(nodes: Array, values: Array, at: Array) -> Array:
@@ -178,17 +180,17 @@ def between_places(nodes: Array, values: Array, at: Array) -> Array:
     from scipy.interpolate import RBFInterpolator
     from scipy.spatial.distance import cdist
 
-    places, own = np.unique(nodes, axis=0, return_inverse=True)
+    places, place_of = np.unique(nodes, axis=0, return_inverse=True)
     sums = np.zeros((len(places), values.shape[1]))
-    np.add.at(sums, own.reshape(-1), values)
-    means = sums / np.bincount(own.reshape(-1))[:, np.newaxis]
+    np.add.at(sums, place_of.reshape(-1), values)
+    means = sums / np.bincount(place_of.reshape(-1))[:, np.newaxis]
     known = np.isfinite(means[:, 0])
     if np.count_nonzero(known) > 1:
-        found = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
-        found = np.clip(found, np.min(means[known], axis=0), np.max(means[known], axis=0))
+        interpolated = RBFInterpolator(places[known], means[known], kernel="linear", degree=0)(at)
+        interpolated = np.clip(interpolated, np.min(means[known], axis=0), np.max(means[known], axis=0))
     else:
-        found = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), values.shape[1]))
-    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], found, np.nan)
+        interpolated = np.broadcast_to(means[known] if np.any(known) else np.nan, (len(at), values.shape[1]))
+    return np.where(known[np.argmin(cdist(at, places), axis=1), np.newaxis], interpolated, np.nan)
 
 
 def spread_places(at: Array, number: int) -> IntArray:

@@ -143,8 +143,8 @@ class _HotContact:
         """Film with heat on a grid, flooded or with a supply of oil."""
         kind, setup = KINDS[self.conditions.geometry], replace(self.setup, grid=grid)
         problem = kind.film_problem(setup, self.conditions, ())
-        found: Film | PointFilm = kind.solve_film(replace(problem, physics=self.physics, supply=supply))
-        return found
+        film: Film | PointFilm = kind.solve_film(replace(problem, physics=self.physics, supply=supply))
+        return film
 
 
 def solved_contact(
@@ -175,21 +175,21 @@ def solved_contact(
         where = f"{ring.name} contact at {readable(load, 4)} N"
         text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
         raise ConvergenceError(text) from None
-    found: ContactFriction | None = flooded.friction
+    friction: ContactFriction | None = flooded.friction
     if case.bearing.by_supply_rule:
-        found = _by_rule(flooded.friction, float(ring.supply_factor))
+        friction = _by_rule(flooded.friction, float(ring.supply_factor))
     elif ring.supply_factor < 1.0:
-        found = _starved(hot, flooded.grid, float(ring.supply_factor))
-    if found is None:
+        friction = _starved(hot, flooded.grid, float(ring.supply_factor))
+    if friction is None:
         return flooded.factor, None
     # Load and power of a line contact are those of a metre of it.
     length = case.bearing.roller_length or 1.0
-    return flooded.factor, replace(found, load=load, power_loss=length * found.power_loss)
+    return flooded.factor, replace(friction, load=load, power_loss=length * friction.power_loss)
 
 
 def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
     """Contacts with a ring whose films are isothermal and fully flooded."""
-    inner, outer = (replace(own, film_factor=1.0) for own in ring.conditions.rings)
+    inner, outer = (replace(ring_conditions, film_factor=1.0) for ring_conditions in ring.conditions.rings)
     return replace(ring, conditions=replace(ring.conditions, inner=inner, outer=outer))
 
 
@@ -396,13 +396,13 @@ def rolling_power_loss(solution: BearingSolution) -> float | None:
     power [W], 2 F u for each of them; None where no heat is solved, or not the film with heat and supply.
     """
     power = 0.0
-    for k, (ring, own) in enumerate(
+    for k, (ring, conditions) in enumerate(
         zip((solution.inner, solution.outer), solution.conditions.rings, strict=True)
     ):
-        if own.friction is None:
+        if conditions.friction is None:
             return None
         loads = np.array([position.rings[k].load for position in solution.positions])
-        force = rolling_force(ring, own.friction, loads)
+        force = rolling_force(ring, conditions.friction, loads)
         power += 2.0 * float(ring.speed) * float(np.mean(np.sum(force, axis=-1)))
     return power
 
@@ -414,11 +414,11 @@ def friction_summary(solution: BearingSolution) -> dict[str, float | None]:
         "rolling_power_loss": power,
         "rolling_moment": None if power is None else power / solution.case.bearing.inner_speed,
     }
-    for name, own in zip(("inner", "outer"), solution.conditions.rings, strict=True):
+    for name, conditions in zip(("inner", "outer"), solution.conditions.rings, strict=True):
         for each in fields(ContactFriction)[1:]:
             # The power loss of the bearing has its own key.
             key = "contact_power_loss" if each.name == "power_loss" else each.name
-            numbers[f"{name}_{key}"] = getattr(own.friction, each.name, None)
+            numbers[f"{name}_{key}"] = getattr(conditions.friction, each.name, None)
     return numbers
 
 
@@ -430,10 +430,10 @@ def solved_scales(solution: BearingSolution) -> tuple[float, float]:
     """
     inner, outer = (
         1.0
-        if own.friction is None or own.friction.solved_thickness is None
-        else own.friction.solved_thickness
-        / float(curve.at(np.array([own.friction.load])).central_thickness[0])
-        for own, curve in zip(solution.conditions.rings, solution.curves, strict=True)
+        if conditions.friction is None or conditions.friction.solved_thickness is None
+        else conditions.friction.solved_thickness
+        / float(curve.at(np.array([conditions.friction.load])).central_thickness[0])
+        for conditions, curve in zip(solution.conditions.rings, solution.curves, strict=True)
     )
     return inner, outer
 
@@ -510,40 +510,40 @@ def _film_words(solution: BearingSolution) -> tuple[str, str]:
     bearing = solution.case.bearing
     factor, supply = bearing.film_factor, bearing.supply
     left = "any starvation and heat beyond this factor"
-    found = readable(float(solution.conditions.film_factor))
+    words = readable(float(solution.conditions.film_factor))
     if supply != "flooded":
         given = isinstance(factor, float) and factor != 1.0
         other = f"a given factor of {readable(float(factor))}" if given else _HEAT.get(factor)
-        found += f", of {other} and the supply of oil" if other else ", of the supply of oil"
+        words += f", of {other} and the supply of oil" if other else ", of the supply of oil"
     elif factor in _HEAT:
-        left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
+        left, words = "starvation and grease", f"{words}, of {_HEAT[factor]}"
     if factor == "solved":
         left = f"{left}, spin and sliding"
-    return found, left
+    return words, left
 
 
 def supply_words(solution: BearingSolution) -> str:
     """Parts of the film factor with a supply, as "0.939 of the flooded thickness by grease"."""
-    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
+    supply, share = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
     more = f" and a given factor of {readable(heat)}" if isinstance(heat, float) else ""
     more = {"inlet-shear": " and inlet shear heating", "solved": " and solved heat"}.get(str(heat), more)
-    return f"{readable(float(found or 1.0))} of the flooded thickness{by}{more}"
+    return f"{readable(float(share or 1.0))} of the flooded thickness{by}{more}"
 
 
 def supply_flags(solution: BearingSolution) -> Iterator[Flag]:
     """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
     total = solution.conditions.film_factor
     yield Flag.of(total < _FAR, "film-factor-low", factor=total)
-    supply, found = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
-    if (isinstance(supply, str) and supply == "flooded") or found is None:
+    supply, share = solution.case.bearing.supply, solution.conditions.part_of_film_factor("supply_factor")
+    if (isinstance(supply, str) and supply == "flooded") or share is None:
         return
     rule = solution.case.bearing.by_supply_rule
-    yield Flag.of(rule, "supply-rule", supply=supply, share=found)
-    yield Flag.of(found < _LOW, "supply-low", share=found)
+    yield Flag.of(rule, "supply-rule", supply=supply, share=share)
+    yield Flag.of(share < _LOW, "supply-low", share=share)
     solved = solution.case.bearing.film_factor == "solved"
-    yield Flag.of(solved and solution.conditions.inner.friction is None, "starved-film-unsolved", share=found)
+    yield Flag.of(solved and solution.conditions.inner.friction is None, "starved-film-unsolved", share=share)
     time = half_time(solution) if isinstance(supply, str) and supply in _SPARSE else None
     if time is not None:
         yield Flag.of(time < _SOON, "film-decays", seconds=time, supply=supply)

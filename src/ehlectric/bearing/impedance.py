@@ -69,7 +69,7 @@ def rough_capacitance(solution: BearingSolution) -> Numbers | None:
     def of_contacts(quantity: Callable[[RingState], Array]) -> Array:
         """Quantity of all contacts, shape (2, ..., positions, n)."""
         rings = zip(*(position.rings for position in solution.positions), strict=True)
-        return np.stack([np.stack([quantity(one) for one in ring], axis=-2) for ring in rings])
+        return np.stack([np.stack([quantity(state) for state in ring], axis=-2) for ring in rings])
 
     rq = np.asarray(bearing.composite_rq)[..., np.newaxis, np.newaxis]
     ratio = of_contacts(lambda ring: ring.values.central_thickness) / rq

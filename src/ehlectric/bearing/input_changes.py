@@ -89,9 +89,9 @@ def changes_of(case: BearingCase) -> tuple[Change, ...]:
     """Changes of all inputs that are uncertain, each once: a range of the file replaces the usual one."""
     table = case.to_dict()
     changes = {change.key: change for change in usual_changes(case, table)}
-    for one in case.ranges or ():
-        value = float(value_at(table, one.key))
-        changes[one.key] = Change(one.key, _label(one.key), value, (one.low, one.high))
+    for entry in case.ranges or ():
+        value = float(value_at(table, entry.key))
+        changes[entry.key] = Change(entry.key, _label(entry.key), value, (entry.low, entry.high))
     return tuple(changes.values())
 
 
@@ -196,7 +196,9 @@ def _geometry(bearing: Bearing) -> Iterator[Change]:
             high = max(min(high, _FILLED * pitch * math.sin(math.pi / bearing.elements)), value)
         # The raceway under needles is known, so that their pitch circle follows their diameter.
         both = ("element_diameter", "pitch_diameter") if name == "element_diameter" else ()
-        known = {f"bearing.{one}": getattr(bearing, one) for one in both if bearing.kind == "needle roller"}
+        known = {
+            f"bearing.{name}": getattr(bearing, name) for name in both if bearing.kind == "needle roller"
+        }
         yield Change(key, _label(key), value, (low, high), _OF_ESTIMATE, shifted=known)
 
 
@@ -207,13 +209,13 @@ def estimated_keys(bearing: Bearing) -> tuple[str, ...]:
     given = (
         (None, None) if bearing.life is None else (bearing.life.dynamic_rating, bearing.life.static_rating)
     )
-    found = estimated_geometry(series()[bearing.base], *(one if is_number(one) else None for one in given))
+    estimate = estimated_geometry(series()[bearing.base], *(x if is_number(x) else None for x in given))
     error = ESTIMATE_ERRORS[bearing.kind]
     return tuple(
         name
         for name in ("element_diameter", "pitch_diameter", "roller_length")
         if getattr(error, name)
-        and np.allclose(getattr(bearing, name), getattr(found, name), rtol=1e-9, atol=0.0)
+        and np.allclose(getattr(bearing, name), getattr(estimate, name), rtol=1e-9, atol=0.0)
     )
 
 

@@ -74,13 +74,13 @@ class Columns:
             if np.any(where):
                 self._mask(code)[part.points] |= where
 
-    def take(self, points: IntArray, own: Columns) -> None:
+    def take(self, points: IntArray, columns: Columns) -> None:
         """Take the columns of some of the points."""
-        for key, values in own.values.items():
+        for key, values in columns.values.items():
             self._column(key)[points] = values
-        for code, mask in own.codes.items():
+        for code, mask in columns.codes.items():
             self._mask(code)[points] = mask
-        self.reasons |= {int(points[place]): reason for place, reason in own.reasons.items()}
+        self.reasons |= {int(points[place]): reason for place, reason in columns.reasons.items()}
 
     def _column(self, key: str) -> Array:
         """Column of a key, which is empty at first."""

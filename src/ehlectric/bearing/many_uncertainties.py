@@ -52,22 +52,22 @@ def spreads_of(solution: BearingSolution, samples: int, seed: int) -> list[Sprea
     coarse, _ = gathered(scaled, margin_and_lambda, (2, len(spreads)))
     (coarse_apart,) = gathered(scaled, lambda at: (margin_apart(at),), (1, len(spreads)))
     first = first_margin(solution)
-    own = np.broadcast_to(math.nan if first is None else first, coarse.shape)
+    margins = np.broadcast_to(math.nan if first is None else first, coarse.shape)
     # Margins of thicker films are compared where the surfaces touch.
-    touching = np.isnan(own)
-    own, coarse = np.where(touching, apart, own), np.where(touching, coarse_apart, coarse)
+    touching = np.isnan(margins)
+    margins, coarse = np.where(touching, apart, margins), np.where(touching, coarse_apart, coarse)
     off = np.broadcast_to(film_error(solution), coarse.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
-        factors = own / coarse
-    for place in np.flatnonzero(np.isfinite(own) & ~(coarse > 0.0)).tolist():
+        factors = margins / coarse
+    for place in np.flatnonzero(np.isfinite(margins) & ~(coarse > 0.0)).tolist():
         spreads[place] = InputError.worded(None, NO_MARGINS if np.isnan(coarse[place]) else TOUCHING_ALREADY)
-    known = np.flatnonzero(np.isfinite(own) & (coarse > 0.0))
+    known = np.flatnonzero(np.isfinite(margins) & (coarse > 0.0))
     designs = {place: Design.of_case(case.single(place), float(off[place])) for place in known.tolist()}
     for places in _alike(designs):
-        one = [designs[place] for place in places]
+        alike = [designs[place] for place in places]
         factor = np.stack([factors[places], scales[places]])
-        found = _spreads(solution, np.array(places), one, factor, samples=samples, seed=seed)
-        for place, spread in zip(places, found, strict=True):
+        new = _spreads(solution, np.array(places), alike, factor, samples=samples, seed=seed)
+        for place, spread in zip(places, new, strict=True):
             spreads[place] = spread
     return spreads
 
@@ -133,8 +133,8 @@ def _margins(
     # All points next to each other for each sample: the parts of a case that are solved together then have
     # points from the whole range, whose interpolation tables serve the next part, too.
     columns = {key: np.tile(array[places], (count, 1)) for key, array in case.arrays().items()}
-    own = [design.arrays(at, scale) for design, scale in zip(designs, scales.tolist(), strict=True)]
-    columns |= {key: np.stack([arrays[key] for arrays in own], axis=-1) for key in own[0]}
+    inputs = [design.arrays(at, scale) for design, scale in zip(designs, scales.tolist(), strict=True)]
+    columns |= {key: np.stack([arrays[key] for arrays in inputs], axis=-1) for key in inputs[0]}
     arrays = {key: column.ravel() for key, column in columns.items()}
     many = many_of(case.single(int(places[0])), arrays, count * len(designs))
     margins, _ = gathered(solved_parts(many, detail="coarse"), margin_and_lambda, (2, count * len(designs)))

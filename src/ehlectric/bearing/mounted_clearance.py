@@ -39,13 +39,13 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
     mounting, running = _mounting(bearing, fits, unmounted), _temperatures(bearing, fits)
     states = Temperatures.same(fits.reference_temperature), running
     pressing = np.maximum(*(np.asarray(mounting.interferences(at)[1]) for at in states))
-    found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
-    clearance = found.running.clearance
+    mounted = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
+    clearance = mounted.running.clearance
     unknown = np.logical_and(fits.housing_diameter is None, pressing > 0.0)
     beyond = np.logical_not(np.greater_equal(clearance, PLAY.least) & np.less_equal(clearance, PLAY.most))
     if np.ndim(clearance):
         known = np.where(unknown | beyond, np.nan, clearance)
-        return replace(found, running=replace(found.running, clearance=known))
+        return replace(mounted, running=replace(mounted.running, clearance=known))
     if unknown:
         overlap = f"whose interference with the outer ring is {readable(float(1e6 * pressing))} um"
         raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
@@ -53,7 +53,7 @@ def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
         got = f"a clearance in operation of {readable(float(1e6 * clearance), 4)} um"
         takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
         raise InputError("fits", got=got, takes=takes)
-    return found
+    return mounted
 
 
 def _mounting(bearing: Bearing, fits: Fits, unmounted: float) -> Mounting:

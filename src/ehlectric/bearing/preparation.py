@@ -298,8 +298,8 @@ def _oil(case: BearingCase, temperature: Numbers, key: str) -> Oil:
     if not case.shape or not isinstance(law, BoundLaw) or is_many(*law.parameters.values()):
         return oil
     # A permittivity with a pole is an error of one point, and NaN of each of many with their own values.
-    own = {name: np.full(case.shape, value) for name, value in law.parameters.items()}
-    return replace(oil, permittivity=OfDensity(replace(law, parameters=own)))
+    parameters = {name: np.full(case.shape, value) for name, value in law.parameters.items()}
+    return replace(oil, permittivity=OfDensity(replace(law, parameters=parameters)))
 
 
 def _ring_conditions(
@@ -343,15 +343,15 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
         if not shape:
             kind.check(geometry, operation)
         at = kind.equilibrium(geometry, operation, *solid)
-        found = [at.at(k) for k in range(solved)]
-        for one in found:
-            check_balance(one)
+        equilibria = [at.at(k) for k in range(solved)]
+        for equilibrium in equilibria:
+            check_balance(equilibrium)
 
     def turned(k: int) -> Equilibrium:
         angle = Operation(*duty, cage_angle=angles[k]).positions(bearing.elements, geometry.groups)
-        return mirrored(found[positions - k], angle, geometry.groups)
+        return mirrored(equilibria[positions - k], angle, geometry.groups)
 
-    return (*found, *map(turned, range(solved, positions)))
+    return (*equilibria, *map(turned, range(solved, positions)))
 
 
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
@@ -373,12 +373,13 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, (inner, outer))
     if case.bearing.film_factor == "solved":
-        found = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
+        factors = [solved_contact(case, ring, float(largest_load(prepared, ring))) for ring in prepared.rings]
         # The friction of a bearing is that of both rings, or it is not known.
-        known = all(friction is not None for _, friction in found)
-        rings = zip(conditions.rings, found, strict=True)
+        known = all(friction is not None for _, friction in factors)
+        rings = zip(conditions.rings, factors, strict=True)
         return _with_rings(
-            prepared, *(own.heated(factor, friction if known else None) for own, (factor, friction) in rings)
+            prepared,
+            *(ring.heated(factor, friction if known else None) for ring, (factor, friction) in rings),
         )
     _check_films(prepared)
     return prepared
@@ -393,7 +394,7 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
     """
     rings = prepared.conditions.rings
     return _with_rings(
-        prepared, *(RingConditions(own.temperature, own.oil, own.discharge, factor) for own in rings)
+        prepared, *(RingConditions(ring.temperature, ring.oil, ring.discharge, factor) for ring in rings)
     )
 
 
@@ -469,8 +470,8 @@ def _least_that(ring: RingContacts[Any], condition: Callable[[Contact], Mask]) -
         step *= 0.5
         middle = low + step
         low = np.where(holds(middle), low, middle)
-    found = np.where(always, smallest, middle)
-    return as_float(np.where(never, np.inf, 10.0**found))
+    logarithm = np.where(always, smallest, middle)
+    return as_float(np.where(never, np.inf, 10.0**logarithm))
 
 
 def loads_to_solve(
@@ -531,8 +532,8 @@ def _lighter(lightest: Array, least: Array, number: int | None) -> tuple[Array, 
     most = _SOLVED_LIGHT if number is None else number
     some = lightest < _BELOW * least
     ratio = np.log(least / np.where(some, lightest, least))
-    wanted = np.minimum(most, 1.0 + np.floor(ratio / math.log(_BETWEEN))) if number is None else float(most)
-    count = np.where(some, wanted, 1.0)[..., np.newaxis]
+    needed = np.minimum(most, 1.0 + np.floor(ratio / math.log(_BETWEEN))) if number is None else float(most)
+    count = np.where(some, needed, 1.0)[..., np.newaxis]
     place = np.arange(most) - (most - count)
     part = np.maximum(place, 0.0) / count
     loads = np.where(some, lightest, least)[..., np.newaxis] * np.exp(ratio[..., np.newaxis] * part**_CROWDED)

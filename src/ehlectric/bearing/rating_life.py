@@ -350,10 +350,10 @@ def rated_loads(bearing: Bearing, life: Life) -> RatedLoads:
     The two tracks of a four-point contact bearing also count as rows.
     """
     rules = _RULES[bearing.kind]
-    (one, dynamic_source), (still, static_source) = (
+    (turning, dynamic_source), (still, static_source) = (
         _rating(bearing, life, name) for name in ("dynamic", "static")
     )
-    dynamic, static = bearing.rows**rules.slope * one, bearing.rows * still
+    dynamic, static = bearing.rows**rules.slope * turning, bearing.rows * still
     limit: Numbers | None = life.fatigue_load_limit
     if limit is None:
         limit = _at_points(fatigue_load_limit)(static, bearing.pitch_diameter, rollers=rules.rollers)
@@ -369,8 +369,8 @@ def rated_loads(bearing: Bearing, life: Life) -> RatedLoads:
 def dynamic_rating(bearing: Bearing) -> Numbers:
     """Basic dynamic rating of a bearing, or of both bearings of a pair [N], also without ``life``."""
     rules, life = _RULES[bearing.kind], bearing.life or Life(contamination_factor=1.0)
-    found: Numbers = bearing.rows**rules.slope * _rating(bearing, life, "dynamic")[0]
-    return found
+    rating: Numbers = bearing.rows**rules.slope * _rating(bearing, life, "dynamic")[0]
+    return rating
 
 
 def _rating(bearing: Bearing, life: Life, name: str) -> tuple[Numbers, Any]:
@@ -387,10 +387,10 @@ def _rating(bearing: Bearing, life: Life, name: str) -> tuple[Numbers, Any]:
         "dynamic": (rules.dynamic, rules.tracks**rules.slope, "ISO 281"),
         "static": (rules.static, rules.tracks, "ISO 76"),
     }[name]
-    own, printed = law(bearing), _printed(bearing, life)
+    computed, printed = law(bearing), _printed(bearing, life)
     if printed is None:
-        return factor * own, f"computed from the elements by {standard}"
-    scale, words = own / law(printed), printed.source
+        return factor * computed, f"computed from the elements by {standard}"
+    scale, words = computed / law(printed), printed.source
     alike = np.abs(scale - 1.0) < _ROUNDING
     return scale * getattr(printed, name), labels((alike, words), f"{words}, scaled to these elements")
 
@@ -398,8 +398,8 @@ def _rating(bearing: Bearing, life: Life, name: str) -> tuple[Numbers, Any]:
 def _printed(bearing: Bearing, life: Life) -> PrintedRatings | None:
     """Printed ratings of the designation of a bearing; None without a designation."""
     given = (value if is_number(value) else None for value in (life.dynamic_rating, life.static_rating))
-    found = printed_ratings(bearing.base, *given)
-    return found if found is not None and found.kind == bearing.kind else None
+    ratings = printed_ratings(bearing.base, *given)
+    return ratings if ratings is not None and ratings.kind == bearing.kind else None
 
 
 def _required_viscosity(bearing: Bearing) -> Numbers:

@@ -205,8 +205,8 @@ class BearingResult(Shown):
     @read_only_property
     def verdict(self) -> Verdict:
         """Verdict: whether breakdown is expected at the shaft voltage, and where the margin is below 1."""
-        found, why = self._uncertainty_or_reason
-        chance = None if found is None else found.chance
+        uncertainty, why = self._uncertainty_or_reason
+        chance = None if uncertainty is None else uncertainty.chance
         verdict = bearing_verdict(self.solution, self.margin_analysis, chance, unknown=why)
         cycle = None if self.duty is None else self.duty.statement
         return verdict if cycle is None else replace(verdict, reasons=(*verdict.reasons, cycle))
@@ -241,10 +241,10 @@ class BearingResult(Shown):
         for key, value in summary_of(self.solution).items():
             if key == "mechanics":
                 speed = {"capacitive_speed": self.capacitive_speed}
-                found = analysis.summary()
+                table = analysis.summary()
                 if probable and self._uncertainty_or_reason[1]:
-                    found["left_out"].append(without_spread(self._uncertainty_or_reason[1]))
-                summary["margin"] = plain({"level": verdict.level, **found, **speed})
+                    table["left_out"].append(without_spread(self._uncertainty_or_reason[1]))
+                summary["margin"] = plain({"level": verdict.level, **table, **speed})
                 summary["uncertainty"] = None if uncertainty is None else plain(uncertainty.summary())
             summary[key] = value
             if key == "warning_codes":
@@ -295,7 +295,7 @@ class BearingResult(Shown):
         if capacitance_is_bound(self.solution):
             capacitance = BEARING_KEYS["bearing.capacitance"].with_sign(capacitance)
         breaks = None if voltage is None else f"{readable(voltage, 4)} V"
-        if breaks and (self.case.bearing.bounding or "partial-film" in {one.code for one in self.warnings}):
+        if breaks and (self.case.bearing.bounding or "partial-film" in {at.code for at in self.warnings}):
             breaks = BEARING_KEYS["bearing.first_break"].with_sign(breaks)
         return (
             self.case.bearing.name or self.case.bearing.kind,

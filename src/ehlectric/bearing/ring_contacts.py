@@ -116,28 +116,28 @@ class RingContacts(Generic[G_co]):
         return "inner" if self.inner else "outer"
 
     @property
-    def _own(self) -> RingConditions:
+    def _conditions(self) -> RingConditions:
         return self.conditions.inner if self.inner else self.conditions.outer
 
     @property
     def oil(self) -> Oil:
         """Oil in the contacts, at the temperature of the ring."""
-        return self._own.oil
+        return self._conditions.oil
 
     @property
     def discharge(self) -> Discharge:
         """Dielectric strength and conductivity in the contacts, at the temperature of the ring."""
-        return self._own.discharge
+        return self._conditions.discharge
 
     @property
     def film_factor(self) -> Numbers:
         """Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1."""
-        return self._own.film_factor
+        return self._conditions.film_factor
 
     @property
     def supply_factor(self) -> Numbers:
         """Part of the film factor by the supply of oil, dimensionless; 1 where it is not known."""
-        return 1.0 if self._own.supply_factor is None else self._own.supply_factor
+        return 1.0 if self._conditions.supply_factor is None else self._conditions.supply_factor
 
     @read_only_property
     def radii(self) -> ContactRadii:
@@ -603,18 +603,18 @@ def solve(contact: Contact, solver: Solver) -> ContactSolution:
     conditions = contact.conditions_on(grid)
     discharge = ring.discharge.model_copy(update={"length": contact.length})
     result = solve_contact(conditions, ring.oil, grid=grid, solver=solver, discharge=discharge)
-    film, found = result.film, result.discharge
-    assert found is not None
-    breakdown = found.breakdown_voltage
+    film, assessment = result.film, result.discharge
+    assert assessment is not None
+    breakdown = assessment.breakdown_voltage
     return solution_of(
         contact,
         (film.minimum_thickness, film.central_thickness),
         contact.around(film.axes, film.thickness),
-        inside=contact.length * found.capacitance,
-        plate=contact.length * found.capacitance_plate,
+        inside=contact.length * assessment.capacitance,
+        plate=contact.length * assessment.capacitance_plate,
         strength_per_volt=result.field.max_strength / result.field.voltage,
         breakdown_voltage=np.inf if breakdown is None else breakdown,
-        hertz=contact.length * found.capacitance_hertz,
+        hertz=contact.length * assessment.capacitance_hertz,
         error=film.discretisation_error,
         converged=result.converged,
         warnings=without_regime(result.warnings),
@@ -800,10 +800,10 @@ class ContactCurve(Values):
         """
         names, finite, between = self._law
         load = np.clip(load, np.asarray(self.least_load)[..., np.newaxis], self.loads[..., -1:])
-        found = np.ascontiguousarray(np.exp(between(np.log(load))))
+        rows = np.ascontiguousarray(np.exp(between(np.log(load))))
         if not finite.all():
-            found = np.where(finite[..., np.newaxis], found, np.inf)
-        values = dict(zip(names, found, strict=True))
+            rows = np.where(finite[..., np.newaxis], rows, np.inf)
+        values = dict(zip(names, rows, strict=True))
         for name, (base, exponent) in self.follows.items():
             at, last = (load, self.loads) if base == "load" else (values[base], getattr(self.values, base))
             factor = getattr(self.values, name)[..., -1:]
@@ -918,4 +918,6 @@ class _Heavy:
     heavy: Mask
 
     def __call__(self) -> tuple[tuple[ResultWarning, ...], ...]:
-        return tuple(one for one, heavy in zip(self.warnings_of(), self.heavy, strict=True) if heavy)
+        return tuple(
+            warnings for warnings, heavy in zip(self.warnings_of(), self.heavy, strict=True) if heavy
+        )

@@ -90,7 +90,7 @@ def save(
         if impedance.mean is not None:
             columns += [impedance.mean.magnitude.tolist(), impedance.mean.phase.tolist()]
             units |= {"mean_magnitude": "ohm", "mean_phase_degrees": "deg"}
-        heads = [column_head(*one) for one in units.items()]
+        heads = [column_head(*column) for column in units.items()]
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
     if result.duty is not None:
         contents |= result.duty.contents()

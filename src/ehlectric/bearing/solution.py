@@ -335,7 +335,7 @@ class BearingSolution(Values):
     def circuits(self, fill: Numbers | str | None = None) -> tuple[Circuit, ...]:
         """Circuit at each position, with "oil" or "air" around the films; by default ``fill`` of the case."""
         if fill is None:
-            return self._own_circuits
+            return self._circuits_of_case
         return tuple(position.circuit(fill, self.summits) for position in self.positions)
 
     @property
@@ -344,7 +344,7 @@ class BearingSolution(Values):
         return self.case.bearing.summit_height * self.case.bearing.composite_rq
 
     @read_only_property
-    def _own_circuits(self) -> tuple[Circuit, ...]:
+    def _circuits_of_case(self) -> tuple[Circuit, ...]:
         """Circuits with ``fill`` of the case, which most numbers of a bearing need."""
         return self.circuits(self.case.bearing.fill)
 
@@ -499,15 +499,15 @@ def film_error(solution: BearingSolution) -> Numbers:
     if solution.case.contacts == "formula":
         return formula_factor(solution.case.bearing.kind) - 1.0
     counted = [curve.counted for curve in solution.curves]
-    own_of = counted if solution.case.contacts == "atlas" else solution.curves
-    own, between = (
+    sources = counted if solution.case.contacts == "atlas" else solution.curves
+    of_films, between = (
         np.maximum(*map(np.asarray, errors))
         for errors in (
-            (curve.largest_error for curve in own_of),
+            (curve.largest_error for curve in sources),
             (curve.interpolation_error for curve in counted),
         )
     )
-    return as_float(np.minimum(1.0, own + between))
+    return as_float(np.minimum(1.0, of_films + between))
 
 
 def error_text(solution: BearingSolution) -> str:

@@ -95,10 +95,10 @@ def _quick_curves(
     def curve(number: int, ring: RingContacts[Any]) -> ContactCurve:
         loads, used = loads_to_solve(prepared, ring, quick=True, coarse=detail != "whole")
         contact = replace(kind_of(ring).contact(ring, np.moveaxis(loads, -1, 0)), coarse=detail != "whole")
-        found = QUICK_METHODS[case.contacts](contact)
+        quick = QUICK_METHODS[case.contacts](contact)
         progress(number, len(prepared.rings), f"contacts with the {ring.name} ring")
-        unknown = np.full(found.inside.shape, np.nan)
-        return quick_curve(found, used, (unknown, unknown) if detail == "films" else None)
+        unknown = np.full(quick.inside.shape, np.nan)
+        return quick_curve(quick, used, (unknown, unknown) if detail == "films" else None)
 
     # The outer ring comes first, so that its contacts are refused before those of the inner ring.
     outer = curve(1, prepared.rings[1])
@@ -110,8 +110,8 @@ def _solved_curves(
 ) -> tuple[ContactCurve, ContactCurve]:
     """Curves of the contacts with both rings, from solved films and fields."""
     tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
-    found = _solved([*tasks[0], *tasks[1]], progress, workers)
-    return ContactCurve.of(found[: len(tasks[0])]), ContactCurve.of(found[len(tasks[0]) :])
+    solved = _solved([*tasks[0], *tasks[1]], progress, workers)
+    return ContactCurve.of(solved[: len(tasks[0])]), ContactCurve.of(solved[len(tasks[0]) :])
 
 
 def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]) -> list[Callable[[], Any]]:
@@ -128,7 +128,8 @@ def _positions(prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCur
     )
     shape = None if weibull is None else weibull.shape
     tracks = prepared.conditions.geometry.tracks
-    return tuple(Position(*one, shape, tracks) for one in zip(prepared.equilibria, inner, outer, strict=True))
+    positions = zip(prepared.equilibria, inner, outer, strict=True)
+    return tuple(Position(*position, shape, tracks) for position in positions)
 
 
 def _states(
@@ -136,7 +137,7 @@ def _states(
 ) -> Iterator[RingState]:
     """Contacts of all elements with a ring at each equilibrium, computed together."""
     loads = [at.ring(inner=ring.inner) for at in equilibria]
-    load, gap = (np.concatenate([getattr(one, name) for one in loads], axis=-1) for name in ("load", "gap"))
+    load, gap = (np.concatenate([getattr(at, name) for at in loads], axis=-1) for name in ("load", "gap"))
     tracks = ring.conditions.geometry.tracks
     room = np.concatenate([_room(at, tracks, inner=ring.inner) for at in equilibria], axis=-1)
     whole, number = ring_state(ring, curve, load=load, gap=gap, room=room), len(equilibria)
@@ -156,12 +157,12 @@ def _room(at: Equilibrium, tracks: int, *, inner: bool) -> Array:
     A free element has the room of its gaps with both rings. If an element with several tracks is pressed in
     one of them, it cannot move, and has the own gap in the others.
     """
-    own, other = at.ring(inner=inner).gap, at.ring(inner=not inner).gap
+    gap, opposite = at.ring(inner=inner).gap, at.ring(inner=not inner).gap
     if tracks == 1:
-        return own + other
+        return gap + opposite
     load = at.inner_load.reshape(*at.inner_load.shape[:-1], tracks, -1)
     held = np.concatenate([np.sum(load, axis=-2)] * tracks, axis=-1)
-    return np.asarray(own + other / (1.0 + held / (_HELD * np.max(load, axis=(-2, -1))[..., np.newaxis])))
+    return np.asarray(gap + opposite / (1.0 + held / (_HELD * np.max(load, axis=(-2, -1))[..., np.newaxis])))
 
 
 def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int) -> list[Any]:

@@ -44,7 +44,7 @@ _BEND, _CLOSEST = 3e-3, 5e-4
 
 
 def over_speed(
-    case: BearingCase, count: int | None = None, *, own_ratio: float | None = None
+    case: BearingCase, count: int | None = None, *, ratio_of_case: float | None = None
 ) -> tuple[list[Speed], list[ResultWarning]]:
     """Compute the numbers of a bearing at speeds around the speed of its case, with contacts from the atlas.
 
@@ -58,8 +58,8 @@ def over_speed(
     count : int, optional
         Number of speeds in a geometric series. By default, the speeds of ``PARTS`` are computed, and further
         speeds between them, until every curve is within 0.3 % of straight lines between its logarithms.
-    own_ratio : float, optional
-        Lambda ratio of the bearing at its own speed, dimensionless, to which the films are scaled.
+    ratio_of_case : float, optional
+        Lambda ratio of the bearing at the speed of the case, dimensionless, to which the films are scaled.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def over_speed(
         left_out.append(ResultWarning.of("speed-left-out", "incomplete", reason=refused))
     if changed is None:
         return [], left_out
-    scaled = changed if own_ratio is None else _with_ratio(changed, own_ratio)
+    scaled = changed if ratio_of_case is None else _with_ratio(changed, ratio_of_case)
     if count is None:
         speeds, several = over_parts(scaled)
     else:
@@ -108,11 +108,11 @@ def over_speed(
     return sorted(points.items()), left_out
 
 
-def _with_ratio(case: BearingCase, own_ratio: float) -> BearingCase:
+def _with_ratio(case: BearingCase, ratio_of_case: float) -> BearingCase:
     """Case with a given lambda ratio at its own speed; unchanged without a result at this speed."""
     _, several = over_parts(case)
     ratio = several.columns(lambda at: (lambda_ratio(at),), 1)[0, AT_CASE]
-    return with_films_scaled(case, own_ratio / ratio) if ratio > 0.0 else case
+    return with_films_scaled(case, ratio_of_case / ratio) if ratio > 0.0 else case
 
 
 def _points(case: BearingCase, several: Several) -> list[Speed]:
@@ -132,9 +132,9 @@ def _add_bends(points: dict[float, dict[str, Any]], solved: Callable[[Array], li
 
     def logs(log: Array) -> Array:
         """Logarithms of the values at logarithms of speeds, shape (n,) -> (k, n)."""
-        found = dict(solved(np.exp(log)))
-        points.update(found)
-        return log_of(_columns([found.get(speed) for speed in np.exp(log).tolist()]))
+        computed = dict(solved(np.exp(log)))
+        points.update(computed)
+        return log_of(_columns([computed.get(speed) for speed in np.exp(log).tolist()]))
 
     speeds = sorted(points)
     known = log_of(_columns([points[speed] for speed in speeds]))
@@ -207,7 +207,7 @@ class Curves:
         return nodes, np.asarray(self.at(key, nodes))
 
 
-def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
+def curves_of(points: Speeds, at_case: Speed | None = None) -> Curves:
     """Curves through the values at several speeds, scaled to the values of the bearing itself.
 
     Films that are not solved may be some per cent off. Their change with speed is more accurate, so each
@@ -221,10 +221,10 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     height = ordered[0][1]["inputs"]["bearing"].get("summit_height", 0.0) if ordered else 0.0
     columns = dict(zip(_KEYS, _columns([summary for _, summary in ordered]), strict=True))
     plain = Curves(speed, columns, dict.fromkeys(_KEYS, 1.0), summit_height=height)
-    if own is None:
+    if at_case is None:
         return plain
-    factors = {key: _factor(plain, key, own) for key in _KEYS}
-    analysis = own[1].get("margin") or {}
+    factors = {key: _factor(plain, key, at_case) for key in _KEYS}
+    analysis = at_case[1].get("margin") or {}
     critical, touching = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
     values = {key: factors[key] * plain[key] for key in _KEYS}
     return Curves(speed, values, factors, critical, touching, height)
@@ -232,16 +232,16 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
 
 def scaled_curves(case: BearingCase, summary: Mapping[str, Any]) -> Curves | None:
     """Curves of a bearing over its speed, scaled to its ``summary``; None if no other speed has a result."""
-    points, _ = over_speed(case, own_ratio=summary["bearing"]["lambda_ratio"])
+    points, _ = over_speed(case, ratio_of_case=summary["bearing"]["lambda_ratio"])
     return curves_of(points, (case.bearing.inner_speed, dict(summary))) if len(points) > 1 else None
 
 
-def listed(points: Speeds, own: float) -> list[Speed]:
+def listed(points: Speeds, middle: float) -> list[Speed]:
     """Points for a table: all of a few, else the points at ``PARTS`` times the own speed [rad/s]."""
     if len(points) < _FEW:
         return list(points)
     parts = np.log(PARTS)
-    return [point for point in points if np.min(np.abs(np.log(point[0] / own) - parts)) < _CLOSEST / 4.0]
+    return [point for point in points if np.min(np.abs(np.log(point[0] / middle) - parts)) < _CLOSEST / 4.0]
 
 
 def value_of(summary: Mapping[str, Any], key: str) -> Any:
@@ -255,11 +255,11 @@ def is_coated(points: Speeds) -> bool:
     return any(summary["bearing"].get("coating_capacitance") is not None for _, summary in points)
 
 
-def _factor(curves: Curves, key: str, own: Speed) -> float:
+def _factor(curves: Curves, key: str, at_case: Speed) -> float:
     """Ratio of a value of the bearing itself to the curve at its speed; 1 where one of them is missing."""
-    value = value_of(own[1], key)
-    inside = curves.speed[0] <= own[0] <= curves.speed[-1]
-    ratio = value / float(curves.at(key, own[0])) if value is not None and inside else 1.0
+    value = value_of(at_case[1], key)
+    inside = curves.speed[0] <= at_case[0] <= curves.speed[-1]
+    ratio = value / float(curves.at(key, at_case[0])) if value is not None and inside else 1.0
     return ratio if np.isfinite(ratio) else 1.0
 
 
@@ -315,10 +315,10 @@ def opening_speed_of(curves: Curves) -> float | None:
     return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
 
 
-def nearly_equal(one: Array, other: Array) -> bool:
+def nearly_equal(values: Array, others: Array) -> bool:
     """Whether two curves differ by less than a per cent wherever both are known."""
-    known = np.isfinite(one) & np.isfinite(other)
-    return bool(np.all(np.abs(other[known] - one[known]) < 0.01 * one[known]))
+    known = np.isfinite(values) & np.isfinite(others)
+    return bool(np.all(np.abs(others[known] - values[known]) < 0.01 * values[known]))
 
 
 def breaks_anywhere(points: Speeds) -> bool:

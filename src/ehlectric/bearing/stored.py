@@ -115,7 +115,7 @@ def layout_of(solution: BearingSolution, duty: DutyResult | None = None) -> Layo
             "contact_angle": [ring.angle for ring in rings],
             "entrainment_speed": [ring.speed for ring in rings],
             "warnings": json.dumps(
-                [[texts_and_codes(one.warnings) for one in curve.solutions] for curve in solution.curves]
+                [[texts_and_codes(at.warnings) for at in curve.solutions] for curve in solution.curves]
             ),
         },
     )
@@ -151,8 +151,8 @@ def _equilibrium_variables(equilibria: list[Equilibrium]) -> dict[str, Any]:
     ]
     for name in _equilibrium_names(type(equilibria[0])):
         values = np.array([table[name] for table in tables])
-        one = ("element",) if values.shape[1:] == (elements,) else ("slice",)
-        dims = {0: (), 1: one}.get(values.ndim - 1, ("element", "slice"))
+        single = ("element",) if values.shape[1:] == (elements,) else ("slice",)
+        dims = {0: (), 1: single}.get(values.ndim - 1, ("element", "slice"))
         variables[f"equilibrium_{name}"] = (("cage_position", *dims), values)
     return variables
 
@@ -217,9 +217,11 @@ def _curve_of(values: Mapping[str, Array], ring: int, warnings: list[Any]) -> Co
     return ContactCurve.of(
         tuple(
             ContactSolution(
-                **numbers.read(values, k), values=ContactValues(**quantities.read(values, k)), warnings=own
+                **numbers.read(values, k),
+                values=ContactValues(**quantities.read(values, k)),
+                warnings=texts,
             )
-            for k, own in enumerate(warnings)
+            for k, texts in enumerate(warnings)
         )
     )
 
@@ -229,16 +231,16 @@ def _state_of(values: Mapping[str, Array], *at: int) -> RingState:
 
 
 def _equilibrium_of(values: Mapping[str, Array], kind: type[Equilibrium], position: int) -> Equilibrium:
-    found: dict[str, Any] = {}
+    inputs: dict[str, Any] = {}
     for name in _equilibrium_names(kind):
         variable = f"equilibrium_{name}"
         if variable in values:
             value = values[variable][position]
         else:
             value = np.zeros(values["equilibrium_inner_load"].shape[1:] if name in _ANGLES else ())
-        found[name] = value.item() if value.ndim == 0 else value
-    speeds = {each.name: found.pop(f"speeds_{each.name}") for each in fields(Speeds)}
-    return kind(**found, speeds=Speeds(**speeds))
+        inputs[name] = value.item() if value.ndim == 0 else value
+    speeds = {each.name: inputs.pop(f"speeds_{each.name}") for each in fields(Speeds)}
+    return kind(**inputs, speeds=Speeds(**speeds))
 
 
 def _heated(
@@ -254,7 +256,7 @@ def _heated(
         pairs = {entry.name: np.array(_pair(attributes, entry.name, entry.rule)) for entry in entries}
         frictions = [ContactFriction(**_FRICTIONS.read(pairs, k)) for k in range(len(RINGS))]
     solved = zip(conditions.rings, factors, frictions, strict=True)
-    inner, outer = (own.heated(factor, friction) for own, factor, friction in solved)
+    inner, outer = (ring.heated(factor, friction) for ring, factor, friction in solved)
     return replace(conditions, inner=inner, outer=outer)
 
 

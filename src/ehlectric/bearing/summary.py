@@ -99,10 +99,10 @@ def tables_of(solution: BearingSolution, duty: BearingDuty | None = None) -> dic
 def _of_rings(conditions: BearingConditions[Any]) -> dict[str, Numbers]:
     """Temperatures [K], viscosities [Pa s] and film factors of the oil in the contacts with both rings."""
     values = {}
-    for name, own in zip(("inner", "outer"), conditions.rings, strict=True):
-        values[f"{name}_temperature"] = own.temperature
-        values[f"{name}_viscosity"] = own.oil.viscosity
-        values[f"{name}_film_factor"] = own.film_factor
+    for name, ring in zip(("inner", "outer"), conditions.rings, strict=True):
+        values[f"{name}_temperature"] = ring.temperature
+        values[f"{name}_viscosity"] = ring.oil.viscosity
+        values[f"{name}_film_factor"] = ring.film_factor
     return values
 
 
@@ -111,31 +111,31 @@ def clearances_of(conditions: BearingConditions[Any]) -> dict[str, Numbers | Non
     fits = ("shaft_interference", "housing_interference", "shaft_pressure", "housing_pressure")
     clearance = conditions.clearance
     running = None if clearance is None else clearance.running
-    found = {name: getattr(running, name, None) for name in fits}
+    clearances = {name: getattr(running, name, None) for name in fits}
     return {
         "unmounted_clearance": None if clearance is None else clearance.unmounted,
         "mounted_clearance": None if clearance is None else clearance.mounted.clearance,
         "running_clearance": conditions.geometry.clearance,
-        **{f"running_{name}" if name.endswith("interference") else name: found[name] for name in fits},
+        **{f"running_{name}" if name.endswith("interference") else name: clearances[name] for name in fits},
     }
 
 
 def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     """Capacitances, voltages and error estimates of the whole bearing."""
-    own, plate = capacitance(solution), plate_capacitance(solution)
+    films, plate = capacitance(solution), plate_capacitance(solution)
     strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
     leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
     errors = [curve.error for curve in solution.curves]
     stated = solution.case.contacts != "atlas" and not any(np.any(np.isnan(error)) for error in errors)
     return {
         "contacts": solution.case.contacts,
-        "capacitance": own,
+        "capacitance": films,
         "capacitance_oil": capacitance(solution, "oil"),
         "capacitance_air": capacitance(solution, "air"),
         "capacitance_plate": plate,
-        "capacitance_ratio": None if plate is None else own / plate,
+        "capacitance_ratio": None if plate is None else films / plate,
         "capacitance_rough": rough,
-        "roughness_factor": None if rough is None else rough / own,
+        "roughness_factor": None if rough is None else rough / films,
         **_outside(solution, rough),
         "lambda_ratio": lambda_ratio(solution),
         "lubrication": lubrication(solution),
@@ -230,7 +230,7 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
         ):
             values, part = ring.values, ring.part_left(solution.summits)[k]
             strength = share[k] * values.strength_per_volt[k] / part if insulates else None
-            own = part * values.breakdown_voltage[k] if insulates else None
+            of_film = part * values.breakdown_voltage[k] if insulates else None
             rows.append(
                 {
                     "element": k,
@@ -250,8 +250,8 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,
                     "max_strength": known(mul, strength, across),
-                    "breakdown_voltage": own,
-                    "bearing_breakdown_voltage": known(truediv, own, share[k]),
+                    "breakdown_voltage": of_film,
+                    "bearing_breakdown_voltage": known(truediv, of_film, share[k]),
                     "solved": bool(ring.solved[k]),
                 }
             )

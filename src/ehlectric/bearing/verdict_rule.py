@@ -210,7 +210,7 @@ def _by_ends(
     reasons: list[Statement] = []
     low, high = _widened(solution, *_stated(solution, analysis, margin))
     # Without a stated range of the strength a usual one counts.
-    strength = not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
+    strength = not any(entry.key.startswith("discharge.") for entry in solution.case.ranges or ())
     if strength:
         weakest, strongest = strength_interval(margin)
         low, high = min(low, weakest), max(high, strongest)
@@ -233,10 +233,10 @@ def _coating(solution: BearingSolution, shaft: float) -> Iterator[Statement]:
 
 def _leaks(solution: BearingSolution) -> Iterator[Statement]:
     """Statement on films that discharge through the oil within a period; none where they do not."""
-    found = shaft_leakage(solution)
-    if found is None or not any(raised(leakage_flags(solution))):
+    leakage = shaft_leakage(solution)
+    if leakage is None or not any(raised(leakage_flags(solution))):
         return
-    motor, time = solution.case.motor, found.film_time_constant
+    motor, time = solution.case.motor, leakage.film_time_constant
     frequency = None if motor is None else motor.switching_frequency
     if frequency is None:
         yield Statement.of("leaks-in-common-period", time=time)
@@ -263,9 +263,9 @@ def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float,
         return low * thin, high * thick
     margins, first = margin_with_films(solution, np.array([thin, thick])), first_margin(solution)
     assert first is not None
-    own = float(first)
-    lowest = low * thin - (own * thin - float(margins[0]))
-    return max(lowest, 0.0), high * float(margins[1]) / own
+    margin = float(first)
+    lowest = low * thin - (margin * thin - float(margins[0]))
+    return max(lowest, 0.0), high * float(margins[1]) / margin
 
 
 def _at_times(solution: BearingSolution) -> Iterator[Statement]:
@@ -361,7 +361,7 @@ def _bound(solution: BearingSolution) -> Bound:
 def _assumptions(solution: BearingSolution) -> tuple[Statement, ...]:
     """Clauses on the assumptions behind the breakdown voltage."""
     case = solution.case
-    stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
+    stated = {entry.key: (entry.low, entry.high) for entry in case.ranges or ()}
     clause = strength_clause(case.discharge, stated.get("discharge.dielectric_strength"))
     rough: tuple[Statement, ...] = ()
     if not {"bearing.composite_rq", "bearing.composite_ra"} & stated.keys():

@@ -134,9 +134,9 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     yield conductivity_flag(solution)
     yield from supply_flags(solution)
     base, follows = library_viscosity(case.lubricant), viscosity_over_temperature(case.lubricant) is not None
-    own = base is None or np.isnan(base)
+    is_typed = base is None or np.isnan(base)
     yield Flag.of(
-        np.logical_not(own),
+        np.logical_not(is_typed),
         "viscosity-of-base",
         viscosity=known(mul, 1e3, base),
         base=case.lubricant.base,
@@ -144,7 +144,7 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
     )
     given = [f"bearing.{key}" for key in case.bearing.temperatures()]
     yield Flag.of(
-        np.logical_and(own, not follows),
+        np.logical_and(is_typed, not follows),
         "temperature-unused",
         "bearing",
         temperatures=" and ".join(given),
@@ -154,7 +154,9 @@ def film_flags(solution: BearingSolution) -> Iterator[Flag]:
         for key, temperature in case.bearing.temperatures().items():
             # The viscosity is extrapolated far.
             celsius = CELSIUS.of(temperature)
-            yield Flag.of(np.logical_and(own, celsius < _COLD), "temperature-low", key=key, celsius=celsius)
+            yield Flag.of(
+                np.logical_and(is_typed, celsius < _COLD), "temperature-low", key=key, celsius=celsius
+            )
     yield from fit_flags(solution.conditions.clearance)
     geometry = solution.conditions.geometry
     if not geometry.follows_films:
@@ -376,7 +378,7 @@ def edge_flags(solution: BearingSolution) -> Iterator[Flag]:
         groove = groove_ratio(bearing, inner=k == 0) * bearing.element_diameter
         rings = [position.rings[k] for position in positions]
         angles = [position.equilibrium.ring(inner=k == 0).angle - bottom for position in positions]
-        ends = np.stack([_end(*one, groove) for one in zip(rings, angles, strict=True)], axis=-2)
+        ends = np.stack([_end(*pair, groove) for pair in zip(rings, angles, strict=True)], axis=-2)
         loads = np.stack([ring.load for ring in rings], axis=-2)
         over = np.where(ends > np.asarray(shoulder)[..., np.newaxis, np.newaxis], loads, 0.0)
         yield Flag.of(

@@ -375,7 +375,7 @@ def figure(result: BearingResult, name: str) -> Figure:
     drawings = bearing_figures_of(result)
     (name,) = in_formats([name])
     if name in SPEED_FIGURES:
-        points, _ = over_speed(result.case, own_ratio=_own_ratio(result))
+        points, _ = over_speed(result.case, ratio_of_case=_lambda_ratio(result))
         return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
     voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
@@ -440,7 +440,7 @@ def save_over_speed(
     Returns ``files``, files written; none where its quick contacts have no speed; ``left_out``, speeds that
     are left out, and why.
     """
-    points, left_out = over_speed(result.case, own_ratio=_own_ratio(result))
+    points, left_out = over_speed(result.case, ratio_of_case=_lambda_ratio(result))
     if not points:
         return [], left_out
     own = _own_speed(result)
@@ -459,7 +459,7 @@ def _own_speed(result: BearingResult) -> Speed:
     return result.case.bearing.inner_speed, result.summary()
 
 
-def _own_ratio(result: BearingResult) -> float:
+def _lambda_ratio(result: BearingResult) -> float:
     """Lambda ratio of a bearing at its own speed, to which films at other speeds are scaled."""
     return float(lambda_ratio(result.solution))
 

@@ -375,7 +375,7 @@ def answer_of(
         warnings += result.uncertainty.warnings
     figures = _figures(result, summary) if result.converged else {}
     if whole and result.converged:
-        points, left_out = over_speed(result.case, own_ratio=summary["bearing"]["lambda_ratio"])
+        points, left_out = over_speed(result.case, ratio_of_case=summary["bearing"]["lambda_ratio"])
         warnings += tuple(left_out)
         at_case = (result.case.bearing.inner_speed, summary)
         bound = capacitance_is_bound(result.solution)

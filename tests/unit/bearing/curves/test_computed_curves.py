@@ -112,7 +112,7 @@ def test_films_at_other_speeds_are_scaled_to_the_films_of_the_bearing():
     """Films 10 % thicker than in the atlas: voltages begin at the speed at which thicker films part."""
     case = balls()
     ratio = float(lambda_ratio(solution_of(case)))
-    points, _ = over_speed(case, own_ratio=1.1 * ratio)
+    points, _ = over_speed(case, ratio_of_case=1.1 * ratio)
     curves = curves_of(points)
     thicker = case.replace({"bearing.composite_rq": case.bearing.composite_rq / 1.1})
     expected = curves_of(over_speed(thicker)[0])

@@ -406,4 +406,4 @@ def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
         patched.delattr("ehlectric.bearing.margin.quick_solution")
         found = [margins.at(one) for one in changes]
     assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
-    assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)
+    assert found[1].lambda_ratio == pytest.approx(0.5 * margins.solved.lambda_ratio, rel=1e-12)

@@ -95,7 +95,7 @@ def test_the_strength_alone_has_an_even_distribution(usual):
     low, high = 12e6, 30e6
     solution, margins = analysed(bearing(ranges=narrow | {STRENGTH: [low, high]}))
     found = uncertainty_of(solution, margins)
-    own = margins.own.margin / 15e6
+    own = margins.solved.margin / 15e6
     # The films have a stated error of some per cent beside it.
     assert found.median == pytest.approx(own * 0.5 * (low + high), rel=0.02)
     ends = own * (low + 0.05 * (high - low)), own * (low + 0.95 * (high - low))
