@@ -168,16 +168,16 @@ class Deflection:
             matrix += np.where(y > 0, self.influence[along, y[:, np.newaxis] + y], 0.0)
         return matrix
 
-    def beside(self, steps: tuple[int, ...]) -> Array:
+    def shifted(self, steps: tuple[int, ...]) -> Array:
         """Influence coefficients along a line of nodes beside those of a pressure. Returns deflection at the
         node a step behind node i by the pressure of node j, over j - i from 1 - nx to nx - 1,
         shape (n steps, 2 nx - 1); beyond the grid it is that of its largest distance.
         """
-        if steps not in self._beside:
+        if steps not in self._shifted:
             nx = len(self.influence)
             apart = np.abs(np.arange(1 - nx, nx) - np.array(steps)[:, np.newaxis])
-            self._beside[steps] = self.influence[np.minimum(apart, nx - 1), 0]
-        return self._beside[steps]
+            self._shifted[steps] = self.influence[np.minimum(apart, nx - 1), 0]
+        return self._shifted[steps]
 
     @cached_property
     def _single(self) -> Array:
@@ -185,7 +185,7 @@ class Deflection:
         return self.spectrum.astype(np.float32)
 
     @cached_property
-    def _beside(self) -> dict[tuple[int, ...], Array]:
+    def _shifted(self) -> dict[tuple[int, ...], Array]:
         """Coefficients of ``beside`` by their steps."""
         return {}
 

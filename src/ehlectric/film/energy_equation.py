@@ -189,9 +189,9 @@ class Mixing:
         # The differences shrink from iterate to iterate: they are compared by direction.
         lengths = np.maximum(np.linalg.norm(differences, axis=1), 1e-300)
         products = differences @ differences.T / np.outer(lengths, lengths)
-        wanted = differences @ (self._weights * change) / lengths
+        target = differences @ (self._weights * change) / lengths
         # Nearly dependent differences are left out: they would combine far iterates with large factors.
-        factors = np.linalg.lstsq(products, wanted, rcond=_DEPENDENT)[0] / lengths
+        factors = np.linalg.lstsq(products, target, rcond=_DEPENDENT)[0] / lengths
         following = np.array(image)
         for factor, other in zip(factors, self._images[:-1], strict=True):
             following -= factor * (image - other)
@@ -340,11 +340,11 @@ class _Convection:
         mass = stream.mass
         forward, back = _parts(mass * stream.u / stream.dx)
         # The columns upstream of the first one have the inlet temperature, and the flow of the first column.
-        one = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
-        two = np.concatenate([one[:, :1], one[:, :-1]], axis=1)
+        upstream = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
+        upstream_2 = np.concatenate([upstream[:, :1], upstream[:, :-1]], axis=1)
         ahead = np.concatenate([back[:, 1:], np.zeros_like(back[:, :1])], axis=1)
-        divergence = 1.5 * forward - 2.0 * one + 0.5 * two + back - ahead
-        divergence[:, -1] = (1.5 * forward - 2.0 * one + 0.5 * two)[:, -1]
+        divergence = 1.5 * forward - 2.0 * upstream + 0.5 * upstream_2 + back - ahead
+        divergence[:, -1] = (1.5 * forward - 2.0 * upstream + 0.5 * upstream_2)[:, -1]
         left = right = np.zeros_like(forward)
         if stream.dy:
             upward, down = _parts(mass * stream.v / stream.dy)
@@ -352,7 +352,7 @@ class _Convection:
             left = np.concatenate([first, upward[..., :-1]], axis=2)
             right = np.concatenate([down[..., 1:], down[..., -1:]], axis=2)
             divergence += upward - left + down - right
-        return cls((2.0 * one, -0.5 * two, ahead, left, right), divergence)
+        return cls((2.0 * upstream, -0.5 * upstream_2, ahead, left, right), divergence)
 
 
 def _parts(flow: Array) -> tuple[Array, Array]:
@@ -567,9 +567,9 @@ class _March:
             before = [s.rise_behind(q[:start]) for s, q in zip(surfaces, last.flux, strict=True)]
             rest[:start] += np.stack(before, axis=-1)
             right[:start, :, :: nz - 1] += rest[:start] / resistances
-            found = self.entry(right[:start], inlet_temperature)
-            columns_of[:, :start] = found.swapaxes(0, 1)
-            flux[..., :start] = ((found[..., :: nz - 1] - rest[:start]) / resistances).transpose(2, 1, 0)
+            flux_in = self.entry(right[:start], inlet_temperature)
+            columns_of[:, :start] = flux_in.swapaxes(0, 1)
+            flux[..., :start] = ((flux_in[..., :: nz - 1] - rest[:start]) / resistances).transpose(2, 1, 0)
         right[start:, :, :: nz - 1] += rest[start:] / resistances
         known = (self.inverse @ right[start:, ..., np.newaxis])[..., 0]
         known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / resistances], axis=-1)
@@ -586,10 +586,10 @@ class _March:
     @property
     def by_pressure(self) -> Array:
         """Derivative of the temperature (nz, nx, ny) by the pressure at the same node [K/Pa]."""
-        found = np.zeros_like(self.columns.right_p)
-        start = len(found) - len(self.inverse)
-        found[start:] = (self.inverse @ self.columns.right_p[start:, ..., np.newaxis])[..., 0]
-        return np.ascontiguousarray(np.moveaxis(found, -1, 0))
+        response = np.zeros_like(self.columns.right_p)
+        start = len(response) - len(self.inverse)
+        response[start:] = (self.inverse @ self.columns.right_p[start:, ..., np.newaxis])[..., 0]
+        return np.ascontiguousarray(np.moveaxis(response, -1, 0))
 
     def _from_sides(self, old: Array, inlet_temperature: float, *, symmetric: bool) -> Array | float:
         """Heat that the flow across the contact carries from the neighbouring lines of the last iterate."""
@@ -644,8 +644,8 @@ class _Entry:
         right[1] += self.columns.second[1] * inlet_temperature
         lines = right.swapaxes(0, 1)
         nz = right.shape[-1]
-        found, _ = lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
-        return np.asarray(found.reshape(lines.shape).swapaxes(0, 1))
+        temperature, _ = lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
+        return np.asarray(temperature.reshape(lines.shape).swapaxes(0, 1))
 
 
 @dataclass(frozen=True, eq=False)

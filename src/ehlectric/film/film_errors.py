@@ -275,7 +275,7 @@ def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]])
 # over H**_OF_FILM, times the ratio of the semi-axes where the contact is longer along entrainment. It is a
 # fit to the errors of benchmarks/data/reachable_errors.csv, which are those that the solver states. The
 # outlet constriction is about H**(2/3) wide.
-_AT_ONE, _OF_FILM = 0.55, 0.75
+_COARSEST, _OF_FILM = 0.55, 0.75
 
 # Expected error from which on the grid does not see the film: stated errors are then 100 % or much too small,
 # as the film is that of the grid. Stated errors below the second number are then not believed.
@@ -297,7 +297,7 @@ def expected_error(problem: FilmProblem, times: int = 1) -> float | None:
         return None
     spacing = (problem.outlet - problem.inlet) / (problem.nodes - 1) / times
     scaled = spacing * min(1.0, 1.5 * problem.geometry.load / np.pi) / problem.thickness_guess**_OF_FILM
-    change = _AT_ONE * scaled**2
+    change = _COARSEST * scaled**2
     return float(change / (1.0 + change))
 
 

@@ -125,14 +125,14 @@ class FilmSolution(Values):
 Shaped = Callable[[NDArray[Any]], NDArray[Any]]
 
 
-def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
+def stationary_film(refined: RefinedSolution, shaped: Shaped) -> FilmSolution:
     """Stationary film in SI units from the dimensionless solutions on all grids. Returns film on the finest
     grid, with residuals, Newton steps and error estimates.
     """
-    finest, scales, coarser = found.last, found.problem.scales, found.coarser
-    steps = tuple(step for solution in found.solutions for step in solution.steps)
-    inlet, load = _deficits(found)
-    x, values = _nodal(found, shaped)
+    finest, scales, coarser = refined.last, refined.problem.scales, refined.coarser
+    steps = tuple(step for solution in refined.solutions for step in solution.steps)
+    inlet, load = _deficits(refined)
+    x, values = _nodal(refined, shaped)
     touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction", None)
     return FilmSolution(
         x=scales.length * x,
@@ -143,38 +143,38 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         load_residual=abs(finest.final.load) / finest.level.load,
         residual=finest.final.norm,
         newton_iterations=sum(
-            len(each.steps) for each in found.solutions if each.level.mesh.dx == finest.level.mesh.dx
+            len(each.steps) for each in refined.solutions if each.level.mesh.dx == finest.level.mesh.dx
         ),
         steps=steps,
-        discretisation_error=found.error,
+        discretisation_error=refined.error,
         inlet_deficit=inlet,
         load_deficit=load,
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
         film_fraction=fraction,
-        mass_residual=None if found.fraction is None else mass_residual(found),
-        starvation=found.starvation if isinstance(found, StarvedSolution) else None,
+        mass_residual=None if refined.fraction is None else mass_residual(refined),
+        starvation=refined.starvation if isinstance(refined, StarvedSolution) else None,
     )
 
 
-def _deficits(found: RefinedSolution) -> tuple[float, float | None]:
+def _deficits(refined: RefinedSolution) -> tuple[float, float | None]:
     """Shares of pressure and load that the domain cuts off; the load of a starved film is not known."""
-    if isinstance(found, StarvedSolution):
-        return found.inlet_deficit, None
-    problem, level, state = found.whole_problem, found.whole.level, found.whole.state
-    mass = found.whole.final.coefficients.density * state.thickness
+    if isinstance(refined, StarvedSolution):
+        return refined.inlet_deficit, None
+    problem, level, state = refined.whole_problem, refined.whole.level, refined.whole.state
+    mass = refined.whole.final.coefficients.density * state.thickness
     upstream, load = upstream_deficits(problem.fluid, problem.geometry, level.mesh, state.pressure, mass)
     if problem.width is None:
         return upstream, load
     return pressure_deficit(problem, upstream), load_deficit(problem)
 
 
-def mass_residual(found: RefinedSolution) -> float:
+def mass_residual(refined: RefinedSolution) -> float:
     """Oil that a film makes or loses up to any position along entrainment, over the flow of its Hertz zone.
 
     The residual of the Reynolds equation is the oil that leaves a node in excess of what enters it.
     """
-    last, mesh = found.last, found.last.level.mesh
-    zone = found.problem.geometry.dry_pressure(mesh.x, mesh.y) > 0.0
+    last, mesh = refined.last, refined.last.level.mesh
+    zone = refined.problem.geometry.dry_pressure(mesh.x, mesh.y) > 0.0
     mass = last.final.coefficients.density * last.state.thickness
     width = float(np.max(np.sum(np.broadcast_to(zone, mesh.shape) * mesh.weights, axis=1))) / mesh.dx
     made = np.where(last.final.full_film, last.final.reynolds, 0.0) * mesh.weights
@@ -182,22 +182,22 @@ def mass_residual(found: RefinedSolution) -> float:
     return float(np.max(np.abs(flows)) / (np.mean(mass[np.broadcast_to(zone, mesh.shape)]) * width))
 
 
-def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:
+def _nodal(refined: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:
     """Positions X along entrainment, and nodal values of the film by the names of its attributes."""
-    scales, finest, patch = found.problem.scales, found.last, found.patch
+    scales, finest, patch = refined.problem.scales, refined.last, refined.patch
     if patch is None:
         values = _values(scales, finest, 0.0)
-        if found.fraction is not None:
-            values["film_fraction"] = found.fraction
+        if refined.fraction is not None:
+            values["film_fraction"] = refined.fraction
         return finest.level.mesh.x, {name: shaped(each) for name, each in values.items()}
     mesh = finest.level.mesh
     joined = patch.join(mesh)
     outer = patch.outer_deflection(patch.times(mesh))(mesh.x, mesh.y)
     fine = _values(scales, finest, outer)
     coarse = _values(scales, patch.coarse, 0.0)
-    if found.fraction is not None:
-        coarse["film_fraction"] = oil_fraction(patch.coarse, found.problem.wedge_order)
-        fine["film_fraction"] = found.fraction
+    if refined.fraction is not None:
+        coarse["film_fraction"] = oil_fraction(patch.coarse, refined.problem.wedge_order)
+        fine["film_fraction"] = refined.fraction
     added = patch.problem.added_gap
     if added is None:
         return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}

@@ -94,11 +94,11 @@ class RefinedSolution:
             # The roughness was raised in steps on the finest grid, so the film of the coarser grid belongs to
             # other surfaces.
             return []
-        found = [self.last]
+        coarser = [self.last]
         for solution in reversed(self.solutions):
-            if solution.level.mesh.dx > 1.1 * found[-1].level.mesh.dx:
-                found.append(solution)
-        return found[1:]
+            if solution.level.mesh.dx > 1.1 * coarser[-1].level.mesh.dx:
+                coarser.append(solution)
+        return coarser[1:]
 
 
 def refined_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
@@ -109,37 +109,37 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     after three grids in succession whose error is unknown because a film did not converge, or before the
     first grid on which no film is found that conserves its oil.
     """
-    found = RefinedSolution(problem, nested_iteration(problem, progress))
+    refined = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1
     while target is not None:
-        error, times = found.error, 2 * times
-        problem.tell(found.last.level.mesh, error)
+        error, times = refined.error, 2 * times
+        problem.tell(refined.last.level.mesh, error)
         unknown = unknown + 1 if error is None else 0
         if (error is not None and error <= target) or unknown >= UNKNOWN:
             break
         if times * (problem.nodes - 1) + 1 > problem.most_nodes:
             break
         # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
-        if found.last.touches and problem.added_gap is not None:
+        if refined.last.touches and problem.added_gap is not None:
             break
-        finer = finer_solution(found, progress)
+        finer = finer_solution(refined, progress)
         # A finer film that makes oil is worse than one that conserves it on fewer nodes.
-        if finer.makes_oil and not found.makes_oil:
+        if finer.makes_oil and not refined.makes_oil:
             break
-        found = finer
-    return found
+        refined = finer
+    return refined
 
 
-def finer_solution(found: RefinedSolution, progress: Progress | None) -> RefinedSolution:
+def finer_solution(refined: RefinedSolution, progress: Progress | None) -> RefinedSolution:
     """Solution with half of the spacings, on a patch where there is one."""
-    patch = found.patch
-    if patch is None and found.error is not None:
-        patch = Patch.around(found.problem, found.last)
+    patch = refined.patch
+    if patch is None and refined.error is not None:
+        patch = Patch.around(refined.problem, refined.last)
     if patch is None:
-        finer = found.problem.doubled()
+        finer = refined.problem.doubled()
     else:
-        finer = patch.refined(2 * patch.times(found.last.level.mesh))
-    return RefinedSolution(finer, nested_iteration(finer, progress, found.solutions), patch)
+        finer = patch.refined(2 * patch.times(refined.last.level.mesh))
+    return RefinedSolution(finer, nested_iteration(finer, progress, refined.solutions), patch)
 
 
 def _alike(solution: GridSolution, other: GridSolution) -> bool:
@@ -311,23 +311,23 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
     supply = problem.supply
     assert supply is not None
     flooded = nested_iteration(problem, progress)
-    found = starved_on_grids(_isothermal_grids(problem, flooded, 0, progress), supply)
+    starved = starved_on_grids(_isothermal_grids(problem, flooded, 0, progress), supply)
     target, doubled, unknown = problem.target_error, 0, 0
-    problem.tell(found.last.level.mesh, found.error)
-    while target is not None and (found.error is None or found.error > target):
-        doubled, unknown = doubled + 1, unknown + 1 if found.error is None else 0
+    problem.tell(starved.last.level.mesh, starved.error)
+    while target is not None and (starved.error is None or starved.error > target):
+        doubled, unknown = doubled + 1, unknown + 1 if starved.error is None else 0
         if unknown >= UNKNOWN:
             break
         if problem.width is not None and doubled > _MOST_REFINED_POINT:
             break
         finer = problem.doubled()
-        if finer.nodes > problem.most_nodes or found.last.status != "converged":
+        if finer.nodes > problem.most_nodes or starved.last.status != "converged":
             break
         problem, flooded = finer, nested_iteration(finer, progress, flooded)
-        grids = _isothermal_grids(problem, flooded, found.last.level.nodes, progress)
-        found = starved_on_grids(grids, supply, found.solutions, found.layer)
-        problem.tell(found.last.level.mesh, found.error)
-    return found
+        grids = _isothermal_grids(problem, flooded, starved.last.level.nodes, progress)
+        starved = starved_on_grids(grids, supply, starved.solutions, starved.layer)
+        problem.tell(starved.last.level.mesh, starved.error)
+    return starved
 
 
 def starved_on_grids(

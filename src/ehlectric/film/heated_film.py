@@ -253,11 +253,11 @@ class OuterIteration:
     def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.level.mesh
-        found = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
+        columns = flow.columns(self.problem.fluid, state.oil_pressure, state.thickness, mesh)
         if solution.fraction is not None:
-            return found, _beside_edges(solution.fraction, mesh)
+            return columns, _near_edges(solution.fraction, mesh)
         mass = solution.final.coefficients.density * state.thickness
-        return found, filled_part(solution.final.full_film, mass)
+        return columns, filled_part(solution.final.full_film, mass)
 
     def pressure(self, state: State) -> Array:
         """Pressure of the oil [Pa], not below ambient, shape (nx, ny)."""
@@ -324,16 +324,16 @@ class OuterIteration:
             carried = self._carrying(state, heat, filled, first_order=False)
             if carried.status == "converged":
                 return carried
-        found = self._turns(state, heat, None, spike=spike)
-        full = found.final.full_film
-        if found.status != "converged" or not forms_again(full):
-            return found
+        grid = self._turns(state, heat, None, spike=spike)
+        full = grid.final.full_film
+        if grid.status != "converged" or not forms_again(full):
+            return grid
         for first_order in (False, True):
-            again = self._carrying(found.state, found.heat, full, first_order=first_order)
+            again = self._carrying(grid.state, grid.heat, full, first_order=first_order)
             if again.status == "converged":
-                return replace(again, steps=found.steps + again.steps, loops=found.loops + again.loops)
+                return replace(again, steps=grid.steps + again.steps, loops=grid.loops + again.loops)
         # A film that makes oil is better than none, and a warning says so.
-        return found
+        return grid
 
     def _carrying(self, state: State, heat: Heat | None, filled: Mask, *, first_order: bool) -> HeatedGrid:
         """Flooded film that carries its oil through cavities, from a guess and its filled nodes (nx, ny)."""
@@ -348,8 +348,8 @@ class OuterIteration:
             return self._without_heat(state, carried, spike=spike)
         heat = self.start(thermal) if heat is None else heat
         weight = node_weight(self.level, state)
-        found = self._alternating(thermal, state, heat, carried, weight=weight, spike=spike)
-        return self._settled(found, thermal, weight)
+        grid = self._alternating(thermal, state, heat, carried, weight=weight, spike=spike)
+        return self._settled(grid, thermal, weight)
 
     def _without_heat(self, state: State, carried: Carried | None, *, spike: bool) -> HeatedGrid:
         """Film of an oil that thins under shear, at a temperature that the film does not change."""
@@ -422,19 +422,19 @@ class OuterIteration:
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(**vars(solution), iteration=self, heat=heat, law=law, loops=loop + 1)
 
-    def _settled(self, found: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
+    def _settled(self, grid: HeatedGrid, thermal: Thermal, weight: Array) -> HeatedGrid:
         """Film without upwind differences that it does not need, if its temperature stands there."""
-        assert found.heat is not None
-        full = self._closer(found, found.law, full_order=True)
-        if full is not found:
+        assert grid.heat is not None
+        full = self._closer(grid, grid.law, full_order=True)
+        if full is not grid:
             # The film has moved since its temperature was found.
-            heat = found.heat
-            new = self._heated(full, heat, found.law, self.surfaces(thermal))
+            heat = grid.heat
+            new = self._heated(full, heat, grid.law, self.surfaces(thermal))
             if new is not None and change_between(weight, heat, new, thermal) < self._allowed:
-                found = found.moved(full, new)
+                grid = grid.moved(full, new)
             else:
-                found = found.moved(self._closer(found, found.law, full_order=False), heat)
-        return found
+                grid = grid.moved(self._closer(grid, grid.law, full_order=False), heat)
+        return grid
 
     @property
     def _allowed(self) -> float:
@@ -526,7 +526,7 @@ def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:
     return mixed
 
 
-def _beside_edges(fraction: Array, mesh: Mesh) -> Array:
+def _near_edges(fraction: Array, mesh: Mesh) -> Array:
     """Part of the gap that oil fills, nowhere zero, shape (nx, ny); it is not known on the sides."""
     part = np.maximum(fraction, _LEAST_FILLED)
     if mesh.dy is not None:
@@ -556,31 +556,31 @@ def mid_film(temperature: Array) -> Array:
     return np.asarray(np.tensordot(weights, temperature, axes=1))
 
 
-def rise_error(found: list[HeatedGrid]) -> float | None:
+def rise_error(grids: list[HeatedGrid]) -> float | None:
     """Estimated error of the largest rise of the mid-film temperature.
 
     Returns sum of the errors by the grid along the film, by the polynomial across it and by properties of the
     oil beyond the range in which its laws have values [K]; None without a converged film on the next coarser
     grid, or where a solution for comparison did not converge.
     """
-    along = _along(found)
+    along = _along(grids)
     if along is None:
         return None
-    others = [_finer_across, _curved_oil] if _beyond(found[-1]) else [_finer_across]
-    parts = [_change(found[-2], other) for other in others]
+    others = [_finer_across, _curved_oil] if _beyond(grids[-1]) else [_finer_across]
+    parts = [_change(grids[-2], other) for other in others]
     known = [part for part in parts if part is not None]
     return along + sum(known) if len(known) == len(parts) else None
 
 
-def _along(found: list[HeatedGrid]) -> float | None:
+def _along(grids: list[HeatedGrid]) -> float | None:
     """Error by the grid along the film [K].
 
     At first order the error is the difference to the next coarser grid, and half of the difference between
     the two grids before. The larger one counts, as a difference of two maxima passes through zero. A peak
     that the grid hardly shows may still become the largest one.
     """
-    known = [grid for grid in found[-3:] if grid.status == "converged" and grid.heat is not None]
-    if len(known) < 2 or known[-2:] != found[-2:]:
+    known = [grid for grid in grids[-3:] if grid.status == "converged" and grid.heat is not None]
+    if len(known) < 2 or known[-2:] != grids[-2:]:
         return None
     rises = [rise for each in reversed(known) if (rise := each.largest_rise) is not None]
     changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
@@ -658,31 +658,31 @@ def heated_on_grids(
         least = _FIRST_POINT
     while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
         grids.append(grids[-1].halved())
-    found: list[HeatedGrid] = []
+    solved: list[HeatedGrid] = []
     for finer, posed in reversed(list(enumerate(grids))):
         most = _GUESS_LOOPS if every else MOST_LOOPS
         iteration = replace(
             iteration_on(posed, finer=finer, progress=progress), careful=careful, most_loops=most
         )
         if careful:
-            found.append(_careful(iteration, starts, found))
+            solved.append(_careful(iteration, starts, solved))
         else:
-            state, heat, filled = start_of(iteration, starts, found)
-            found.append(iteration(state, heat, spike=True, filled=filled))
-        if not (careful or every or found[-1].status == "converged"):
+            state, heat, filled = start_of(iteration, starts, solved)
+            solved.append(iteration(state, heat, spike=True, filled=filled))
+        if not (careful or every or solved[-1].status == "converged"):
             break
-    return found
+    return solved
 
 
 def _careful(
-    iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
+    iteration: OuterIteration, starts: Sequence[GridSolution], solved: list[HeatedGrid]
 ) -> HeatedGrid:
     """Film with heat on a grid by the first careful iteration that converges.
 
     The variant that converged on the coarser grid comes first.
     """
-    variants = _variants(iteration, held=bool(found) and found[-1].iteration.held)
-    state, heat, filled = start_of(iteration, starts, found)
+    variants = _variants(iteration, held=bool(solved) and solved[-1].iteration.held)
+    state, heat, filled = start_of(iteration, starts, solved)
     tried: list[HeatedGrid] = []
     for variant in variants:
         tried.append(variant(state, heat, spike=True, filled=filled))
@@ -723,7 +723,7 @@ def _by_slip(iteration: OuterIteration, starts: Sequence[GridSolution]) -> Heate
 
 
 def start_of(
-    iteration: OuterIteration, starts: Sequence[GridSolution], found: list[HeatedGrid]
+    iteration: OuterIteration, starts: Sequence[GridSolution], grids: list[HeatedGrid]
 ) -> tuple[State, Heat | None, Mask | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid.
 
@@ -733,11 +733,11 @@ def start_of(
     same = [solution for solution in starts if solution.level.mesh.shape == level.mesh.shape]
     simple = same[-1] if same else starts[-1]
     heat, guess = None, simple
-    if found and found[-1].status == "converged":
-        if found[-1].heat is not None:
-            heat = finer_heat(found[-1].heat, found[-1].level, level)
+    if grids and grids[-1].status == "converged":
+        if grids[-1].heat is not None:
+            heat = finer_heat(grids[-1].heat, grids[-1].level, level)
         # The spots of a film on a coarser grid are others.
-        guess = simple if same and (simple.touches or found[-1].touches) else found[-1]
+        guess = simple if same and (simple.touches or grids[-1].touches) else grids[-1]
     state = guess.state
     if guess not in same:
         state = (interpolated_state if guess.touches else open_state)(level, guess)

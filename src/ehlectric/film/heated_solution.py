@@ -127,13 +127,13 @@ def _with_shear(simple: RefinedSolution, physics: Physics) -> RefinedSolution:
         return HeatedGrid(**vars(grid), iteration=iteration, heat=None, law=law)
 
     last, patch = sheared(simple.last, simple.problem), simple.patch
-    found = replace(simple, solutions=[*simple.solutions[:-1], last])
+    refined = replace(simple, solutions=[*simple.solutions[:-1], last])
     if patch is not None:
         coarse = sheared(patch.coarse, patch.problem)
-        return replace(found, patch=replace(patch, coarse=coarse))
-    if isinstance(found, StarvedSolution) and found.flooded is simple.last:
-        return replace(found, flooded=last)
-    return found
+        return replace(refined, patch=replace(patch, coarse=coarse))
+    if isinstance(refined, StarvedSolution) and refined.flooded is simple.last:
+        return replace(refined, flooded=last)
+    return refined
 
 
 def heated_solution(
@@ -155,15 +155,15 @@ def heated_solution(
         # The first grid has the temperature, also if a flooded film is refined on a patch.
         while finest.nodes > problem.nodes:
             finest = finest.halved()
-    found = heated_on_grids(finest, starts, progress, careful=False, every=layered)
-    if not (layered or all(grid.status == "converged" for grid in found)):
+    grids = heated_on_grids(finest, starts, progress, careful=False, every=layered)
+    if not (layered or all(grid.status == "converged" for grid in grids)):
         # Very hot films take more grids and more exact loops.
-        found = heated_on_grids(finest, starts, progress, careful=True)
+        grids = heated_on_grids(finest, starts, progress, careful=True)
     if isinstance(simple, StarvedSolution):
-        return _starved(simple, finest, found, progress)
-    if simple.patch is None or found[-1].status != "converged":
-        return _until(simple, simple.whole), RefinedSolution(finest, list(found))
-    return _refined_together(simple, finest, found, progress)
+        return _starved(simple, finest, grids, progress)
+    if simple.patch is None or grids[-1].status != "converged":
+        return _until(simple, simple.whole), RefinedSolution(finest, list(grids))
+    return _refined_together(simple, finest, grids, progress)
 
 
 def is_too_fine(problem: FilmProblem, times: int) -> bool:
@@ -209,15 +209,15 @@ def _refined_together(
     ``whole``, films with heat or shear on grids over the whole domain; ``problem``, problem of the last one.
     """
     assert simple.patch is not None
-    found, patch = list(whole), replace(simple.patch, problem=problem, coarse=whole[-1])
+    grids, patch = list(whole), replace(simple.patch, problem=problem, coarse=whole[-1])
     frozen, of_temperature = _frozen(whole[-1]), _of_temperature(whole)
     refined, times = RefinedSolution(problem, list(whole)), 2
     while times <= simple.patch.times(simple.last.level.mesh):
-        grid = _on_grid(patch.refined(times), found, simple, frozen, progress)
+        grid = _on_grid(patch.refined(times), grids, simple, frozen, progress)
         if grid.status != "converged":
             break
-        found.append(grid)
-        refined = HeatedRefinement(patch.refined(times), list(found), patch, of_temperature)
+        grids.append(grid)
+        refined = HeatedRefinement(patch.refined(times), list(grids), patch, of_temperature)
         times *= 2
         small = refined.error is not None and refined.error <= (problem.target_error or 0.0)
         if times > simple.patch.times(simple.last.level.mesh) and not small:
@@ -231,7 +231,7 @@ def _refined_together(
 
 def _on_grid(
     posed: FilmProblem,
-    found: list[HeatedGrid],
+    grids: list[HeatedGrid],
     simple: RefinedSolution,
     frozen: FrozenTemperature | None,
     progress: Progress | None,
@@ -242,7 +242,7 @@ def _on_grid(
     """
     iteration = replace(iteration_on(posed, finer=0, progress=progress), frozen=frozen)
     tried: list[HeatedGrid] = []
-    for known in (found, []):
+    for known in (grids, []):
         state, _, filled = start_of(iteration, simple.solutions, known)
         tried.append(iteration(state, None, spike=False, filled=filled))
         if tried[-1].status == "converged":
@@ -256,11 +256,11 @@ def _frozen(grid: HeatedGrid) -> FrozenTemperature | None:
     return profile if isinstance(profile, FrozenTemperature) else None
 
 
-def _of_temperature(found: list[HeatedGrid]) -> float:
+def _of_temperature(grids: list[HeatedGrid]) -> float:
     """Relative change of the film on the last grid by the temperature of the next coarser one."""
-    if len(found) < 2 or found[-2].status != "converged":
+    if len(grids) < 2 or grids[-2].status != "converged":
         return 0.0
-    fine, frozen = found[-1], _frozen(found[-2])
+    fine, frozen = grids[-1], _frozen(grids[-2])
     if frozen is None:
         return 0.0
     other = replace(fine.iteration, frozen=frozen)(fine.state, None, spike=False, filled=fine.filled)
@@ -271,7 +271,7 @@ def _of_temperature(found: list[HeatedGrid]) -> float:
 
 
 def _starved(
-    simple: StarvedSolution, problem: FilmProblem, found: list[HeatedGrid], progress: Progress | None
+    simple: StarvedSolution, problem: FilmProblem, hot_grids: list[HeatedGrid], progress: Progress | None
 ) -> tuple[RefinedSolution, StarvedSolution]:
     """Starved film without and with heat or shear, on the grids of the film without.
 
@@ -280,14 +280,14 @@ def _starved(
     """
     assert problem.supply is not None
     cold = {film.level.mesh.shape: film for film in simple.solutions}
-    grids = [_with_supply(grid, cold.get(grid.level.mesh.shape)) for grid in found]
+    grids = [_with_supply(grid, cold.get(grid.level.mesh.shape)) for grid in hot_grids]
     refined = starved_on_grids(grids, problem.supply)
-    warm, flooded = refined.last, list(found)
+    warm, flooded = refined.last, list(hot_grids)
     while problem.nodes < simple.problem.nodes:
         finer = None
         if isinstance(warm, HeatedGrid) and refined.last.status == "converged":
             posed = problem.doubled()
-            flooded.append(_on_grid(posed, flooded, simple, _frozen(found[-1]), progress))
+            flooded.append(_on_grid(posed, flooded, simple, _frozen(hot_grids[-1]), progress))
             starved = _with_supply(flooded[-1], cold.get(flooded[-1].level.mesh.shape), _frozen(warm))
             finer = starved_on_grids([starved], problem.supply, refined.solutions, refined.layer)
         if finer is None or finer.last.status != "converged":
@@ -342,8 +342,8 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem, order: in
 
 def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSolution:
     """Results of the film on its finest grid, and outside of it where this is a patch."""
-    found = [grid for grid in refined.solutions if isinstance(grid, HeatedGrid)]
-    last, whole = found[-1], refined.whole
+    hot_grids = [grid for grid in refined.solutions if isinstance(grid, HeatedGrid)]
+    last, whole = hot_grids[-1], refined.whole
     assert isinstance(whole, HeatedGrid)
     problem, physics = last.iteration.problem, last.iteration.physics
     patch, scales = refined.patch, problem.scales
@@ -354,7 +354,7 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
         friction += further
     load = scales.pressure * scales.length ** (1 if problem.width is None else 2) * whole.level.load
     status, imbalance, error = last.status, None, None
-    warm = [grid for grid in found if grid.iteration.frozen is None]
+    warm = [grid for grid in hot_grids if grid.iteration.frozen is None]
     heat, iteration = warm[-1].heat, warm[-1].iteration
     if heat is not None and physics.thermal is not None:
         stream = iteration.stream(warm[-1], heat, *iteration.columns(warm[-1], warm[-1].law))
@@ -380,7 +380,7 @@ def _solution(simple: RefinedSolution, refined: RefinedSolution) -> HeatedSoluti
             slide_to_roll_ratio=physics.slide_to_roll_ratio,
         ),
         energy_imbalance=imbalance,
-        outer_iterations=sum(grid.loops for grid in found),
+        outer_iterations=sum(grid.loops for grid in hot_grids),
         status=status,
     )
 
@@ -411,7 +411,7 @@ def _nodes_and_friction(grid: HeatedGrid, load: float, part: Array | float) -> t
 
 
 def heated_result(
-    found: HeatedSolution,
+    solution: HeatedSolution,
     shaped: Callable[[NDArray[Any]], NDArray[Any]],
     *,
     status: Status,
@@ -422,18 +422,18 @@ def heated_result(
     ``central_thickness``, film thicknesses without heat and shear [m]; None if the film without them did not
     converge. Returns nodal values and totals, SI units.
     """
-    last, patch = found.refined.last, found.refined.patch
+    last, patch = solution.refined.last, solution.refined.patch
     assert isinstance(last, HeatedGrid)
-    physics, outside = last.iteration.physics, found.outside
+    physics, outside = last.iteration.physics, solution.outside
     joined = None if patch is None else patch.join(last.level.mesh)
 
     def whole(inside: Array, coarse: Array | None) -> Array:
         return shaped(inside) if joined is None or coarse is None else joined(coarse, inside)
 
-    stress = whole(found.shear_stress, None if outside is None else outside.shear_stress)
+    stress = whole(solution.shear_stress, None if outside is None else outside.shear_stress)
     middle = None if outside is None else outside.mid_temperature
     converged = status == "converged"
-    rows, bodies = found.temperature, () if physics.thermal is None else physics.thermal.bodies
+    rows, bodies = solution.temperature, () if physics.thermal is None else physics.thermal.bodies
     coarse = [None] * len(rows if rows is not None else ())
     if outside is not None and outside.temperature is not None:
         coarse = list(outside.temperature)
@@ -443,18 +443,18 @@ def heated_result(
         rheology=physics.rheology.name,
         # A slide-to-roll ratio is positive where surface 1 is the faster one.
         shear_stress=-stress,
-        traction_coefficient=(0.0 if alike else -found.traction_coefficient) if converged else None,
-        rolling_coefficient=found.rolling_coefficient if converged else None,
-        power_loss=found.power_loss if converged else None,
+        traction_coefficient=(0.0 if alike else -solution.traction_coefficient) if converged else None,
+        rolling_coefficient=solution.rolling_coefficient if converged else None,
+        power_loss=solution.power_loss if converged else None,
         isothermal_minimum_thickness=minimum_thickness,
         isothermal_central_thickness=central_thickness,
-        outer_iterations=found.outer_iterations,
-        zeta=None if rows is None else found.zeta,
+        outer_iterations=solution.outer_iterations,
+        zeta=None if rows is None else solution.zeta,
         temperature=None
         if rows is None
         else np.stack([whole(*row) for row in zip(rows, coarse, strict=True)]),
-        mid_temperature=None if found.mid_temperature is None else whole(found.mid_temperature, middle),
-        max_temperature_rise=found.max_temperature_rise,
-        temperature_rise_error=found.temperature_rise_error,
-        energy_imbalance=found.energy_imbalance,
+        mid_temperature=None if solution.mid_temperature is None else whole(solution.mid_temperature, middle),
+        max_temperature_rise=solution.max_temperature_rise,
+        temperature_rise_error=solution.temperature_rise_error,
+        energy_imbalance=solution.energy_imbalance,
     )

@@ -110,9 +110,9 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     return _solved(problem, progress, _film, lambda _: _on_line)
 
 
-def _film(found: RefinedSolution) -> Film:
+def _film(refined: RefinedSolution) -> Film:
     """Film in SI units from the dimensionless solutions on all grids."""
-    return Film.of(stationary_film(found, _on_line))
+    return Film.of(stationary_film(refined, _on_line))
 
 
 def _on_line(values: NDArray[Any]) -> NDArray[Any]:
@@ -272,18 +272,18 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     return _solved(problem, progress, partial(_point_film, problem), lambda mesh: mesh.mirrored)
 
 
-def _point_film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
+def _point_film(problem: FilmProblem, refined: RefinedSolution) -> PointFilm:
     """Film in SI units from the dimensionless solutions on all grids."""
-    whole, patch = found.whole, found.patch
+    whole, patch = refined.whole, refined.patch
     mesh = whole.level.mesh
-    y = mesh.whole_y if patch is None else patch.join(found.last.level.mesh).y
+    y = mesh.whole_y if patch is None else patch.join(refined.last.level.mesh).y
     return PointFilm.of(
-        stationary_film(found, mesh.mirrored),
+        stationary_film(refined, mesh.mirrored),
         y=problem.scales.length * y,
         semi_axis_y=semi_axis_across(problem),
         load_exponent=problem.load_exponent,
-        side_deficit=found.side_deficit
-        if isinstance(found, StarvedSolution)
+        side_deficit=refined.side_deficit
+        if isinstance(refined, StarvedSolution)
         else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
     )
 
@@ -310,12 +310,12 @@ def _solved(
     with quiet_solution():
         if problem.physics is None:
             return film_of(film_method(problem)(problem, progress))
-        found = solve_heated_film(problem, progress)
-        simple, film = film_of(found.simple), film_of(found.refined)
-        status = found.status if film.converged else film.status
+        outcome = solve_heated_film(problem, progress)
+        simple, film = film_of(outcome.simple), film_of(outcome.refined)
+        status = outcome.status if film.converged else film.status
         heated = heated_result(
-            found,
-            shape_on(found.refined.last.level.mesh),
+            outcome,
+            shape_on(outcome.refined.last.level.mesh),
             status=status,
             minimum_thickness=simple.minimum_thickness if simple.converged else None,
             central_thickness=simple.central_thickness if simple.converged else None,

@@ -116,8 +116,8 @@ class MovingHeat:
         body, surface = self.thermal.bodies[number], self.surfaces[number]
         flux = self.stationary.flux[number]
         effusivity = np.sqrt(np.pi * body.density * body.heat_capacity * body.thermal_conductivity)
-        own = 2.0 * np.sqrt(step) / effusivity
-        known = surface.bulk + surface.rise(flux) - own * flux
+        response = 2.0 * np.sqrt(step) / effusivity
+        known = surface.bulk + surface.rise(flux) - response * flux
         ends = before.times
         weights = 2.0 * (np.sqrt(now - ends[:-1]) - np.sqrt(now - ends[1:])) / effusivity
         speed = self.iteration.physics.speeds[number]
@@ -127,7 +127,7 @@ class MovingHeat:
             known = known + weight * shifted(excess, float(way))
         nodes = flux.shape[0]
         downstream = np.zeros(nodes)
-        downstream[0] = own
+        downstream[0] = response
         return Surface(known, downstream, np.zeros(nodes))
 
     def _stream(self, solution: GridSolution, heat: Heat, filled: Array) -> Stream:

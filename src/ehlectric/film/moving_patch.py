@@ -47,25 +47,25 @@ class MovingFilm:
         """Stationary film on the whole domain before the motion. Raises ConvergenceError if it does not
         converge.
         """
-        return self._found[0]
+        return self._steady_and_layer[0]
 
     @property
     def layer(self) -> Array | None:
         """Thickness H of the layer of oil at the inlet edge (ny,); None where the inlet is flooded."""
-        return self._found[1]
+        return self._steady_and_layer[1]
 
     @cached_property
-    def _found(self) -> tuple[GridSolution, Array | None]:
+    def _steady_and_layer(self) -> tuple[GridSolution, Array | None]:
         """Stationary film, and its layer of oil where it is starved."""
         problem, layer = replace(self.problem, target_error=None), None
         with quiet_solution():
             if problem.physics is not None:
-                found = heated_solution(problem, None, order=problem.wedge_order)[1]
+                refined = heated_solution(problem, None, order=problem.wedge_order)[1]
             else:
-                found = film_method(problem)(problem, None)
-        steady = found.last
-        if isinstance(found, StarvedSolution) and found.starved:
-            layer = found.layer
+                refined = film_method(problem)(problem, None)
+        steady = refined.last
+        if isinstance(refined, StarvedSolution) and refined.starved:
+            layer = refined.layer
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")
         return steady, layer

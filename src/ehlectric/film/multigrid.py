@@ -43,7 +43,7 @@ class LineRelaxation:
     full_film: Mask  # nodes whose pressure changes, shape (nx, ny)
     distributed: Mask  # nodes whose unknown is distributed over several nodes, shape (nx, ny)
     # Offsets of the other nodes over which an unknown is distributed, each with its part.
-    beside: Distribution
+    neighbours: Distribution
     half_band: int  # number of nodes on each side whose influence is kept
     # For each of the two sets of lines: the lines, and the LU factors and pivots of the transpose of their
     # common band matrix.
@@ -67,7 +67,7 @@ class LineRelaxation:
             factorised = lapack.sgbtrf if rows.dtype == np.float32 else lapack.dgbtrf
             lu, pivots, _ = factorised(part, band, band, overwrite_ab=1)
             factors.append((lines, lu, pivots))
-        return cls(stencils[0], full_film, distributed, _beside(gap.level), band, tuple(factors))
+        return cls(stencils[0], full_film, distributed, _neighbours(gap.level), band, tuple(factors))
 
     def __call__(self, r: Array) -> Array:
         """Change dP (nx, ny) that solves (band of the Jacobian) dP = r at the full-film nodes.
@@ -84,7 +84,7 @@ class LineRelaxation:
             unknown = solution.reshape(-1, r.shape[0]).T
             dp[:, lines] = unknown
             shared = np.where(self.distributed[:, lines], unknown, 0.0)
-            for offset, share in self.beside:
+            for offset, share in self.neighbours:
                 here, there = _shifted(offset)
                 dp[there, lines] += share * shared[here]
             dp[~self.full_film] = 0.0
@@ -116,13 +116,13 @@ def distributed_nodes(level: Level, poiseuille: Array, full_film: Mask) -> Mask:
     with a full film.
     """
     distributed = full_film & (poiseuille < level.rate)
-    for offset, _ in _beside(level):
+    for offset, _ in _neighbours(level):
         here, there = _shifted(offset)
         distributed[here] &= full_film[there]
     return distributed
 
 
-def _beside(level: Level) -> Distribution:
+def _neighbours(level: Level) -> Distribution:
     """Offsets of the other nodes over which an unknown is distributed, each with its part."""
     return tuple(part for part in level.distribution if part[0])
 
@@ -157,7 +157,7 @@ def _rows(gap: Gap, stencils: tuple[Stencil, Stencil], distributed: Mask, band: 
     padded[:, band:-band] = distributed.T
     kept[...] = sum(
         share * nodal[..., inner.start + offset : inner.stop + offset or None]
-        for offset, share in _beside(gap.level)
+        for offset, share in _neighbours(gap.level)
     )
     kept *= sliding_window_view(padded, 2 * band + 1, axis=1)
     kept += nodal[..., inner]
@@ -329,7 +329,7 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
     it whose rows begin one distance further left from row to row.
     """
     n, nodes = len(matrix) - 1, gap.level.nodes
-    kernel = gap.level.deflection.beside(_STEPS)[:, nodes - n : nodes + n - 1]
+    kernel = gap.level.deflection.shifted(_STEPS)[:, nodes - n : nodes + n - 1]
     over_distance = (by_h.coefficients[:ALONG, part, 0].T @ kernel).reshape(-1)
     if n == 1:
         matrix[0, 0] = over_distance[0]

@@ -68,9 +68,9 @@ def nested_iteration(
     solutions = list(known)
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
-        found = _full_film(problem, levels, coarse, progress)
-        best = found[-1] if found else None
-        solutions.extend(found)
+        grids = _full_film(problem, levels, coarse, progress)
+        best = grids[-1] if grids else None
+        solutions.extend(grids)
         if problem.boundary_film > 0.0 and (best is None or _is_pierced(problem, best)):
             solutions.extend(_mixed(problem, levels, coarse, best, progress))
     return solutions
@@ -86,42 +86,42 @@ def _full_film(
     """
     # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
     rough = problem.added_gap is not None and problem.boundary_film > 0.0
-    found: list[GridSolution] = []
+    grids: list[GridSolution] = []
     apart = coarse is not None and not coarse.touches
     if coarse is not None and apart and coarse.fraction is not None:
         filled = filled_on(levels[0].mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
         start = open_state(levels[0], coarse), filled
-        found.append(_conserving(problem, levels, start, progress))
-        if found[-1].status == "converged":
-            if forms_again(found[-1].final.full_film):
-                return found
+        grids.append(_conserving(problem, levels, start, progress))
+        if grids[-1].status == "converged":
+            if forms_again(grids[-1].final.full_film):
+                return grids
             # A second converged solution on this grid would be taken for one of other surfaces.
-            found = []
+            grids = []
     best = None
     if coarse is not None and apart:
         best = _from_coarser(problem, levels, coarse, progress)
     # A solution that nearly converged does not start again.
     if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
         *warm_up, restarted = _from_hertz(problem, levels, progress, rough=rough)
-        found.extend(warm_up)
+        grids.extend(warm_up)
         if rough and restarted.status == "diverged" and not warm_up:
-            return [*found, restarted]
+            return [*grids, restarted]
         attempts = [restarted] if best is None else [restarted, best]
         *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
-        found.extend(others)
+        grids.extend(others)
     if best is None:
-        return found
-    found.append(best)
+        return grids
+    grids.append(best)
     missed = best.status != "converged" and problem.added_gap is not None
     if missed or (best.status == "converged" and forms_again(best.final.full_film)):
         start = best.state, best.final.full_film
         times = 1 if missed else _CONSERVING
-        found = _in_place_of(found, _conserving(problem, levels, start, progress, times=times))
-        if missed and found[-1].status == "converged" and not forms_again(found[-1].final.full_film):
+        grids = _replaced(grids, _conserving(problem, levels, start, progress, times=times))
+        if missed and grids[-1].status == "converged" and not forms_again(grids[-1].final.full_film):
             # Nothing forms again, so that the film of the other scheme is close.
-            other = _newton_on(problem, levels, progress, spike=True)(found[-1].state)
-            found = _in_place_of(found, other)
-    return found
+            other = _newton_on(problem, levels, progress, spike=True)(grids[-1].state)
+            grids = _replaced(grids, other)
+    return grids
 
 
 def _conserving(
@@ -174,16 +174,16 @@ def _mixed(
     # A film whose surfaces touch needs all grids.
     posed = replace(posed, levels=levels)
     conserving = Conserving(posed, problem.wedge_order)
-    found: list[GridSolution] = []
+    grids: list[GridSolution] = []
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
         filled = filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
-        found.append(conserving.near(near, filled))
-        if found[-1].status == "converged":
-            return found
+        grids.append(conserving.near(near, filled))
+        if grids[-1].status == "converged":
+            return grids
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
     if not np.any(dry):
         # The dry contact lies between two nodes of this grid.
-        return found
+        return grids
     counted_full = touching_films(
         posed,
         dry,
@@ -191,25 +191,25 @@ def _mixed(
         near=near,
         thorough=finest,
     )
-    found.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
-    full = found[-1]
+    grids.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
+    full = grids[-1]
     if full.status != "converged" or not forms_again(full.final.full_film):
-        return found
+        return grids
     *others, best = conserving.from_full(full, thorough=finest)
     if best.status == "converged":
-        return _in_place_of([*others, *found], best)
+        return _replaced([*others, *grids], best)
     # A film that makes oil is better than none, and a warning says so.
-    return [*others, best, *found]
+    return [*others, best, *grids]
 
 
-def _in_place_of(found: list[GridSolution], better: GridSolution) -> list[GridSolution]:
+def _replaced(grids: list[GridSolution], better: GridSolution) -> list[GridSolution]:
     """Solutions on one grid with a better one that takes the place of the last one.
 
     Of two converged solutions on a grid the first would be taken for one of other surfaces.
     """
-    if better.status != "converged" or found[-1].status != "converged":
-        return [*found, better]
-    return [*found[:-1], replace(better, steps=found[-1].steps + better.steps)]
+    if better.status != "converged" or grids[-1].status != "converged":
+        return [*grids, better]
+    return [*grids[:-1], replace(better, steps=grids[-1].steps + better.steps)]
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
@@ -381,9 +381,9 @@ def halved(values: Array) -> Array:
     product = before * after
     alike = product > 0.0
     slopes[1:-1] = np.divide(2.0 * product, before + after, out=np.zeros_like(product), where=alike)
-    for end, near, next_one in ((0, rises[0], rises[1]), (-1, rises[-1], rises[-2])):
-        slope = 1.5 * near - 0.5 * next_one
-        slope = np.where((near * next_one < 0.0) & (np.abs(slope) > 3.0 * np.abs(near)), 3.0 * near, slope)
+    for end, near, far in ((0, rises[0], rises[1]), (-1, rises[-1], rises[-2])):
+        slope = 1.5 * near - 0.5 * far
+        slope = np.where((near * far < 0.0) & (np.abs(slope) > 3.0 * np.abs(near)), 3.0 * near, slope)
         slopes[end] = np.where(slope * near > 0.0, slope, 0.0)
     fine = np.empty((2 * len(values) - 1, *values.shape[1:]))
     fine[::2] = values

@@ -25,7 +25,7 @@ from ehlectric.film.problem import FilmProblem
 # Distances of the patch's edges from the dry contact, in semi-axes along entrainment: ahead of it, behind it
 # and beside it; and the same in lengths sqrt(2 H) over which the pressure of a thick film builds up.
 AHEAD, _AHEAD_THICK = 0.7, 1.0
-_BEHIND, _BESIDE = (0.3, 0.5), (0.5, 1.0)
+_BEHIND, _ACROSS = (0.3, 0.5), (0.5, 1.0)
 
 # Largest part of the domain that a patch may cover. A larger one saves too little.
 _LARGEST = 0.6
@@ -132,13 +132,13 @@ class Patch:
         """Grid of the whole domain with the nodes of a fine mesh inside the patch."""
         coarse, (first, last) = self.coarse.level.mesh, self.rows
         side = self.ends[2]
-        beside = coarse.whole_y[coarse.whole_y >= side - 1e-9]
+        outside = coarse.whole_y[coarse.whole_y >= side - 1e-9]
         return Joined(
             coarse=coarse,
             fine=fine,
             x=np.concatenate([coarse.x[: first + 1], fine.x[1:-1], coarse.x[last:]]),
-            y=np.concatenate([-beside[::-1], fine.whole_y[1:-1], beside]),
-            first=(first + 1, beside.size),
+            y=np.concatenate([-outside[::-1], fine.whole_y[1:-1], outside]),
+            first=(first + 1, outside.size),
         )
 
 
@@ -179,10 +179,10 @@ def edges(problem: FilmProblem, thickness: float, *, ahead: float = AHEAD) -> tu
     """Edges of the patch around a film with a central thickness H: X of inlet and outlet, and largest Y."""
     length = np.sqrt(2.0 * max(thickness, 0.0))
     ratio = 1.5 * problem.geometry.load / np.pi
-    before, behind, beside = (
-        max(least, part * length) for least, part in ((ahead, _AHEAD_THICK), _BEHIND, _BESIDE)
+    before, behind, across = (
+        max(least, part * length) for least, part in ((ahead, _AHEAD_THICK), _BEHIND, _ACROSS)
     )
-    return -1.0 - before, 1.0 + behind, ratio + beside * max(1.0, ratio)
+    return -1.0 - before, 1.0 + behind, ratio + across * max(1.0, ratio)
 
 
 def part_of_domain(problem: FilmProblem, thickness: float) -> float:

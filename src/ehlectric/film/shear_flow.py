@@ -104,7 +104,7 @@ def flux_of(
     for part, quadrature in ((small, Quadrature.gauss(few)), (~small, Quadrature.gauss())):
         if not part.any():
             continue
-        found = _at_points(
+        piece = _at_points(
             rheology,
             mean[part],
             gradient[:, part],
@@ -112,10 +112,10 @@ def flux_of(
             None if ratio is None or layers is None else (ratio[:, part], layers[:, part]),
             quadrature,
         )
-        flux[part], by_gradient[:, part], by_slip[:, part] = found.flux, found.by_gradient, found.by_slip
-        by_viscosity[:, part] = found.by_viscosity
+        flux[part], by_gradient[:, part], by_slip[:, part] = piece.flux, piece.by_gradient, piece.by_slip
+        by_viscosity[:, part] = piece.by_viscosity
         if profile is not None:
-            by_weight[:, part] = found.by_weight
+            by_weight[:, part] = piece.by_weight
     return Flux(
         flux.reshape(shape),
         by_gradient.reshape(d, *shape),
@@ -143,15 +143,15 @@ def _at_points(
         values, below = to_points(len(profile[0]) - 1, quadrature.offset.size)
         fluidity, weight = mean * np.exp(-values @ profile[0]), below @ profile[1]
     if rheology.law.even:
-        found = even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+        flux = even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
     elif len(gradient) == 2:
-        found = plane_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+        flux = plane_flux(rheology, fluidity, weight, gradient, slip, quadrature)
     else:
-        found = column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
-    if profile is None or found.by_weight is None:
-        return found
-    by_ratio, by_layers = values.T @ found.by_viscosity, below.T @ found.by_weight
-    return replace(found, by_viscosity=by_ratio, by_weight=by_layers)
+        flux = column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
+    if profile is None or flux.by_weight is None:
+        return flux
+    by_ratio, by_layers = values.T @ flux.by_viscosity, below.T @ flux.by_weight
+    return replace(flux, by_viscosity=by_ratio, by_weight=by_layers)
 
 
 # Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
@@ -253,11 +253,11 @@ class ShearedFlow:
         spacing: float,
         slip: float,
         fluid: Fluid,
-        beside: Array | None,
+        lateral: Array | None,
         *,
         across: bool = False,
     ) -> FaceFlow:
-        """Flow along the first axis; ``beside`` is the gradient of P along the other axis at the nodes."""
+        """Flow along the first axis; ``lateral`` is the gradient of P along the other axis at the nodes."""
         k, properties = nodes.uniform, nodes.profile
         mean, by_before, by_after = logarithmic_mean(k.log_viscosity, k.fluidity)
         gap = _mean(nodes.thickness)
@@ -266,30 +266,30 @@ class ShearedFlow:
         scale, scale_p = self._scale(np.maximum(_mean(nodes.pressure), lowest))
         gradient = (gap / spacing * difference / scale)[np.newaxis]
         sliding = (slip / (gap * scale))[np.newaxis]
-        if beside is not None:
+        if lateral is not None:
             # The derivatives by the gradient along the other axis are left out of the Jacobian, as they reach
             # nodes outside its stencil. They are products of both gradients; Newton's method takes a few more
             # steps without them.
-            gradient = np.concatenate([gradient, (gap * _mean(beside) / scale)[np.newaxis]])
+            gradient = np.concatenate([gradient, (gap * _mean(lateral) / scale)[np.newaxis]])
             still = np.zeros_like(sliding)
             sliding = np.concatenate([still, sliding] if across else [sliding, still])
         profile = None if properties is None else (_mean(properties.log_ratio), _mean(properties.density))
-        found = flux_of(self.rheology, mean, gradient, sliding, profile)
+        faces = flux_of(self.rheology, mean, gradient, sliding, profile)
 
         size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
-        of_scale = found.flux - np.sum(gradient * found.by_gradient + sliding * found.by_slip, axis=0)
-        of_gap = 2.0 * found.flux + np.sum(gradient * found.by_gradient - sliding * found.by_slip, axis=0)
+        of_scale = faces.flux - np.sum(gradient * faces.by_gradient + sliding * faces.by_slip, axis=0)
+        of_gap = 2.0 * faces.flux + np.sum(gradient * faces.by_gradient - sliding * faces.by_slip, axis=0)
         by_scale = 0.5 * size * of_scale * np.where(_mean(nodes.pressure) > lowest, scale_p, 0.0)
         amount = size * scale
         mass = _mean(k.density) if properties is None else 1.0
         half_gap = 0.5 * amount * mass * of_gap / gap
-        before, after = nodes.by_properties(found, by_before / mean, by_after / mean)
+        before, after = nodes.by_properties(faces, by_before / mean, by_after / mean)
         drift: Array | float = 0.0
         if profile is not None and not across:
             drift = -gap * drift_of(*profile, self.slide_to_roll_ratio) / spacing
         return FaceFlow(
-            flux=amount * mass * found.flux,
-            conductance=size * mass * found.by_gradient[0] * gap / spacing,
+            flux=amount * mass * faces.flux,
+            conductance=size * mass * faces.by_gradient[0] * gap / spacing,
             by_properties=Sides(amount * before + mass * by_scale, amount * after + mass * by_scale),
             by_gap=Sides(half_gap, half_gap),
             drift=drift,
@@ -357,21 +357,20 @@ class _Nodes:
             profile = Properties(*(turn(values) for values in vars(profile).values()))
         return _Nodes(uniform, profile, turn(self.thickness), turn(self.pressure))
 
-    def by_properties(self, found: Flux, before: Array, after: Array) -> tuple[Array, Array]:
+    def by_properties(self, flux: Flux, before: Array, after: Array) -> tuple[Array, Array]:
         """Derivatives of the mass flux by P of both nodes through viscosity and density.
 
         ``before`` and ``after`` are the derivatives of ln of the mean fluidity by ln eta of both nodes.
         """
-        of_all, k, profile = -np.sum(found.by_viscosity, axis=0), self.uniform, self.profile
+        of_all, k, profile = -np.sum(flux.by_viscosity, axis=0), self.uniform, self.profile
         sides = []
         for side, log_mean in ((slice(None, -1), before), (slice(1, None), after)):
             uniform = of_all * log_mean * k.log_viscosity_p[side]
-            if profile is None or found.by_weight is None:
-                sides.append(_mean(k.density) * uniform + 0.5 * found.flux * k.density_p[side])
+            if profile is None or flux.by_weight is None:
+                sides.append(_mean(k.density) * uniform + 0.5 * flux.flux * k.density_p[side])
                 continue
             varying = (
-                found.by_viscosity * profile.log_ratio_p[:, side]
-                + found.by_weight * profile.density_p[:, side]
+                flux.by_viscosity * profile.log_ratio_p[:, side] + flux.by_weight * profile.density_p[:, side]
             )
             sides.append(uniform + 0.5 * np.sum(varying, axis=0))
         return sides[0], sides[1]

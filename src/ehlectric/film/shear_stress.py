@@ -132,9 +132,9 @@ def _by_newton(law: ShearLaw, constants: Constants, weights: Array, shape: Array
     reach = np.max(np.abs(shape), axis=0)
     factor, slope = law.factor(shape**2, constants)
     unit = np.sum(weights * (factor + 2.0 * slope * shape**2), axis=0)
-    wanted, _ = law.stress(slip / unit, constants)
+    target, _ = law.stress(slip / unit, constants)
     low, high = -reach, law.stress(slip / total, constants)[0] + reach
-    t = np.clip(wanted, low, high)
+    t = np.clip(target, low, high)
     before = np.full_like(t, np.inf)
     for _ in range(_MOST_STEPS):
         stress = t + shape
@@ -143,7 +143,7 @@ def _by_newton(law: ShearLaw, constants: Constants, weights: Array, shape: Array
         rate_t = np.sum(weights * (factor + 2.0 * slope * stress**2), axis=0)
         x = rate / unit
         reached, by_rate = law.stress(np.abs(x), constants)
-        difference = np.sign(x) * reached - wanted
+        difference = np.sign(x) * reached - target
         low, high = np.where(difference < 0.0, t, low), np.where(difference > 0.0, t, high)
         following = t - difference * unit / (by_rate * rate_t)
         # A step that leaves the bracket, or follows one that gained less than half, is replaced by bisection.
@@ -328,16 +328,16 @@ def middle_stresses(
     gradient, slip = gradient.reshape(2, -1), slip.reshape(2, -1)
     fluidity = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (len(fluidity), slip.shape[1]))
     state = _Iteration.start(rheology, fluidity, gradient, slip, quadrature)
-    found = state.trial.copy()
+    stress = state.trial.copy()
     left = np.arange(slip.shape[1])
     for _ in range(_MOST_PLANE_STEPS):
         state = state.stepped(rheology)
-        found[:, left] = state.trial
+        stress[:, left] = state.trial
         moving = _size(state.step) > _EXACT_PLANE * (1.0 + _size(state.middle))
         if not moving.any():
             break
         left, state = left[moving], state.only(moving)
-    return found.reshape(2, *columns)
+    return stress.reshape(2, *columns)
 
 
 @dataclass(frozen=True)
@@ -350,7 +350,7 @@ class _Iteration:
     shape: Array
     # unit and wanted: unit of the rate, and the stress of the slip without a gradient, shapes (n,).
     unit: Array
-    wanted: Array
+    target: Array
     # middle, trial and step: best stress so far, the one to try next, and their difference, shape (2, n).
     middle: Array
     trial: Array
@@ -367,16 +367,16 @@ class _Iteration:
         squared = np.sum(shape**2, axis=0)
         factor, slope = rheology.law.factor(squared, rheology.constants)
         unit = np.sum(weights * (factor + 2.0 * slope * squared), axis=0)
-        wanted, _ = _as_stress(rheology.law, rheology.constants, slip / unit)
+        target, _ = _as_stress(rheology.law, rheology.constants, slip / unit)
         before = np.full(unit.shape, np.inf)
-        return cls(weights, shape, unit, wanted, wanted, wanted, np.zeros_like(wanted), before)
+        return cls(weights, shape, unit, target, target, target, np.zeros_like(target), before)
 
     def stepped(self, rheology: Rheology) -> _Iteration:
         """State after one step; a step that does not reduce the difference to the slip is halved."""
         law, constants = rheology.law, rheology.constants
         rate, by_t = _rates(law, constants, self.weights, self.shape + self.trial[:, np.newaxis])
         reached, undo = _as_stress(law, constants, rate / self.unit)
-        difference = reached - self.wanted
+        difference = reached - self.target
         size = _size(difference)
         better = size < self.before
         following = -self.unit * _solved(by_t, _times(undo, difference))
@@ -423,9 +423,9 @@ def _as_stress(law: ShearLaw, constants: Constants, rate: Array) -> tuple[Array,
     size = np.maximum(_size(rate), _TINY)
     stress, by_size = law.stress(size, constants)
     x, y = rate / size
-    along, beside = 1.0 / by_size, size / stress
-    difference = along - beside
-    inverse = np.stack([beside + difference * x**2, difference * x * y, beside + difference * y**2])
+    along, across = 1.0 / by_size, size / stress
+    difference = along - across
+    inverse = np.stack([across + difference * x**2, difference * x * y, across + difference * y**2])
     return stress / size * rate, inverse
 
 
@@ -448,8 +448,8 @@ def _solved(matrix: Array, vector: Array) -> Array:
     first, second = np.where(swapped, y, x), np.where(swapped, x, y)
     part = xy / large
     other = (second - part * first) / np.maximum(small - part * xy, _TINY)
-    one = first / large - part * other
-    return np.stack([np.where(swapped, other, one), np.where(swapped, one, other)])
+    reduced = first / large - part * other
+    return np.stack([np.where(swapped, other, reduced), np.where(swapped, reduced, other)])
 
 
 def plane_flux(

@@ -61,11 +61,11 @@ def conserving_film(problem: GridProblem, start: tuple[State, Mask], order: int)
     state, filled = start
     guess = Guess(replace(state, contact_pressure=0.0), with_inlet(filled))
     apart, supply = replace(problem, asperities=Asperities()), flooded_inlet(problem.level, order)
-    found = isothermal(apart)(guess, supply)
-    if found.status == "converged":
-        return found
+    film = isothermal(apart)(guess, supply)
+    if film.status == "converged":
+        return film
     damped = isothermal(apart, first_damping=_FIRST_DAMPING)(guess, supply)
-    return damped if damped.status == "converged" else found
+    return damped if damped.status == "converged" else film
 
 
 def flooded_inlet(level: Level, order: int, *, first_order: bool = False) -> Supply:
@@ -108,25 +108,25 @@ _FALL, _LEAST_FALL = 0.6, 0.97
 _MOST_STEPS = 40
 
 
-def _of_full_order(problem: GridProblem, found: GridSolution, supply: Supply) -> GridSolution:
+def _of_full_order(problem: GridProblem, film: GridSolution, supply: Supply) -> GridSolution:
     """Solution whose nodes have no upwind difference that it does not need, and whose oil balances closely.
 
     Nodes that went round in circles got such a difference. A residual that is small as a pressure may be much
     oil where the gap is wide. The film is solved again under a supply without such differences, to a smaller
     residual first; where both miss their tolerance, the solution stays.
     """
-    if found.status != "converged" or found.content is None:
-        return found
+    if film.status != "converged" or film.content is None:
+        return film
     for closer in (_CLOSER * problem.tolerance, problem.tolerance):
         posed = replace(problem, max_iterations=_AGAIN, tolerance=closer)
-        carried = Carried(supply, found.content.filled)
-        again = touching_newton(posed, found.state, first_damping=0.0, carried=carried)
+        carried = Carried(supply, film.content.filled)
+        again = touching_newton(posed, film.state, first_damping=0.0, carried=carried)
         if again.status == "converged":
-            return replace(again, steps=found.steps + again.steps)
+            return replace(again, steps=film.steps + again.steps)
         if min(again.final.norm, *(step.residual for step in again.steps)) > problem.tolerance:
             # The steps to the larger residual are the same.
             break
-    return found
+    return film
 
 
 # Film on one grid from an initial guess and a supply of oil.
@@ -142,14 +142,14 @@ def isothermal(
     """
 
     def film(guess: Guess, supply: Supply) -> GridSolution:
-        found = touching_newton(
+        of_first_order = touching_newton(
             posed,
             guess.state,
             first_damping=first_damping,
             carried=Carried(supply, guess.filled),
             min_iterations=min_iterations,
         )
-        return _of_full_order(posed, found, supply.of_full_order) if full_order else found
+        return _of_full_order(posed, of_first_order, supply.of_full_order) if full_order else of_first_order
 
     return film
 
@@ -356,7 +356,7 @@ def film_of_ratio(
     layer = first_layer(ratio, wide) * starved.flooded_mass / ambient
     if last is not None:
         layer = float(last[0])
-    found: list[tuple[float, float]] = []
+    tried: list[tuple[float, float]] = []
     best: tuple[float, Array, GridSolution] | None = None
     for _ in range(_MOST_FILMS):
         here = layer * lines
@@ -368,10 +368,10 @@ def film_of_ratio(
             best = abs(missed), here, film
         if abs(missed) < _CLOSE:
             break
-        found.append((float(np.log(layer)), missed))
+        tried.append((float(np.log(layer)), missed))
         assert film.content is not None
         near = Guess(film.state, film.content.filled, film)
-        layer = float(np.exp(_next(found)))
+        layer = float(np.exp(_next(tried)))
     return (here, film) if best is None else best[1:]
 
 
@@ -401,12 +401,12 @@ def first_layer(ratio: float, width: float | None) -> float:
     return float((ratio**-exponent - 1.0) ** (-1.0 / exponent))
 
 
-def _next(found: list[tuple[float, float]]) -> float:
+def _next(tried: list[tuple[float, float]]) -> float:
     """Logarithm of the next layer, from those of the last layers and what their films miss."""
-    at, missed = found[-1]
+    at, missed = tried[-1]
     slope = 1.0
-    if len(found) > 1:
-        before, before_missed = found[-2]
+    if len(tried) > 1:
+        before, before_missed = tried[-2]
         slope = min(1.0, max(0.05, (missed - before_missed) / (at - before))) if at != before else 1.0
     most = float(np.log(_MOST_FACTOR))
     return at - min(most, max(-most, missed / slope))

@@ -440,14 +440,14 @@ def touching_newton(
     steps: list[NewtonStep] = []
     now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory(_MOST_CHANGES)
     before, damping, near = np.inf, first_damping, _NEAR
-    best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
+    best, best_step = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
-    while len(steps) < min(problem.max_iterations, found + _PATIENCE):
+    while len(steps) < min(problem.max_iterations, best_step + _PATIENCE):
         if len(steps) >= min_iterations and is_solved(now, tolerance):
             break
         problem.report(steps, now.norm)
         if now.norm < 0.5 * best:
-            best, found = now.norm, len(steps)
+            best, best_step = now.norm, len(steps)
         close = linear_tolerance(now.norm, before, 0.0)
         before = now.norm
         step = newton_step(fluid, problem.levels, state, now, asperities, close, damping)

@@ -74,10 +74,10 @@ class Conserving:
 
         They end with the first that converges.
         """
-        yield (found := self.near(solution.state, solution.final.full_film))
-        if thorough and found.status != "converged":
-            yield (found := self._in_steps(solution))
-        if found.status != "converged" and not self.first_order:
+        yield (film := self.near(solution.state, solution.final.full_film))
+        if thorough and film.status != "converged":
+            yield (film := self._in_steps(solution))
+        if film.status != "converged" and not self.first_order:
             yield from replace(self, first_order=True).from_full(solution, thorough=thorough)
 
     def _in_steps(self, solution: GridSolution) -> GridSolution:
@@ -92,9 +92,9 @@ class Conserving:
                 tolerance=tolerance if part == 0.0 else max(tolerance, _INTERMEDIATE),
                 max_iterations=_STEPS,
             )
-            found = self._solved(posed, last.state, last.final.full_film, 0.0)
-            if found.status == "converged":
-                left, step, last = part, _LONGER * step, found
+            film = self._solved(posed, last.state, last.final.full_film, 0.0)
+            if film.status == "converged":
+                left, step, last = part, _LONGER * step, film
             else:
                 step *= _SHORTER
         return replace(last, status="converged" if left == 0.0 else "stalled", level=level)
@@ -246,8 +246,8 @@ def touching_films(
         if problem.level.mesh.y.size > 1:
             close.insert(0, relieved(problem.level, near, boundary_film))
         for start in close:
-            yield (found := touching_newton(problem, start, first_damping=NEAR_DAMPING))
-            if found.status == "converged":
+            yield (film := touching_newton(problem, start, first_damping=NEAR_DAMPING))
+            if film.status == "converged":
                 return
         if not thorough:
             return
@@ -255,8 +255,8 @@ def touching_films(
     dry = dry_contact(problem.level, dry_pressure, boundary_film, ambient)
     starts = [replace(dry, contact_pressure=0.0), dry]
     for start in starts if film_guess > boundary_film else starts[::-1]:
-        yield (found := touching_newton(problem, start))
-        if found.status == "converged" or not thorough:
+        yield (film := touching_newton(problem, start))
+        if film.status == "converged" or not thorough:
             return
     in_time = replace(problem, max_iterations=_IN_TIME * problem.max_iterations)
     yield pseudo_transient_film(in_time, dry)

@@ -71,11 +71,11 @@ def step_levels(
     """
     mesh, (step, last) = levels[0].mesh, steps
     ratio = step / last
-    here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
+    here, old, older = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
     first = carried(masses[0], step / mesh.dx)
     second = carried(masses[1], (step + last) / mesh.dx)
     outside = mesh.x - mesh.x[0] < (step + last) - SAME_NODE * mesh.dx
-    source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
+    source = np.where(outside[:, np.newaxis], first / step, old * first + older * second)
     rates = np.where(outside, 1.0 / step, here)[:, np.newaxis]
     return _of_time_step(levels, here, rates, source, added_gap)
 
