@@ -22,16 +22,16 @@ def files_ending(*suffixes: str) -> Callable[[str], list[str]]:
             entries = sorted(Path(start or ".").iterdir())
         except OSError:
             return []
-        found = [entry for entry in entries if entry.name.startswith(begun)]
+        matching = [entry for entry in entries if entry.name.startswith(begun)]
         if not begun:
-            found = [entry for entry in found if not entry.name.startswith(".")]
-        folders = [f"{start}{entry.name}/" for entry in found if entry.is_dir()]
-        return [f"{start}{entry.name}" for entry in found if entry.suffix in suffixes] + folders
+            matching = [entry for entry in matching if not entry.name.startswith(".")]
+        folders = [f"{start}{entry.name}/" for entry in matching if entry.is_dir()]
+        return [f"{start}{entry.name}" for entry in matching if entry.suffix in suffixes] + folders
 
     return complete
 
 
-def one_of(*names: str) -> Callable[[str], list[str]]:
+def names_from(*names: str) -> Callable[[str], list[str]]:
     """Function that completes one of some names."""
     return lambda incomplete: [name for name in names if name.startswith(incomplete)]
 
@@ -83,7 +83,7 @@ def _parameter(texts: Mapping[str, Any], values: Values | None) -> typer.models.
         values = files_ending(*options.pop("files"))
     elif values is not None and not callable(values):
         options["help"] = options["help"].replace("{values}", ", ".join(values))
-        values = one_of(*values)
+        values = names_from(*values)
     made: typer.models.ParameterInfo = kind(*names, autocompletion=values, **options)
     return made
 
@@ -101,5 +101,5 @@ def figure_options(formats: Sequence[str] | None, style: str) -> Look:
     """
     from ehlectric.figures.figure_names import FORMATS, STYLES
 
-    wanted = tuple(chosen("--format", name, FORMATS) for name in formats or ("png",))
-    return Look(formats=wanted, style=chosen("--style", style, STYLES))
+    checked = tuple(chosen("--format", name, FORMATS) for name in formats or ("png",))
+    return Look(formats=checked, style=chosen("--style", style, STYLES))

@@ -62,16 +62,16 @@ def init(
         if path.exists() and not force:
             raise InputError(path, "already exists; use --force to overwrite")
         clear_left_behind(prepare(path.parent))
-        beside = None
+        schema_file = None
         if alone:
             _copy(source, path)
         else:
-            beside = _write_with_schema(source, path)
+            schema_file = _write_with_schema(source, path)
         solver = command_of_file(path)
     if not quiet:
         say(f"written: {path}")
-        if beside is not None:
-            say(f"  editors complete its keys by: {beside}")
+        if schema_file is not None:
+            say(f"  editors complete its keys by: {schema_file}")
         say(f"  check it with: ehlectric check {path}")
         say(f"  solve it with: ehlectric {solver} {path}")
 
@@ -95,8 +95,8 @@ def examples(
         typer.echo("copy all with: ehlectric examples -o DIR; one with: ehlectric examples NAME")
         return
     with user_errors():
-        wanted = [_known(name) for name in names] if names else _names()
-        files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
+        requested = [_known(name) for name in names] if names else _names()
+        files = list(dict.fromkeys(file for name in requested for file in _needed(f"{name}.toml")))
         target = output or Path()
 
         from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
@@ -197,11 +197,11 @@ def _write_with_schema(source: Path, path: Path) -> Path:
     text = source.read_text(encoding="utf-8")
     kind = kind_of_tables(tomllib.loads(text)) or "contact"
     kind = "contact" if kind == "motion" else kind
-    beside = path.parent / f"ehlectric-{kind}.schema.json"
-    refuse_special(beside)
-    write(beside, schema_text(kind).encode())
-    write(path, f"#:schema ./{beside.name}\n{text}".encode())
-    return beside
+    schema_file = path.parent / f"ehlectric-{kind}.schema.json"
+    refuse_special(schema_file)
+    write(schema_file, schema_text(kind).encode())
+    write(path, f"#:schema ./{schema_file.name}\n{text}".encode())
+    return schema_file
 
 
 def _copy(source: Path, target: Path) -> None:

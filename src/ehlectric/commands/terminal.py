@@ -220,7 +220,7 @@ def refuse_undrawn(undrawn: Sequence[Undrawn]) -> None:
     for line in lines_of(undrawn):
         say(f"error: {line}", err=True)
     if undrawn:
-        refused = all(isinstance(one.error, InputError) for one in undrawn)
+        refused = all(isinstance(figure.error, InputError) for figure in undrawn)
         raise typer.Exit(WRONG_INPUT if refused else UNDRAWN)
 
 
@@ -311,8 +311,8 @@ def in_natural_order(files: Iterable[Path]) -> list[Path]:
     """
 
     def parts(path: Path) -> list[tuple[int, str]]:
-        found = re.findall(r"(\d+)|(\D+)", path.name)
-        return [(int(number), "") if number else (-1, text) for number, text in found]
+        pieces = re.findall(r"(\d+)|(\D+)", path.name)
+        return [(int(number), "") if number else (-1, text) for number, text in pieces]
 
     return sorted(files, key=parts)
 

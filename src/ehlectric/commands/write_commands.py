@@ -78,7 +78,7 @@ def report(
     The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep.
     """
     with user_errors():
-        wanted = _wanted(output, formats)
+        endings = _report_formats(output, formats)
 
         from ehlectric.runtime.values import import_matplotlib
 
@@ -95,7 +95,7 @@ def report(
                 files = write_report(result, output, summary=summary)
             else:
                 file = stored_result(result)
-                names = [f"{'summary_page' if summary else 'report'}.{name}" for name in wanted]
+                names = [f"{'summary_page' if summary else 'report'}.{name}" for name in endings]
                 with alone_in(file.parent, names, locks=[FIGURE_LOCK]) as folder:
                     files = write_report(file, *(folder / name for name in names), summary=summary)
     if not quiet:
@@ -103,18 +103,18 @@ def report(
     refuse_undrawn(undrawn)
 
 
-def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
+def _report_formats(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
     """Formats that are wanted. Raises InputError if there is no such format, or a file is named too, whose
     ending decides.
     """
-    wanted = tuple(chosen("--format", name, _FORMATS) for name in dict.fromkeys(formats or _FORMATS))
+    endings = tuple(chosen("--format", name, _FORMATS) for name in dict.fromkeys(formats or _FORMATS))
     if output is not None and formats:
         raise InputError(
             "--format",
             "cannot be combined with --output",
             takes="one of them: the file ends in .html or .pdf",
         )
-    return wanted
+    return endings
 
 
 KINDS = ("contact", "bearing", "drive", "sweep")

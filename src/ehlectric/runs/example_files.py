@@ -50,12 +50,12 @@ def example(name: str) -> Path:
     """
     folder, name = examples_folder(), str(name)
     files = [path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.suffix != ".md"]
-    found = name if name in files else f"{name}.toml"
-    if found not in files:
+    file_name = name if name in files else f"{name}.toml"
+    if file_name not in files:
         (near,) = get_close_matches(name, [file.removesuffix(".toml") for file in files], n=1, cutoff=0.0)
         takes = f"an example or a file that one needs, as {near!r}"
         raise InputError("example", got=shown(name), takes=takes)
-    return folder / found
+    return folder / file_name
 
 
 def example_text(name: str) -> str:

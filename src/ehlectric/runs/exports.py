@@ -86,9 +86,9 @@ def _stationary(root: h5py.Group, dataset: xr.Dataset) -> None:
         group = root.create_group(name, track_order=True)
         group.attrs["Index"] = index
         group.attrs["Version"] = np.array(_VERSION)
-        own = tuple(map(str, dims))
-        _grid(group, tuple(dataset.sizes[dim] for dim in own))[:] = _points(dataset, own, height)
-        _values(group, dataset, own)
+        axes = tuple(map(str, dims))
+        _grid(group, tuple(dataset.sizes[dim] for dim in axes))[:] = _points(dataset, axes, height)
+        _values(group, dataset, axes)
         # A node of its own: VTK before 9.6 takes no names from the blocks themselves.
         assembly.create_group(name, track_order=True)[name] = h5py.SoftLink(f"/VTKHDF/{name}")
 
@@ -101,8 +101,8 @@ def _moving(root: h5py.Group, dataset: xr.Dataset) -> None:
     sizes = tuple(dataset.sizes[dim] for dim in plane)
     number = int(np.prod(sizes))
     points = _grid(root, sizes, len(times))
-    for step, one in enumerate(film):
-        points[number * step : number * (step + 1)] = _points(dataset, plane, one)
+    for step, thickness in enumerate(film):
+        points[number * step : number * (step + 1)] = _points(dataset, plane, thickness)
     steps = root.create_group("Steps", track_order=True)
     steps.attrs["NSteps"] = len(times)
     steps["Values"] = times
@@ -142,8 +142,10 @@ def _values(group: h5py.Group, dataset: xr.Dataset, dims: tuple[str, ...]) -> li
     data = group.create_group("PointData", track_order=True)
     for name, values in dataset.data_vars.items():
         if values.dims == dims and np.issubdtype(values.dtype, np.number):
-            own = data.create_dataset(str(name), data=values.values.ravel(), compression="gzip", shuffle=True)
-            own.attrs["units"] = str(values.attrs.get("units", ""))
+            array = data.create_dataset(
+                str(name), data=values.values.ravel(), compression="gzip", shuffle=True
+            )
+            array.attrs["units"] = str(values.attrs.get("units", ""))
     return list(data)
 
 
@@ -195,8 +197,8 @@ class Tabled(Protocol):
 # Longest name of a variable, and largest variable that version 5 of the format holds [bytes].
 _LONGEST, _LARGEST = 63, 2**31 - 1
 
-# Variables beside the arrays.
-_OWN = ("summary", "units", "long_names", "dims", "keys", "about")
+# Variables next to the arrays.
+_RESERVED = ("summary", "units", "long_names", "dims", "keys", "about")
 
 # Words of MATLAB that are no names.
 _WORDS = frozenset(
@@ -217,7 +219,7 @@ def mat_file(result: Tabled) -> bytes:
     from scipy.io import savemat
 
     dataset = result.to_xarray()
-    names = matlab_names([str(key) for key in dataset.variables], taken=_OWN)
+    names = matlab_names([str(key) for key in dataset.variables], taken=_RESERVED)
     about: dict[str, dict[str, str]] = {key: {} for key in ("units", "long_names", "dims", "keys")}
     arrays = {}
     for key, values in dataset.variables.items():
@@ -228,13 +230,13 @@ def mat_file(result: Tabled) -> bytes:
         about["dims"][name] = ", ".join(map(str, values.dims))
         about["keys"][name] = str(key)
     title = str(dataset.attrs.get("title", ""))
-    own = {
+    structs = {
         "summary": _value(result.summary()),
         "about": {"title": title, "source": f"ehlectric {__version__}, SI units"},
         **about,
     }
     file = BytesIO()
-    savemat(cast("Any", file), arrays | own, long_field_names=True, do_compression=True, oned_as="column")
+    savemat(cast("Any", file), arrays | structs, long_field_names=True, do_compression=True, oned_as="column")
     return file.getvalue()
 
 
@@ -246,7 +248,7 @@ def matlab_names(keys: Iterable[str], taken: Iterable[str] = ()) -> dict[str, st
     >>> list(matlab_names(["film.minimum_thickness", "0.5", "end", "a-b", "a b"]).values())
     ['film_minimum_thickness', 'x0_5', 'xEnd', 'a_b', 'a_b_2']
     """
-    found: dict[str, str] = {}
+    names: dict[str, str] = {}
     used = set(taken)
     for key in keys:
         bare = re.sub(r"[^0-9A-Za-z_]", "_", key) or "x"
@@ -259,8 +261,8 @@ def matlab_names(keys: Iterable[str], taken: Iterable[str] = ()) -> dict[str, st
             end = f"_{number}"
             name, number = bare[: _LONGEST - len(end)] + end, number + 1
         used.add(name)
-        found[key] = name
-    return found
+        names[key] = name
+    return names
 
 
 def _array(key: str, values: Any) -> Any:
@@ -339,8 +341,8 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
     (True, 'm')
     """
     path = check_target(path)
-    found = stored(result) if isinstance(result, str | Path) else result
-    write(path, WRITERS[path.suffix.lower()](found))
+    loaded = stored(result) if isinstance(result, str | Path) else result
+    write(path, WRITERS[path.suffix.lower()](loaded))
     return path
 
 

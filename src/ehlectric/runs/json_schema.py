@@ -62,13 +62,15 @@ def schema_of(kind: str) -> dict[str, Any]:
         raise InputError("kind", got=shown(kind), takes=f"one of {', '.join(SCHEMAS)}")
     model = SCHEMAS[kind]
     described: dict[str, type[Table]] = {**TABLES, **({_SWEEP: model} if kind == _SWEEP else {})}
-    models: list[type[Table]] = [*TABLES.values(), *(one for _, one in _ALIKE), model]
-    keys: list[tuple[type[Table], _Mode]] = [(one, "validation") for one in dict.fromkeys(models)]
+    models: list[type[Table]] = [*TABLES.values(), *(table_model for _, table_model in _ALIKE), model]
+    keys: list[tuple[type[Table], _Mode]] = [
+        (table_model, "validation") for table_model in dict.fromkeys(models)
+    ]
     places, whole = models_json_schema(keys, ref_template="#/definitions/{model}")
     tables = {name: _tidied(table) for name, table in whole["$defs"].items()}
     tagged: list[tuple[str, type[Table]]] = [*described.items(), *_ALIKE]
-    for name, one in tagged:
-        _describe(tables[_named(places[one, "validation"])], name, one)
+    for name, table_model in tagged:
+        _describe(tables[_named(places[table_model, "validation"])], name, table_model)
     root = _named(places[model, "validation"])
     schema = {**tables.pop(root), "definitions": tables}
     _as_written(schema, kind)
@@ -90,22 +92,22 @@ def _tidied(schema: Any) -> Any:
         return [_tidied(item) for item in schema]
     if not isinstance(schema, Mapping):
         return schema
-    found = {
+    tidied = {
         name: {key: _tidied(item) for key, item in value.items()} if name == "properties" else _tidied(value)
         for name, value in schema.items()
         if name not in _MARKS or (name == "default" and _says_something(value))
     }
-    if "anyOf" not in found:
-        return found
+    if "anyOf" not in tidied:
+        return tidied
     ways: list[Any] = []
-    for way in found.pop("anyOf"):
+    for way in tidied.pop("anyOf"):
         # Nested alternatives are alternatives of the key itself.
         plain = isinstance(way, Mapping) and set(way) <= {"anyOf", "description"}
         ways += way["anyOf"] if plain and "anyOf" in way else [way]
         if plain and "description" in way:
-            found.setdefault("description", way["description"])
+            tidied.setdefault("description", way["description"])
     ways = [way for way in ways if way != {"type": "null"}]
-    return {**found, **ways[0]} if len(ways) == 1 else {**found, "anyOf": ways}
+    return {**tidied, **ways[0]} if len(ways) == 1 else {**tidied, "anyOf": ways}
 
 
 def _says_something(default: Any) -> bool:
@@ -117,15 +119,15 @@ def _describe(table: dict[str, Any], name: str, model: type[Table]) -> None:
     """Put the descriptions of the book of inputs before what the keys take."""
     for key in descriptions(name):
         if key in table.get("properties", {}):
-            own = table["properties"][key]
-            takes = own.get("description", "")
-            if "$ref" in own:
-                # Beside a reference, draft 7 reads nothing else.
-                inner = {"$ref": own.pop("$ref")}
+            entry = table["properties"][key]
+            takes = entry.get("description", "")
+            if "$ref" in entry:
+                # Next to a reference, draft 7 reads nothing else.
+                inner = {"$ref": entry.pop("$ref")}
                 named = name_key(key, model) != key
-                own |= {"anyOf": [{"type": "string"}, inner]} if named else {"allOf": [inner]}
+                entry |= {"anyOf": [{"type": "string"}, inner]} if named else {"allOf": [inner]}
                 takes = ""
-            own["description"] = "\n".join(filter(None, (phrase(name, key), takes)))
+            entry["description"] = "\n".join(filter(None, (phrase(name, key), takes)))
 
 
 def _as_written(schema: dict[str, Any], kind: str) -> None:
@@ -155,23 +157,23 @@ def _examples(kind: str) -> Iterator[dict[str, Any]]:
     """Tables of the examples of a kind of file."""
     for path in sorted(examples_folder().glob("*.toml")):
         table = tomllib.loads(path.read_text(encoding="utf-8"))
-        found = kind_of_tables(table) or "contact"
-        if found == kind or (found == "motion" and kind == "contact"):
+        table_kind = kind_of_tables(table) or "contact"
+        if table_kind == kind or (table_kind == "motion" and kind == "contact"):
             yield table
 
 
 def _show(whole: Mapping[str, Any], schema: dict[str, Any], table: Mapping[str, Any]) -> None:
     """Show the values of an example at their keys."""
     for key, value in table.items():
-        own = schema.get("properties", {}).get(key)
-        if own is None:
+        entry = schema.get("properties", {}).get(key)
+        if entry is None:
             continue
         inner = value[0] if isinstance(value, list) and value else value
         if isinstance(inner, Mapping):
-            for each in _tables_of(whole, own):
+            for each in _tables_of(whole, entry):
                 _show(whole, each, inner)
-        elif value not in own.setdefault("examples", []) and len(own["examples"]) < _EXAMPLES:
-            own["examples"].append(value)
+        elif value not in entry.setdefault("examples", []) and len(entry["examples"]) < _EXAMPLES:
+            entry["examples"].append(value)
 
 
 def _tables_of(whole: Mapping[str, Any], schema: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

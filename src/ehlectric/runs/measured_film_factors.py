@@ -122,8 +122,8 @@ def film_factors(
     >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
     >>> case = ehlectric.Case.point(**ball, entrainment_speed="1 m/s", lubricant="paper")
     >>> log = pd.DataFrame({"entrainment speed [m/s]": [0.5, 1.0], "film [nm]": [151.0, 241.0]})
-    >>> found = ehlectric.film_factors(case, log, contacts="formula", uncertainty="3 %")
-    >>> round(found.mean.value, 2), found.mean.rows
+    >>> factors = ehlectric.film_factors(case, log, contacts="formula", uncertainty="3 %")
+    >>> round(factors.mean.value, 2), factors.mean.rows
     (0.9, 2)
     """
     from ehlectric.bearing.measured_capacitance import bearing_factors
@@ -144,7 +144,7 @@ def film_factors(
         return bearing_factors(case, rows, workers=workers, **options)
     if background is not None:
         raise InputError.worded("background", "is taken off a capacitance, and a film has none")
-    way: Contacts = next((one for one in QUICK if one == contacts), "solved")
+    way: Contacts = next((quick for quick in QUICK if quick == contacts), "solved")
     return contact_factors(case, rows, contacts=way, **options)
 
 

@@ -39,7 +39,7 @@ _ROWS, _COLUMNS, _TEXT = 1_048_576, 16_384, 32_767
 _WIDTHS = (44, 60, 18, 12, 24, 12)
 
 # Units of all stresses and of all viscosities, so that cells can be compared.
-_ONE_UNIT = {"Pa": "MPa", "Pa*s": "mPa s"}
+_SINGLE_UNIT = {"Pa": "MPa", "Pa*s": "mPa s"}
 
 
 def workbook(result: AnyResult | SweepResults) -> bytes:
@@ -87,9 +87,9 @@ def _keys(values: dict[str, Any], case: SweptCase) -> Iterator[Iterable[Any]]:
     """Rows of keys: dotted key, name, value in its usual unit, and value in its SI unit."""
     yield "key", "name", "value", "unit", "SI value", "SI unit"
     for key, value in values.items():
-        label, own = label_of(key, case), key.removeprefix("inputs.")
+        label, short_key = label_of(key, case), key.removeprefix("inputs.")
         if not is_number(value):
-            yield own, label.name, value, "", value, ""
+            yield short_key, label.name, value, "", value, ""
             continue
         known = key_of(result_keys(case), key)
         if known is not None and known.unit_of:
@@ -97,7 +97,7 @@ def _keys(values: dict[str, Any], case: SweptCase) -> Iterator[Iterable[Any]]:
             given = label_of(input_key, case)
             label = replace(label, unit=given.unit, shown=given.shown)
         scale = scale_of_values(label.unit, label.shown, np.array([value]))
-        yield own, label.name, _rounded(scale.of(value)), scale.unit, value, _unit(label.unit)
+        yield short_key, label.name, _rounded(scale.of(value)), scale.unit, value, _unit(label.unit)
 
 
 def scale_of_values(unit: str, shown: str, values: Array) -> Scale:
@@ -120,7 +120,7 @@ def scale_of_values(unit: str, shown: str, values: Array) -> Scale:
     >>> scale_of_values("K", "°C", speed).unit, scale_of_values("K", "", speed).unit
     ('°C', 'K')
     """
-    named = _ONE_UNIT.get(unit) or printed(shown) or USUAL.get(unit, "")
+    named = _SINGLE_UNIT.get(unit) or printed(shown) or USUAL.get(unit, "")
     if named in UNITS and UNITS[named][0] == unit:
         return scale_of(named)
     finite = np.abs(values[np.isfinite(values)])
@@ -199,7 +199,7 @@ def _columns(columns: Mapping[str, tuple[str | None, str, Any]]) -> Iterator[Ite
         scale = scale_of_values(unit, shown, numbers)
         heads.append(f"{key} [{scale.unit or '-'}]")
         whole = np.issubdtype(np.asarray(values).dtype, np.integer) and scale == Scale(1.0, scale.unit)
-        written.append(list(values) if whole else [_rounded(one) for one in scale.of(numbers).tolist()])
+        written.append(list(values) if whole else [_rounded(value) for value in scale.of(numbers).tolist()])
     yield heads
     yield from zip(*written, strict=True)
 
