@@ -95,11 +95,11 @@ test: $(VENV)/.test
 # Long tests in shards of some ten minutes on two cores. What a shard leaves out is in the next but one: the
 # fourth takes all tests that no other shard takes.
 SHARDS := 5
-FILM := tests/convergence/film
-REST := tests/convergence tests/published tests/reference tests/measured
+FILM := tests/unit/film
 PROCESSES := tests/attack tests/cli
-OTHERS = $(addprefix --ignore=,$(FILM) $(REST) $(PROCESSES) tests/browser)
-SLOW := $(BIN)/python -m pytest -m slow --junitxml=build/slow-$$(date +%s).xml
+NUMBERS := (convergence or published or measured or reference)
+IN_PROCESS := $(addprefix --ignore=,$(PROCESSES) tests/browser)
+SLOW := $(BIN)/python -m pytest --junitxml=build/slow-$$(date +%s).xml
 
 slow: $(VENV)/.test
 	@case "$(SHARD)" in \
@@ -109,21 +109,21 @@ slow: $(VENV)/.test
 	esac
 
 slow-1:
-	$(SLOW) $(FILM)
+	$(SLOW) -m "slow and convergence" $(FILM)
 
 # With what is no test: the gallery of the documentation, and both packages.
 slow-2: docs packages
-	$(SLOW) $(REST) --ignore=$(FILM)
+	$(SLOW) -m "slow and $(NUMBERS)" --ignore=$(FILM) $(IN_PROCESS)
 
 slow-3:
-	$(SLOW) $(PROCESSES)
+	$(SLOW) -m slow $(PROCESSES)
 
 slow-4:
-	$(SLOW) $(OTHERS)
+	$(SLOW) -m "slow and not $(NUMBERS)" $(IN_PROCESS)
 
 # The browser's tests one at a time.
 slow-5: $(VENV)/.test
-	$(SLOW) -n 0 tests/browser
+	$(SLOW) -m slow -n 0 tests/browser
 
 thorough: $(VENV)/.test
 	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "slow or not slow" --ignore=tests/browser

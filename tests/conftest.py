@@ -2,6 +2,7 @@
 
 import signal
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -40,3 +41,13 @@ def paper_case():
 @pytest.fixture(scope="session")
 def paper_result(paper_case):
     return solve(paper_case)
+
+
+@pytest.fixture(scope="session")
+def slope():
+    """Observed order: slope of log error against log spacing, by least squares."""
+
+    def fit(spacings, errors):
+        return np.polyfit(np.log(spacings), np.log(errors), 1)[0]
+
+    return fit

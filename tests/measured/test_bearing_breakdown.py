@@ -19,6 +19,8 @@ from tests.measured.bearing_breakdown import (
     measured_exponents,
 )
 
+pytestmark = pytest.mark.measured
+
 # The candidate of the same rating in the default tests, all others in the long ones.
 BEARINGS = pytest.mark.parametrize(
     "bearing",

@@ -6,6 +6,8 @@ import pytest
 from tests.measured.computed import OILS, STEEL, ball_on_disc, capacitances
 from tests.measured.reference import load
 
+pytestmark = pytest.mark.measured
+
 METER = {"fill": "oil"}
 
 

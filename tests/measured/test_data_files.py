@@ -6,6 +6,8 @@ import pytest
 from tests.helpers.each import each
 from tests.measured.reference import DATA, NEEDED, exponent, film_log, load, zero_checks
 
+pytestmark = pytest.mark.measured
+
 FILES = sorted(path.stem for path in DATA.glob("*.csv"))
 
 

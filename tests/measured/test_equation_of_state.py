@@ -4,6 +4,8 @@ import pytest
 
 from tests.measured.equation_of_state import values
 
+pytestmark = pytest.mark.measured
+
 
 @pytest.mark.slow
 @pytest.mark.gate

@@ -8,6 +8,8 @@ from tests.measured.microdent import contact
 from tests.measured.microdent import measured as profiles
 from tests.measured.reference import exponent, film_log, load, zero_checks
 
+pytestmark = pytest.mark.measured
+
 
 def ratios(name, oil, nodes, rows):
     """Measured over computed film at some rows of a data file, and both films."""

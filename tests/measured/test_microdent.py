@@ -5,7 +5,7 @@ import pytest
 
 from tests.measured.microdent import DENTS, MICRO, OPTICS_END, at, measured, passage
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.measured, pytest.mark.slow]
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,8 @@ import pytest
 
 from tests.helpers.shared import SHARED, shared
 
+pytestmark = pytest.mark.measured
+
 
 @pytest.mark.parametrize("kept", [False, True])
 def test_arrays_are_computed_once_for_the_same_inputs(tmp_path, monkeypatch, kept):

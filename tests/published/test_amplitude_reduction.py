@@ -6,6 +6,8 @@ import pandas as pd
 import pytest
 from benchmarks.amplitude_reduction import amplitude_reduction
 
+pytestmark = pytest.mark.published
+
 TABLE = pd.read_csv(Path(__file__).parent / "data" / "amplitude_reduction.csv", comment="#")
 TABLE = {(row.wavelength, row.amplitude): row.ratio for row in TABLE.itertuples()}
 PRINTED = 0.0005  # its rounding

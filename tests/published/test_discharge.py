@@ -10,6 +10,8 @@ from scipy.integrate import quad
 from ehlectric import solve
 from tests.reference.field import near
 
+pytestmark = pytest.mark.published
+
 LOADS = {"1 GPa": 3.925e5, "2 GPa": 1.57e6}
 SPEEDS = (8.0, 4.0, 2.0, 1.0)
 # Ratio to eps0 eps_r 2b/h(0) over X in [-4, 2] at 8 and at 1 m/s, reckoned independently of this code, as

@@ -8,6 +8,8 @@ import pytest
 
 from ehlectric import Case, solve
 
+pytestmark = pytest.mark.published
+
 FILMS = pd.read_csv(Path(__file__).parent / "data" / "independent_balls.csv", comment="#", index_col="film")
 OTHERS = [name for name in FILMS.index if name != "ti_006"]
 

@@ -12,6 +12,8 @@ from ehlectric.contact.problems import film_problem
 from ehlectric.film.nested import nested_iteration
 from ehlectric.paper.paper_contacts import of_paper, table_3
 
+pytestmark = pytest.mark.published
+
 DATA = Path(__file__).parent / "data"
 FILMS = pd.read_csv(DATA / "line_contact_films.csv", comment="#").to_dict("records")
 TABLE_3 = table_3()

@@ -13,6 +13,8 @@ from ehlectric.paper import fas, paper_relaxation, sor
 from ehlectric.paper.paper_contacts import PAPER
 from tests.published.test_paper_contacts import FILMS, row_name
 
+pytestmark = pytest.mark.published
+
 
 def paper_contact(paper_case, row, **changes):
     keys = {"load_per_length": "contact.load_per_length", "u_s": "contact.entrainment_speed"}

@@ -12,6 +12,8 @@ from ehlectric.formulas.film_point import hamrock_dowson
 from tests.helpers.gate import gated
 from tests.helpers.places import EXAMPLES
 
+pytestmark = pytest.mark.published
+
 MICRO = 1e-6
 FILMS = pd.read_csv(Path(__file__).parent / "data" / "point_contact_films.csv", comment="#", dtype=str)
 FILMS = {row.nodes: (float(row.h_min) * MICRO, float(row.h_0) * MICRO) for row in FILMS.itertuples()}

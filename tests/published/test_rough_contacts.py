@@ -11,6 +11,8 @@ from tests.helpers.films import film_alone
 from tests.helpers.gate import gated
 from tests.helpers.places import DEKTAK
 
+pytestmark = pytest.mark.published
+
 PROFILE = {"file": str(DEKTAK), "form": "parabola", "cutoff_long": 80e-6, "truncate": 0.05e-6}
 
 

@@ -12,6 +12,8 @@ from tests.helpers.each import each
 from tests.reference import dry_contact as dry
 from tests.reference.hertz_point import radii_ratio
 
+pytestmark = pytest.mark.reference
+
 
 def waves(x, *, count=25, height=0.05, seed=1):
     """Added gap of a rough profile: waves of random phases with a falling spectrum."""

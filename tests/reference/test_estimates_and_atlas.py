@@ -10,6 +10,8 @@ from benchmarks.open_benchmark import TARGET, class_of, drawn_of
 
 from tests.helpers.each import each
 
+pytestmark = pytest.mark.reference
+
 LEAST = {"line": 500, "point": 100, "rough": 95, "hot": 90}
 
 

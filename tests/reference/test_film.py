@@ -7,6 +7,8 @@ from scipy.integrate import quad
 from tests.helpers.each import each
 from tests.reference import film
 
+pytestmark = pytest.mark.reference
+
 
 def test_pressure_carries_the_load():
     load, _ = quad(film.pressure, film.INLET, film.OUTLET, epsabs=1e-13)

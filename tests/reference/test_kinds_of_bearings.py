@@ -14,6 +14,8 @@ from ehlectric.bearing.solving import solution_of
 from ehlectric.cases.bearing_case import BearingCase
 from tests.helpers.independent_bearings import Oil, electric_of, loads_of
 
+pytestmark = pytest.mark.reference
+
 POINTS = 20
 BOTH_PAIRS = "preload", "axial_clearance"
 

@@ -4,6 +4,8 @@ import pytest
 
 from tests.reference.martin import film_coefficient, film_coefficient_by_quadrature
 
+pytestmark = pytest.mark.reference
+
 
 def test_unlimited_inlet_gives_martins_constant():
     # h_min w/(eta u R) = 4.9, printed in the textbooks to two digits, e.g. Hamrock (1994).

@@ -14,6 +14,8 @@ from benchmarks.open_benchmark import CLASSES, TARGET, case_of, class_of, contac
 
 from ehlectric import solve
 
+pytestmark = pytest.mark.reference
+
 
 def rows(name):
     """Rows of a table by the names of their contacts."""

@@ -9,6 +9,8 @@ from scipy.integrate import dblquad, quad
 from tests.reference import point_film
 from tests.reference.point_film import INLET, OUTLET, SIDE, ManufacturedFilm
 
+pytestmark = pytest.mark.reference
+
 FILMS = [ManufacturedFilm(), ManufacturedFilm(skew=0.5)]
 
 
