@@ -72,8 +72,8 @@ def bearing_key(table: Mapping[str, Any]) -> str | None:
     """
     if "contact" in table:
         return None
-    own = Bearing.known_keys().keys() - Contact.known_keys().keys()
-    return next((key for key in table if key in _TABLES or key in own), None)
+    only_bearing = Bearing.known_keys().keys() - Contact.known_keys().keys()
+    return next((key for key in table if key in _TABLES or key in only_bearing), None)
 
 
 @dataclass(frozen=True)
@@ -99,12 +99,12 @@ def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
     """
     if not isinstance(tables, Mapping):
         raise InputError(got=shown(tables), takes="a table of keys, each with a list of two values")
-    found: dict[str, InputRange] = {}
+    ranges: dict[str, InputRange] = {}
     for key, value in _flat(tables):
-        if key in found:
+        if key in ranges:
             raise InputError(key, got="it twice", takes="it once")
-        found[key] = _range(key, value, model)
-    return tuple(found.values())
+        ranges[key] = _range(key, value, model)
+    return tuple(ranges.values())
 
 
 def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
@@ -310,7 +310,7 @@ class BearingCase(CaseFile, book="bearing_file"):
 
     @field_serializer("ranges")
     def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
-        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
+        return None if ranges is None else {entry.key: [entry.low, entry.high] for entry in ranges}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -347,14 +347,14 @@ class BearingCase(CaseFile, book="bearing_file"):
     def _check_ranges(self) -> None:
         """Check that each range is one of a number of the file, and contains it."""
         table = self.to_dict() if self.ranges else {}
-        for one in self.ranges or ():
-            value, key = value_at(table, one.key), f"ranges.{one.key}"
+        for span in self.ranges or ():
+            value, key = value_at(table, span.key), f"ranges.{span.key}"
             if not is_number(value):
-                raise InputError(key, got="a range", takes=f"a number for {one.key} in the file too")
-            if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
+                raise InputError(key, got="a range", takes=f"a number for {span.key} in the file too")
+            if not span.low - _ROUNDING * abs(span.low) <= value <= span.high + _ROUNDING * abs(span.high):
                 raise InputError(
                     key,
-                    got=f"{one.low:.6g} to {one.high:.6g}",
+                    got=f"{span.low:.6g} to {span.high:.6g}",
                     takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
                 )
 
@@ -599,8 +599,8 @@ def _with_named_class(changes: dict[str, Any]) -> dict[str, Any]:
 
 def _drop_dimensions(bearing: dict[str, Any]) -> None:
     """Remove the dimensions of a bearing, and all else that its base in the library gives."""
-    own = base_of(bearing)[1] if bearing.get("base") else {}
-    keys = {*DIMENSIONS, *own}
+    of_base = base_of(bearing)[1] if bearing.get("base") else {}
+    keys = {*DIMENSIONS, *of_base}
     if bearing.get("clearance_class") == NORMAL_CLASS:
         # Both follow from the new designation.
         keys |= {"clearance_class", "radial_clearance"}

@@ -110,7 +110,7 @@ class Summits(Table, book="bearing.summits"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         takes = "one of the two, as it follows from bandwidth"
-        self.check_one_of(("height_deviation", "bandwidth"), takes)
+        self.check_alternatives(("height_deviation", "bandwidth"), takes)
         return self
 
 
@@ -194,11 +194,11 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     """
     base = typed_base(table)
     rest = {key: value for key, value in table.items() if key != "designation"}
-    found = _read(base)
-    if found is None:
+    read = _read(base)
+    if read is None:
         return {**rest, "base": base}
-    named, given = found.clearance_class, table.get("clearance_class")
-    kind = kind_and_series(found.name)[0]
+    named, given = read.clearance_class, table.get("clearance_class")
+    kind = kind_and_series(read.name)[0]
     if named is not None and "radial_clearance" not in KINDS_OF_BEARINGS[kind].keys:
         takes = (
             f"the designation without {named!r}: bearings of kind {kind} have no class of radial clearance"
@@ -207,7 +207,7 @@ def _with_designation(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if named is not None and given in CLASSES and given != named:
         takes = f"{named!r}, as in base, or base without its class"
         raise InputError("clearance_class", got=f"{given!r} with base {base!r}", takes=takes)
-    rest |= {"base": found.name, **_kept(base, found.name)}
+    rest |= {"base": read.name, **_kept(base, read.name)}
     return rest if named is None or _has_clearance(table) else rest | {"clearance_class": named}
 
 
@@ -246,13 +246,17 @@ def typed_base(table: Mapping[str, Any]) -> Any:
     base, typed = table.get("base"), table.get("designation")
     if typed is None:
         return base
-    found = _read(typed, "designation")
-    if found is None and not (isinstance(typed, str) and typed in known_bearings()):
+    read = _read(typed, "designation")
+    if read is None and not (isinstance(typed, str) and typed in known_bearings()):
         error = no_such_bearing(typed)
         raise error.retold("designation", error.text)
-    name = typed if found is None else found.name
-    own = as_typed(base) if isinstance(base, str) else base
-    if own is not None and own != as_typed(typed) and (not isinstance(own, str) or _named(own) != name):
+    name = typed if read is None else read.name
+    plain = as_typed(base) if isinstance(base, str) else base
+    if (
+        plain is not None
+        and plain != as_typed(typed)
+        and (not isinstance(plain, str) or _named(plain) != name)
+    ):
         takes = f"one of the two, or base {name!r}, the bearing with this designation"
         raise InputError("designation", got=f"{shown(typed)} with base {shown(base)}", takes=takes)
     return typed
@@ -303,8 +307,8 @@ def class_of(base: Any) -> ClearanceClass | None:
     >>> class_of("6208-2RS1/C3"), class_of("6208"), class_of("own")
     ('C3', None, None)
     """
-    found = _read(base)
-    return None if found is None else found.clearance_class
+    read = _read(base)
+    return None if read is None else read.clearance_class
 
 
 def _base_table(table: Mapping[str, Any]) -> dict[str, Any]:
@@ -405,14 +409,14 @@ class Bearing(Table, book="bearing", named_by="base"):
     @classmethod
     def of_name(cls, table: Any) -> Any:
         """Table instead of the name of a bearing; a designation without a base is also the base."""
-        found = super().of_name(table)
+        named = super().of_name(table)
         if (
-            not isinstance(found, Mapping)
-            or found.get("designation") is None
-            or found.get("base") is not None
+            not isinstance(named, Mapping)
+            or named.get("designation") is None
+            or named.get("base") is not None
         ):
-            return found
-        return {**found, "base": found["designation"]}
+            return named
+        return {**named, "base": named["designation"]}
 
     @model_validator(mode="before")
     @classmethod
@@ -468,8 +472,8 @@ class Bearing(Table, book="bearing", named_by="base"):
     def temperature_key(self, *, inner: bool | None = None) -> str:
         """Dotted key of the temperature of a ring, or of the oil outside the films."""
         given = list(self.temperatures())
-        own = None if inner is None else _RING_TEMPERATURE[inner]
-        return f"bearing.{own if own in given else given[0]}"
+        key_of_ring = None if inner is None else _RING_TEMPERATURE[inner]
+        return f"bearing.{key_of_ring if key_of_ring in given else given[0]}"
 
     def temperatures(self) -> dict[str, float]:
         """Temperatures of oil and rings that are given [K], by key; that of the oil comes first."""
@@ -479,8 +483,8 @@ class Bearing(Table, book="bearing", named_by="base"):
     def all_temperatures(self) -> dict[str, float]:
         """Temperatures that are given [K], also those of elements, shaft and housing, by key."""
         parts = {f"fits.{part}_temperature": part for part in ("element", "shaft", "housing")}
-        own = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
-        return self.temperatures() | {key: value for key, value in own.items() if value is not None}
+        of_fits = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
+        return self.temperatures() | {key: value for key, value in of_fits.items() if value is not None}
 
     @property
     def element_temperature(self) -> float:

@@ -157,7 +157,7 @@ class Case(CaseFile, book="case_file"):
             length = None if self.discharge is None else self.discharge.length
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.inlet is not None:
-            self.inlet.check(self.contact, beside=[name for name, table in self if table is not None])
+            self.inlet.check(self.contact, tables=[name for name, table in self if table is not None])
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
             object.__setattr__(self, "grid", self.grid.fixed())
@@ -395,14 +395,14 @@ def _of_kind(case: C, geometry: str) -> C:
     return case
 
 
-def _same_laws(one: Case, other: Case) -> bool:
+def _same_laws(case: Case, other: Case) -> bool:
     """Whether two cases have the same laws of a user's own: equal functions, or equal values of a file."""
-    if one.own_laws is None or other.own_laws is None:
-        return one.own_laws is other.own_laws
-    if isinstance(one.own_laws, Laws) and isinstance(other.own_laws, Laws):
-        return one.own_laws == other.own_laws
-    assert one.law_values is not None and other.law_values is not None
-    return one.law_values.same_values(other.law_values)
+    if case.own_laws is None or other.own_laws is None:
+        return case.own_laws is other.own_laws
+    if isinstance(case.own_laws, Laws) and isinstance(other.own_laws, Laws):
+        return case.own_laws == other.own_laws
+    assert case.law_values is not None and other.law_values is not None
+    return case.law_values.same_values(other.law_values)
 
 
 def _listed(laws: OwnLaws) -> str:

@@ -148,10 +148,10 @@ def bound(
     if law.needs_temperature:
         required(temperature, f"{key} {name!r}")
     values = _parameters(oil, law, viscosity, temperature)
-    own = {parameter.name for parameter in law.parameters}
-    values |= {name: value for name, value in known.items() if name in own}
-    found = BoundLaw(law.function, values, temperature)
-    return replace(found, function=over_points(law.function)) if found.many else found
+    names = {parameter.name for parameter in law.parameters}
+    values |= {name: value for name, value in known.items() if name in names}
+    bound = BoundLaw(law.function, values, temperature)
+    return replace(bound, function=over_points(law.function)) if bound.many else bound
 
 
 def sheet_conductivity(oil: Properties) -> BoundLaw | None:
@@ -216,10 +216,10 @@ def viscosity_at(oil: Properties, temperature: Numbers | None) -> Numbers:
 
 def viscosity_over_temperature(oil: Properties) -> Callable[[Numbers], Numbers] | None:
     """Viscosity at zero pressure [Pa s] as a function of temperature [K]; None for a given viscosity."""
-    own = VISCOSITY_LAWS[oil.viscosity_law]
-    if own.atmospheric is not None:
-        atmospheric = over_points(own.atmospheric)
-        return lambda at: as_float(atmospheric(at, **_given(oil, own)))
+    entry = VISCOSITY_LAWS[oil.viscosity_law]
+    if entry.atmospheric is not None:
+        atmospheric = over_points(entry.atmospheric)
+        return lambda at: as_float(atmospheric(at, **_given(oil, entry)))
     if oil.atmospheric_law is not None:
         law = LAWS["atmospheric_law"][oil.atmospheric_law]
         function = over_points(law.function)
@@ -295,10 +295,10 @@ def _parameters(
     Those that the table lacks follow from the viscosity, or from the type of base oil. Those that it gives
     for the reference temperature change with the viscosity as the relation between them says.
     """
-    own = {parameter.name for parameter in law.parameters}
-    follows = own & of_base_oil(oil)
+    names = {parameter.name for parameter in law.parameters}
+    follows = names & of_base_oil(oil)
     estimated = base_oil_values(oil, viscosity, temperature) if follows else {}
-    values = {name: value for name, value in estimated.items() if name in own} | _given(oil, law)
+    values = {name: value for name, value in estimated.items() if name in names} | _given(oil, law)
     for parameter in law.parameters:
         rule = parameter.derivation
         if rule is None:
@@ -357,7 +357,7 @@ class Lubricant(Properties):
         """Check that values are given in one way, and that no parameter of a law is missing."""
         refuse_missing(self)
         keys = ("relative_permittivity", "permittivity_table")
-        self.check_one_of(keys, f"either {' or '.join(keys)}")
+        self.check_alternatives(keys, f"either {' or '.join(keys)}")
         ends = self.temperature_range
         if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
             raise InputError(
@@ -503,12 +503,12 @@ def known_oil(table: Properties, temperature: float | None, key: str = "temperat
     """
     with of_table(key):
         check_range(table, temperature)
-        found = _Found(table, temperature)
-        viscosity = found.value(found.viscosity)
-        density, permittivity = _number(density_at(table, temperature)), found.value(found.permittivity)
+        reader = _OilValues(table, temperature)
+        viscosity = reader.value(reader.viscosity)
+        density, permittivity = _number(density_at(table, temperature)), reader.value(reader.permittivity)
         known = {"density": density, "relative_permittivity": permittivity}
         values = {name: value for name, value in known.items() if value is not None}
-        laws = dict(found.laws(viscosity, values))
+        laws = dict(reader.laws(viscosity, values))
         # Only laws of viscosity depend on the viscosity.
         at = math.nan if viscosity is None else viscosity
         checks = {name: range_check(table, name, temperature, at) for name in laws}
@@ -525,12 +525,12 @@ def known_oil(table: Properties, temperature: float | None, key: str = "temperat
         conductivity,
         laws,
         {name: check for name, check in checks.items() if check is not None},
-        found.missing,
+        reader.missing,
     )
 
 
 @dataclass(frozen=True)
-class _Found:
+class _OilValues:
     """Values and laws of an oil that are complete, and errors of those that are not."""
 
     table: Properties
@@ -731,11 +731,11 @@ def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None 
     >>> round(float(permittivity), 3)
     2.331
     """
-    found = named_oil(source)
-    own = found.temperatures[0] if len(found.temperatures) == 1 else None
-    kelvin = own if temperature is None else kelvin_of(temperature)
+    named = named_oil(source)
+    sheet_temperature = named.temperatures[0] if len(named.temperatures) == 1 else None
+    kelvin = sheet_temperature if temperature is None else kelvin_of(temperature)
     with within("lubricant"):
-        lubricant = Lubricant.from_dict(found.given)
+        lubricant = Lubricant.from_dict(named.given)
     return lubricant.at(kelvin, "temperature")
 
 

@@ -91,12 +91,12 @@ def nested(changes: Mapping[str, Any], table: str) -> dict[str, Any]:
     >>> nested({"lubricant.temperature.iso_vg": 46, "lubricant.viscosity": None}, "lubricant")
     {'temperature': {'iso_vg': 46}, 'viscosity': None}
     """
-    found: dict[str, Any] = {}
+    tables: dict[str, Any] = {}
     for key, value in flattened(changes).items():
         first, _, rest = key.removeprefix(f"{table}.").partition(".")
         if key.startswith(f"{table}."):
-            found[first] = {**found.get(first, {}), rest: value} if rest else value
-    return found
+            tables[first] = {**tables.get(first, {}), rest: value} if rest else value
+    return tables
 
 
 def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:

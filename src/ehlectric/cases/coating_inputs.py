@@ -59,7 +59,7 @@ class Coating(Table, book="bearing.coating", named_by="base"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        self.check_one_of(("strength", "breakdown_voltage"), "one of the two")
+        self.check_alternatives(("strength", "breakdown_voltage"), "one of the two")
         if self.over_moulded and (self.ring != "outer" or self.area is not None):
             got = "true beside area" if self.area is not None else "true with ring 'inner'"
             takes = (

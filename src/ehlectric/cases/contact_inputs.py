@@ -51,13 +51,13 @@ def modulus_doubt(modulus: float) -> Iterator[ResultWarning]:
 
 def warn_of(contact: Contact, *, level: int) -> None:
     """Warn in Python of doubtful radii and moduli of a contact; ``level`` counts calls up to the user's."""
-    found: list[ResultWarning] = []
+    doubts: list[ResultWarning] = []
     for key in ("reduced_radius", "radius_x"):
         radius = contact.value(key)
-        found += [] if radius is None else radius_doubt(f"contact.{key}", radius)
+        doubts += [] if radius is None else radius_doubt(f"contact.{key}", radius)
     if contact.reduced_modulus is not None:
-        found += modulus_doubt(contact.reduced_modulus)
-    for warning in found:
+        doubts += modulus_doubt(contact.reduced_modulus)
+    for warning in doubts:
         warnings.warn(warning.text, stacklevel=level + 1)
 
 

@@ -39,7 +39,7 @@ class StrengthTable(Table, book="discharge.strength_table"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        self.check_one_of(("pressure", "temperature"), "either pressure or temperature", needed=True)
+        self.check_alternatives(("pressure", "temperature"), "either pressure or temperature", needed=True)
         return self.check_over(self.over, "strength")
 
 
@@ -80,7 +80,7 @@ class Discharge(Table, book="discharge"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in ALTERNATIVES["discharge"][0]]
-        self.check_one_of(names, f"one of {', '.join(names)}")
+        self.check_alternatives(names, f"one of {', '.join(names)}")
         self._check_pit()
         self._check_temperature()
         return self
@@ -165,10 +165,10 @@ class BearingDischarge(Discharge):
             outside = np.less(temperature, table.places[0]) | np.greater(temperature, table.places[-1])
             kept["temperature"] = np.where(outside, np.nan, temperature) if many else temperature
         # All other rules hold for this table, which was checked with them.
-        found = Discharge.model_construct(**kept)
+        discharge = Discharge.model_construct(**kept)
         if not many:
             try:
-                found._check_temperature()
+                discharge._check_temperature()
             except InputError as error:
                 raise error.retold(key, error.text) from None
-        return found
+        return discharge

@@ -176,10 +176,10 @@ class DriveCase(CaseFile, book="drive_file"):
         refuse_deep({**tables, "changes": changes})
         flat = flattened(tables) | dict(changes or {})
         ends = {end: _of_end(flat, end) for end in ENDS}
-        own = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
+        of_drive = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
         table = self.to_dict()
-        displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "circuit", "breakdown")})
-        set_keys(table, own)
+        displace(table, of_drive, {name: ALTERNATIVES[name] for name in ("source", "circuit", "breakdown")})
+        set_keys(table, of_drive)
         for end, change in ends.items():
             with within(end):
                 table[end] = getattr(self, end).replace(change)
@@ -196,16 +196,16 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Tables of a drive file with the bearings of the files that it names, and the paths of its waveform and
     its duty cycle. Raises InputError if a bearing file cannot be read or is not valid.
     """
-    found = dict(table)
+    tables = dict(table)
     for end in ENDS:
-        if isinstance(found.get(end), Mapping) and "file" in found[end]:
-            found[end] = _bearing_of(found[end], folder, end)
+        if isinstance(tables.get(end), Mapping) and "file" in tables[end]:
+            tables[end] = _bearing_of(tables[end], folder, end)
     for name in ("source", "duty"):
-        holder = found.get(name)
+        holder = tables.get(name)
         if isinstance(holder, Mapping) and isinstance(holder.get("file"), str):
             # It then stays valid where the case is written to another folder.
-            found[name] = {**holder, "file": str((folder / holder["file"]).absolute())}
-    return found
+            tables[name] = {**holder, "file": str((folder / holder["file"]).absolute())}
+    return tables
 
 
 def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
@@ -221,7 +221,7 @@ def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
 
 def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
     """Changes of the bearing at one end, by the keys of a bearing file."""
-    found = {}
+    of_end = {}
     for key, value in flat.items():
         first, _, rest = key.partition(".")
         if first in (end, BOTH):
@@ -229,8 +229,8 @@ def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
                 raise InputError(
                     key, got="a table", takes="dotted keys, as in 'bearings.bearing.temperature'"
                 )
-            found[rest] = value
-    return found
+            of_end[rest] = value
+    return of_end
 
 
 def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase:
@@ -283,10 +283,10 @@ def swept_case_of_file(path: str | Path) -> SweptCase:
     """Read a case of a contact, of a bearing or of a drive from a TOML file. Raises InputError if the file
     cannot be read, is not TOML, or is not a valid case.
     """
-    return swept_case_of_dict(with_found_files(read_toml(path), Path(path).parent), written=True)
+    return swept_case_of_dict(with_absolute_files(read_toml(path), Path(path).parent), written=True)
 
 
-def with_found_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
+def with_absolute_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Tables of a case of any kind whose files lie relative to a folder. They get absolute names of surfaces
     and waveforms, and the bearings of bearing files. Raises InputError if a bearing file of
     a drive cannot be read or is not valid.

@@ -69,8 +69,8 @@ class Source(Table, book="source"):
             frequency = float(f"{self.pole_pairs * abs(speed) / (2.0 * math.pi):.12g}")
         if base is not None and frequency is not None and index is not None:
             index *= min(frequency / base, 1.0)
-        own = {"fundamental_frequency": frequency, "modulation_index": index}
-        table = self.model_dump(exclude_none=True, exclude={"pole_pairs", "base_frequency"}) | own
+        at_speed = {"fundamental_frequency": frequency, "modulation_index": index}
+        table = self.model_dump(exclude_none=True, exclude={"pole_pairs", "base_frequency"}) | at_speed
         return self.from_dict({key: value for key, value in table.items() if value is not None})
 
     @classmethod
@@ -252,7 +252,7 @@ class Circuit(Table, book="circuit"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         rings = [row[0] for row in ALTERNATIVES["circuit"][0]]
-        self.check_one_of(rings, f"one of {' and '.join(rings)}")
+        self.check_alternatives(rings, f"one of {' and '.join(rings)}")
         for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"):
             if self.machine is None and getattr(self, key) is None:
                 takes = "a value; or the table circuit.machine, the geometry of the machine"
@@ -275,12 +275,12 @@ class Circuit(Table, book="circuit"):
     @cached_property
     def capacitances(self) -> dict[str, float]:
         """Capacitances of the machine by their keys [F], given or from its geometry; without any others."""
-        found = {key: getattr(self, key) for key in _FROM_GEOMETRY}
+        known = {key: getattr(self, key) for key in _FROM_GEOMETRY}
         if self.estimated:
             assert self.machine is not None
             by_geometry = self.machine.capacitances
-            found |= {key: getattr(by_geometry, _FROM_GEOMETRY[key]) for key in self.estimated}
-        return {key: value for key, value in found.items() if value is not None}
+            known |= {key: getattr(by_geometry, _FROM_GEOMETRY[key]) for key in self.estimated}
+        return {key: value for key, value in known.items() if value is not None}
 
 
 class Breakdown(Table, book="breakdown"):

@@ -89,10 +89,10 @@ def mean_factor(
         statistical = None if deviation is None else deviation / math.sqrt(n)
         scatter, basis, degrees = deviation, SCATTER, float(n - 1)
     else:
-        own = float(np.sum(stated**-2.0)) ** -0.5
+        stated_error = float(np.sum(stated**-2.0)) ** -0.5
         scatter = math.sqrt(float(np.sum(((logs - mean) / stated) ** 2)) / (n - 1)) if n > 1 else None
         raised = scatter is not None and scatter > 1.0
-        statistical = own * (scatter or 1.0) if raised else own
+        statistical = stated_error * (scatter or 1.0) if raised else stated_error
         basis, degrees = RAISED if raised else STATED, _KNOWN
     parts = [float(np.vdot(weights, change)) for change in (shared or {}).values()]
     systematic = math.hypot(*parts) if parts else 0.0
@@ -107,7 +107,7 @@ def _interval(
     if statistical is None:
         return None, None
     at = 0.5 * (1.0 + CONFIDENCE)
-    wide, normal = (float(stdtrit(one, at)) for one in (degrees, _KNOWN))
+    wide, normal = (float(stdtrit(degree, at)) for degree in (degrees, _KNOWN))
     half = math.hypot(wide * statistical, normal * systematic)
     return math.exp(mean - half), math.exp(mean + half)
 

@@ -43,10 +43,10 @@ class Inlet(Table, book="inlet"):
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in ALTERNATIVES["inlet"][0]]
-        self.check_one_of(names, f"one of {', '.join(names)}", needed=True)
+        self.check_alternatives(names, f"one of {', '.join(names)}", needed=True)
         return self
 
-    def check(self, contact: Contact, *, beside: Collection[str]) -> None:
+    def check(self, contact: Contact, *, tables: Collection[str]) -> None:
         """Check that the table fits the other tables of its case. Raises InputError if a line contact has a
         layer over y, surfaces move in opposite directions, a contact with motion has a ratio of films, or the
         case has the table ``meter`` or ``film``.
@@ -59,13 +59,13 @@ class Inlet(Table, book="inlet"):
             )
         if self.layer_table is not None and contact.geometry == "line":
             raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
-        if "motion" in beside and self.film_ratio is not None:
+        if "motion" in tables and self.film_ratio is not None:
             raise InputError(
                 "inlet.film_ratio",
                 got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
                 takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
             )
-        if "meter" in beside:
+        if "meter" in tables:
             raise InputError("inlet", got="[inlet] beside [meter]", takes="a flooded contact there")
 
 
@@ -93,9 +93,9 @@ class FilmPhysics(Table, book="film"):
     thermal: bool = False
     rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
 
-    def check(self, contact: Contact, lubricant: Lubricant, own: Collection[str] = ()) -> None:
+    def check(self, contact: Contact, lubricant: Lubricant, by_law: Collection[str] = ()) -> None:
         """Check that a case has all that a film with heat or shear needs. Raises InputError if a property of
-        the oil, of a body or a temperature is missing. ``own``, properties with a law of the user's own.
+        the oil, of a body or a temperature is missing. ``by_law``, properties with a law of the user's own.
         """
         for key in CONSTANTS[self.rheology]:
             if getattr(lubricant, key) is None:
@@ -107,7 +107,7 @@ class FilmPhysics(Table, book="film"):
                 raise InputError.missing(
                     "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
                 )
-            check_thermal_oil(lubricant, contact.temperature, own=own)
+            check_thermal_oil(lubricant, contact.temperature, by_law=by_law)
             for name in ("body_1", "body_2"):
                 thermal_properties(getattr(contact, name), f"contact.{name}")
 
@@ -116,14 +116,16 @@ class FilmPhysics(Table, book="film"):
         return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
 
 
-def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant, own: Collection[str] = ()) -> None:
-    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case. ``own``,
+def check_film(
+    film: FilmPhysics | None, contact: Contact, oil: Lubricant, by_law: Collection[str] = ()
+) -> None:
+    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case. ``by_law``,
     properties with a law of the user's own.
     """
     if film is None or not film.thermal:
         _refuse_unused(contact)
     if film is not None:
-        film.check(contact, oil, own)
+        film.check(contact, oil, by_law)
 
 
 def _refuse_unused(contact: Contact) -> None:
@@ -137,12 +139,12 @@ def _refuse_unused(contact: Contact) -> None:
 
 
 def check_thermal_oil(
-    oil: Lubricant, temperature: float, what: str = "a thermal film", own: Collection[str] = ()
+    oil: Lubricant, temperature: float, what: str = "a thermal film", by_law: Collection[str] = ()
 ) -> None:
-    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``. ``own``,
+    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``. ``by_law``,
     properties with a law of the user's own.
     """
-    if "viscosity" not in own and viscosity_over_temperature(oil) is None:
+    if "viscosity" not in by_law and viscosity_over_temperature(oil) is None:
         of_contact = what == "a thermal film"
         also = ", or in Python the viscosity of Case.line(..., laws=Laws(...))" if of_contact else ""
         raise InputError.missing(
@@ -175,12 +177,12 @@ def thermal_properties(body: Body | None, name: str) -> dict[str, float]:
     {'thermal_conductivity': 46.0, 'heat_capacity': 470.0, 'density': 7850.0}
     """
     material = {} if body is None or body.material is None else library.solid(body.material)
-    found: dict[str, float] = {}
+    properties: dict[str, float] = {}
     for key, unit in _OF_BODIES.items():
-        own = None if body is None else getattr(body, key)
-        if own is None and key not in material:
+        given = None if body is None else getattr(body, key)
+        if given is None and key not in material:
             raise InputError.missing(
                 f"{name}.{key}", f'a value, or {name}.material = "steel"; a thermal film needs it'
             )
-        found[key] = to_si(material[key], unit) if own is None else own
-    return found
+        properties[key] = to_si(material[key], unit) if given is None else given
+    return properties

@@ -292,7 +292,7 @@ class Motion(Table, book="motion"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        self.check_one_of(("passes", "duration"), "either passes or duration", needed=True)
+        self.check_alternatives(("passes", "duration"), "either passes or duration", needed=True)
         return self
 
     def check(self, grid: Grid, *, rough: bool) -> None:

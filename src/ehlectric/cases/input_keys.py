@@ -110,7 +110,7 @@ def describe(key: str) -> str:
     """
     table, name, _ = table_and_key(key)
     if not table or name not in (descriptions(table) if table in inputs() else {}):
-        every = [f"{one}.{name}" for one in inputs() for name in descriptions(one)]
+        every = [f"{book}.{name}" for book in inputs() for name in descriptions(book)]
         raise InputError.unknown(key, nearest(key, every))
     unit = unit_of(_numbered(key))
     return f"{phrase(table, name)} [{printed(unit)}]" if unit else phrase(table, name)
@@ -142,8 +142,8 @@ def input_field(key: str) -> FieldInfo:
     >>> input_field("contact.entrainment_speed").is_required()
     False
     """
-    end, own = end_and_key(key)
-    names, before = own.split("."), f"{end}." if end else ""
+    end, leaf = end_and_key(key)
+    names, before = leaf.split("."), f"{end}." if end else ""
     model = BearingCase if end else _model_of(names[0])
     within: list[str] = []
     if names[0] == "roughness":
@@ -162,10 +162,10 @@ def input_field(key: str) -> FieldInfo:
     for name in names:
         field = None if inner is None else inner.known_keys().get(name)
         if field is None:
-            if advice := advice_for(own, model):
+            if advice := advice_for(leaf, model):
                 raise InputError.worded(key, f"unknown key; {advice}")
-            found = [before + _with_number(one, within) for one in meant(".".join(names), model)]
-            raise InputError.unknown(key, any_of(found))
+            similar = [before + _with_number(name, within) for name in meant(".".join(names), model)]
+            raise InputError.unknown(key, any_of(similar))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
@@ -185,8 +185,8 @@ def key_of_names(key: str, values: Any) -> str:
     listed = isinstance(values, list | tuple) or getattr(values, "ndim", 0) == 1
     if not listed or not all(isinstance(value, str) for value in values):
         return key
-    end, own = end_and_key(key)
-    name = name_key(own, BearingCase if end else _model_of(own.partition(".")[0]))
+    end, inner = end_and_key(key)
+    name = name_key(inner, BearingCase if end else _model_of(inner.partition(".")[0]))
     return f"{end}.{name}" if end else name
 
 
@@ -224,14 +224,14 @@ def of_both_ends(key: str) -> tuple[str, ...]:
     >>> of_both_ends("bearings.bearing.temperature")
     ('drive_end.bearing.temperature', 'non_drive_end.bearing.temperature')
     """
-    end, own = end_and_key(key)
-    return tuple(f"{one}.{own}" for one in ENDS) if end == BOTH else (key,)
+    end, inner = end_and_key(key)
+    return tuple(f"{name}.{inner}" for name in ENDS) if end == BOTH else (key,)
 
 
 def _in_a_table(key: str) -> bool:
     """Whether a key begins with the name of a table; the search for the nearest key takes milliseconds."""
-    end, own = end_and_key(key)
-    name = own.partition(".")[0]
+    end, inner = end_and_key(key)
+    name = inner.partition(".")[0]
     if end:
         return name in BearingCase.known_keys()
     return any(name in model.known_keys() for model in (Case, BearingCase, DriveCase))

@@ -19,7 +19,7 @@ ALIASES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 # Advice for unknown keys that users expect, by the name of the file in the book of inputs, and dotted key.
 ADVICE: Mapping[tuple[str, str], str] = MappingProxyType(
-    {(file, key): one["text"] for one in _READ["advice"] for file in one["files"] for key in one["keys"]}
+    {(file, key): row["text"] for row in _READ["advice"] for file in row["files"] for key in row["keys"]}
 )
 
 # Largest number of tables and lists in each other. A case has four, and a sweep of cases five.

@@ -102,7 +102,7 @@ def takes(keys: type, fields: Fields) -> Callable[[F], F]:
 
 def _listed(keys: type, fields: Fields) -> Iterator[str]:
     """Lines of ``help`` about the keys of a ``TypedDict``: name, type, unit and meaning."""
-    names = [(book, key) for book, own in fields.items() for key in own if key in keys.__annotations__]
+    names = [(book, key) for book, listed in fields.items() for key in listed if key in keys.__annotations__]
     for book, key in [*names, *(("", key) for key in _MEANINGS if key in keys.__annotations__)]:
         given = _type_of(keys.__annotations__[key], fields.get(book, {}).get(key))
         unit = printed(inputs()[book][key].unit) if book and inputs()[book][key].unit else ""

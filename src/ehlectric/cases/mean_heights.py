@@ -47,11 +47,11 @@ def with_rq(table: Any, book: str, rq: str, ra: str) -> Any:
         return table
     mean, factor = (_parsed(table, book, key) for key in (ra, FACTOR))
     assert mean is not None
-    found = float(rq_of(mean, factor))
+    height = float(rq_of(mean, factor))
     given = _parsed(table, book, rq)
-    if given is not None and not math.isclose(given, found, rel_tol=_ROUNDING):
+    if given is not None and not math.isclose(given, height, rel_tol=_ROUNDING):
         raise InputError(rq, got=f"{rq} and {ra} together", takes="one of them")
-    return {**table, rq: found}
+    return {**table, rq: height}
 
 
 def _parsed(table: Mapping[str, Any], book: str, key: str) -> float | None:

@@ -71,7 +71,7 @@ class Meter(StatedRa, book="meter"):
     def _check(self) -> Self:
         if self.fill is None and self.oil_radius is None:
             raise InputError.missing("fill", "either fill, as 'oil', or oil_radius")
-        self.check_one_of(("fill", "oil_radius"), "either of them")
+        self.check_alternatives(("fill", "oil_radius"), "either of them")
         return self
 
     def check(self, contact: Contact, length: float | None, *, rough: bool, moves: bool) -> None:

@@ -205,12 +205,12 @@ class OilTemperature(Table, book="lubricant.temperature"):
             (("kinematic_viscosity_40", "iso_vg", ""), ("kinematic_viscosity_100", "viscosity_index", hint)),
             1,
         ):
-            own = [f"{name}_{number}" for name in ("kinematic_viscosity", "dynamic_viscosity")]
-            keys = (first, second, *own)
-            self.check_one_of(keys, "one of them")
-            takes = f"either {first} or {second}{more}; or {own[0]} or {own[1]} with temperature_{number}"
-            self.check_one_of(keys, takes, needed=True)
-            self._check_temperature(number, own, takes)
+            typed = [f"{name}_{number}" for name in ("kinematic_viscosity", "dynamic_viscosity")]
+            keys = (first, second, *typed)
+            self.check_alternatives(keys, "one of them")
+            takes = f"either {first} or {second}{more}; or {typed[0]} or {typed[1]} with temperature_{number}"
+            self.check_alternatives(keys, takes, needed=True)
+            self._check_temperature(number, typed, takes)
         if self.viscosity_index is not None and self._given("kinematic_viscosity_40", "iso_vg") is None:
             got = "it with a viscosity at another temperature than 40 °C"
             takes = "kinematic_viscosity_100, or a viscosity with temperature_2: the index needs 40 °C"
@@ -223,10 +223,10 @@ class OilTemperature(Table, book="lubricant.temperature"):
         values: Iterator[Numbers] = (value for key in keys if (value := getattr(self, key)) is not None)
         return next(values, None)
 
-    def _check_temperature(self, number: int, own: Sequence[str], takes: str) -> None:
+    def _check_temperature(self, number: int, viscosities: Sequence[str], takes: str) -> None:
         """Check that a viscosity has a temperature, which differs from the temperature of the other one."""
         key = f"temperature_{number}"
-        at, viscous = self._given(key), self._given(*own)
+        at, viscous = self._given(key), self._given(*viscosities)
         if viscous is not None and at is None:
             raise InputError.missing(key, "the temperature of this viscosity")
         if viscous is None and at is not None:
@@ -358,20 +358,20 @@ def with_base(table: Any) -> Any:
         return table
     left_out = _replaced(table) | _other_viscosity(table)
     kept = {key: value for key, value in base.items() if key not in left_out}
-    sheet, own = base.get("temperature"), table.get("temperature")
-    if isinstance(sheet, Mapping) and isinstance(own, Mapping):
-        return kept | {**table, "temperature": _with_sheet(sheet, own)}
+    sheet, given_temperature = base.get("temperature"), table.get("temperature")
+    if isinstance(sheet, Mapping) and isinstance(given_temperature, Mapping):
+        return kept | {**table, "temperature": _with_sheet(sheet, given_temperature)}
     if isinstance(sheet, Mapping) and "temperature" in left_out and "thermal_conductivity" in sheet:
         kept["thermal_conductivity"] = sheet["thermal_conductivity"]
     return kept | dict(table)
 
 
-def _with_sheet(sheet: Mapping[str, Any], own: Mapping[Any, Any]) -> dict[Any, Any]:
+def _with_sheet(sheet: Mapping[str, Any], given_temperature: Mapping[Any, Any]) -> dict[Any, Any]:
     """Data sheet of a table, with those values of the library's sheet that it does not replace."""
-    given = {key for key, value in own.items() if value is not None}
+    given = {key for key, value in given_temperature.items() if value is not None}
     # The viscosities of two oils are not mixed.
     left_out = given.union(SHEET_VISCOSITY) if given.intersection(SHEET_VISCOSITY) else given
-    return {key: value for key, value in sheet.items() if key not in left_out} | dict(own)
+    return {key: value for key, value in sheet.items() if key not in left_out} | dict(given_temperature)
 
 
 def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:

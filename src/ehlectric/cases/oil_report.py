@@ -64,17 +64,17 @@ def relation_of(table: Properties) -> Source | None:
     of = ", ".join(parameter.derivation.parameters)
     if table.parameter(ALPHA) is None:
         note = f"The coefficient follows from {of} and the viscosity at the temperature."
-        return Source((ALPHA,), "by rule", ROELANDS, note=f"{note}{_in_place_of(table)}")
+        return Source((ALPHA,), "by rule", ROELANDS, note=f"{note}{_replaced_note(table)}")
     if table.atmospheric_law is None or table.viscosity is None:
         return None
     note = "The coefficient, given at reference_temperature, changes with ln(viscosity) + 9.67."
     return Source((ALPHA,), "by rule", ROELANDS, note=note)
 
 
-def _in_place_of(table: Properties) -> str:
+def _replaced_note(table: Properties) -> str:
     """Text with the coefficient of the base, where another viscosity takes its place."""
-    own = None if table.base is None else library.lubricant(table.base).get(ALPHA)
-    return "" if own is None else f" It replaces {own} of {table.base!r}, which belongs to another viscosity."
+    old = None if table.base is None else library.lubricant(table.base).get(ALPHA)
+    return "" if old is None else f" It replaces {old} of {table.base!r}, which belongs to another viscosity."
 
 
 def law_behind(name: str, table: Properties, pressure: float) -> str:
@@ -145,8 +145,8 @@ def _density_law(table: Properties) -> str:
 
 def viscosity_keys(table: Properties, pressure: float) -> Iterator[str]:
     """Keys of the viscosity."""
-    own = VISCOSITY_LAWS[table.viscosity_law].atmospheric is not None
-    if own:
+    has_law = VISCOSITY_LAWS[table.viscosity_law].atmospheric is not None
+    if has_law:
         yield from of_law(table, "viscosity_law")
     elif table.atmospheric_law is not None:
         yield from of_law(table, "atmospheric_law")
@@ -155,7 +155,7 @@ def viscosity_keys(table: Properties, pressure: float) -> Iterator[str]:
         yield from _of_sheet(table, (*SHEET_VISCOSITY, "density_15"))
     else:
         yield "viscosity"
-    if pressure > 0.0 and not own:
+    if pressure > 0.0 and not has_law:
         yield from alpha_keys(table, pressure)
 
 
@@ -270,16 +270,16 @@ def survey(named: NamedOil, oils: Sequence[KnownOil], pressures: Sequence[float]
     """Lines of a survey of an oil: every property at ambient pressure and at further pressures.
     ``pressures``, pressures beside ambient pressure [Pa], for the properties that change with pressure.
     """
-    for one in PROPERTIES.values():
-        at = [0.0, *pressures] if one.over_pressure else [0.0]
-        for pressure in at[1:] if one.name == "density_ratio" else at:
-            values = tuple(_value(one, oil, pressure) for oil in oils)
+    for quantity in PROPERTIES.values():
+        at = [0.0, *pressures] if quantity.over_pressure else [0.0]
+        for pressure in at[1:] if quantity.name == "density_ratio" else at:
+            values = tuple(_value(quantity, oil, pressure) for oil in oils)
             known = any(value is not None for value in values)
-            behind = origin(named, one, pressure) if known else ("", "", ())
-            yield SurveyLine(one, pressure, values, *behind)
+            behind = origin(named, quantity, pressure) if known else ("", "", ())
+            yield SurveyLine(quantity, pressure, values, *behind)
 
 
-def origin(named: NamedOil, one: OilProperty, pressure: float) -> tuple[str, str, tuple[Source, ...]]:
+def origin(named: NamedOil, quantity: OilProperty, pressure: float) -> tuple[str, str, tuple[Source, ...]]:
     """Name of the law of a property at a pressure [Pa], kind of its weakest source, and all its sources.
 
     Examples
@@ -289,10 +289,10 @@ def origin(named: NamedOil, one: OilProperty, pressure: float) -> tuple[str, str
     >>> law, kind, len(sources)
     ('linear', 'read off a diagram', 1)
     """
-    sources, given = _sources(named, one, pressure)
+    sources, given = _sources(named, quantity, pressure)
     kinds = [source.kind for source in sources]
     kind = max(kinds, key=KINDS.index, default=GIVEN if given else "")
-    return law_behind(one.name, named.table, pressure), kind, sources
+    return law_behind(quantity.name, named.table, pressure), kind, sources
 
 
 def depends_on_temperature(table: Properties) -> bool:
@@ -317,18 +317,18 @@ def usual_temperatures(named: NamedOil) -> tuple[float | None, ...]:
     return tuple(kelvin for kelvin in _USUAL if ends[0] <= kelvin <= ends[1]) or ends
 
 
-def _value(one: OilProperty, oil: KnownOil, pressure: float) -> float | None:
+def _value(quantity: OilProperty, oil: KnownOil, pressure: float) -> float | None:
     """Value of a property; None where it is not known, or its law has none at this pressure."""
     try:
-        return one.value(oil, pressure)
+        return quantity.value(oil, pressure)
     except InputError:
         # The permittivity law has a pole below this pressure.
         return None
 
 
-def _sources(named: NamedOil, one: OilProperty, pressure: float) -> tuple[tuple[Source, ...], bool]:
+def _sources(named: NamedOil, quantity: OilProperty, pressure: float) -> tuple[tuple[Source, ...], bool]:
     """Sources behind a property, each once, and whether the table of a user gives a part of it."""
-    keys = one.keys(named.table, pressure)
+    keys = quantity.keys(named.table, pressure)
     sources = [source for key in keys for source in _behind(named, key)]
     return tuple(dict.fromkeys(source for source in sources if source is not None)), None in sources
 
@@ -414,7 +414,7 @@ _ALL = (
 )
 
 # Properties of an oil by name, in the order of tables.
-PROPERTIES: Mapping[str, OilProperty] = MappingProxyType({one.name: one for one in _ALL})
+PROPERTIES: Mapping[str, OilProperty] = MappingProxyType({quantity.name: quantity for quantity in _ALL})
 
 
 PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the oil; contacts of steel reach 4 GPa")
@@ -476,7 +476,7 @@ class OilReport:
             ],
             "missing": self.missing,
             "needs": self.named.needs,
-            "warnings": [{"code": getattr(one, "code", None), "text": str(one)} for one in self.warnings],
+            "warnings": [{"code": getattr(at, "code", None), "text": str(at)} for at in self.warnings],
         }
 
 
@@ -496,8 +496,8 @@ def oil_report(
     ('viscosity', 0.0845, 'vogel', 'fitted')
     """
     named = named_oil(source)
-    kelvins = [kelvin_of(one, "--temperature") for one in temperatures]
-    pascals = sorted({_pascal(one) for one in pressures} - {0.0})
+    kelvins = [kelvin_of(text, "--temperature") for text in temperatures]
+    pascals = sorted({_pascal(text) for text in pressures} - {0.0})
     if kelvins:
         oils = tuple(known_oil(named.table, kelvin, "--temperature") for kelvin in kelvins)
     else:
@@ -537,12 +537,12 @@ def _pascal(pressure: str | float) -> float:
 
 def _warnings(oils: Sequence[KnownOil], pressure: float) -> Iterator[ResultWarning | str]:
     """Warnings of the oil at its temperatures: ends of ranges of all, and each other warning once."""
-    told: set[str] = set()
+    known: set[str] = set()
     for oil in oils:
         at = "" if oil.temperature is None else f"at {celsius(oil.temperature)}, "
         for warning in oil.warnings(pressure):
-            if warning.code == "law-range" or warning.code not in told:
-                told.add(warning.code)
+            if warning.code == "law-range" or warning.code not in known:
+                known.add(warning.code)
                 # The laws warn of the Hertz pressure of a contact. Here is none, but a pressure in the oil.
                 text = warning.text.replace("the Hertz pressure", "the pressure")
                 yield replace(warning, text=at + text.removesuffix(" in this contact"))

@@ -187,8 +187,8 @@ def unusual_machine(values: Mapping[str, Numbers | None]) -> Iterator[Flag]:
 
 def _first_amount(value: Numbers, where: Mask, unit: str) -> str:
     """First value at which a condition holds, with its unit."""
-    values, found = np.broadcast_arrays(value, where)
-    return amount(float(values[found][0]), unit)
+    values, mask = np.broadcast_arrays(value, where)
+    return amount(float(values[mask][0]), unit)
 
 
 # Temperatures that bearing steel and ordinary oils stand [degC]. DIN 623-1: dimensions are stable up to

@@ -20,10 +20,10 @@ _NOT_VISCOUS, _OF_DENSITY = {"thermal_conductivity"}, ("density_15", "expansion"
 BASE = "lubricant.base"
 
 
-def replaced_keys(oil: Properties, own: Collection[str]) -> dict[str, str]:
+def replaced_keys(oil: Properties, replaced: Collection[str]) -> dict[str, str]:
     """Dotted keys that only properties with laws of the user's own use, each with one of these properties.
 
-    ``own``, names of these properties. A parameter that another law of the oil also has is not contained.
+    ``replaced``, names of these properties. Parameters that another law of the oil also has are omitted.
 
     Examples
     --------
@@ -31,29 +31,29 @@ def replaced_keys(oil: Properties, own: Collection[str]) -> dict[str, str]:
     >>> found["lubricant.roelands_z"], "lubricant.density" in found
     ('viscosity', False)
     """
-    users = {f"lubricant.{key}": properties for key, properties in _users(oil, own).items()}
+    users = {f"lubricant.{key}": properties for key, properties in _users(oil, replaced).items()}
     for rows in ALTERNATIVES["discharge"]:
         names = {key for row in rows for key in row}
         if "strength_table" in names:
             users |= {f"discharge.{key}": {"strength"} for key in names}
     return {
-        key: next(name for name in own if name in properties)
+        key: next(name for name in replaced if name in properties)
         for key, properties in users.items()
-        if properties <= set(own)
+        if properties <= set(replaced)
     }
 
 
-def _users(oil: Properties, own: Collection[str]) -> dict[str, set[str]]:
+def _users(oil: Properties, replaced: Collection[str]) -> dict[str, set[str]]:
     """Properties that use a key of the oil, by its key."""
     users: dict[str, set[str]] = defaultdict(set)
     for choice, laws in LAWS.items():
         of = "viscosity" if choice == "atmospheric_law" else choice.removesuffix("_law")
         name = oil.law(choice)
         users[choice].add(of)
-        for law in laws.values() if of in own else () if name is None else (laws[name],):
+        for law in laws.values() if of in replaced else () if name is None else (laws[name],):
             for parameter in law.parameters:
                 # A law of heat gets the density of the user's own law.
-                if parameter.name not in own:
+                if parameter.name not in replaced:
                     users[parameter.name].add(of)
     users["viscosity"].add("viscosity")
     users["density"].add("density")

@@ -72,7 +72,7 @@ class Roughness(StatedRa, book="roughness"):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        self.check_one_of(("file", "generator"), "either file or generator", needed=True)
+        self.check_alternatives(("file", "generator"), "either file or generator", needed=True)
         if self.generator is not None:
             self._check_generator()
         allowed = used_by(self.generator)
@@ -152,7 +152,7 @@ def unused_of_surfaces(tables: Any, geometry: Any) -> set[str]:
     given = [as_mapping(table) for table in tables] if isinstance(tables, list | tuple) else []
     kinds = {table.get("generator") for table in given}
     used = set(Roughness.model_fields)
-    if given and kinds <= {None, *GENERATORS} and all("file" in one or "generator" in one for one in given):
+    if given and kinds <= {None, *GENERATORS} and all("file" in row or "generator" in row for row in given):
         used = set().union(*map(used_by, kinds))
     used -= set(_POINT_KEYS if geometry == "line" else ("assume_transverse",))
     return {f"roughness.{key}" for key in Roughness.model_fields if key not in used}

@@ -101,22 +101,22 @@ def _difference(key: str, text: str, value: float, part: str, quantity: Amount) 
         takes = "a difference above 0 behind +-, in K or degC, or in degF"
         number_and_unit = units.split(part)
         degree = None if number_and_unit is None else units.degree(number_and_unit[1])
-        found = None if number_and_unit is None or degree is None else degree * number_and_unit[0]
+        difference = None if number_and_unit is None or degree is None else degree * number_and_unit[0]
     elif percent is not None:
         number = _number(percent["number"])
-        found = None if number is None else 0.01 * number * abs(value)
+        difference = None if number is None else 0.01 * number * abs(value)
     elif not quantity.unit:
-        found = _number(part)
+        difference = _number(part)
     else:
         try:
-            found = units.to_si(part, quantity.unit)
+            difference = units.to_si(part, quantity.unit)
         except ValueError:
-            found = None
-        if found is not None and (advice := doubt(part, Bounds(), quantity.factor)) is not None:
+            difference = None
+        if difference is not None and (advice := doubt(part, Bounds(), quantity.factor)) is not None:
             raise InputError(key, got=f"{shown(text)} ({advice})", takes=takes)
-    if found is None or not found > 0.0:
+    if difference is None or not difference > 0.0:
         raise InputError(key, got=shown(text), takes=takes)
-    return found
+    return difference
 
 
 def _number(text: str) -> float | None:

@@ -43,7 +43,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "all_inputs",
     "NAMED_BY",
     "arrays",
-    "check_one_of",
+    "check_alternatives",
     "check_over",
     "described_toml",
     "first_grid",
@@ -231,15 +231,15 @@ class Table(BaseModel, metaclass=_Listed):
 
     def check_over(self, key: str, values: str) -> Self:
         """Table itself, if the numbers of a key increase, and another key has as many values."""
-        places, found = getattr(self, key), getattr(self, values)
+        places, numbers = getattr(self, key), getattr(self, values)
         if any(b <= a for a, b in pairwise(places)):
             raise InputError(key, got=list(places), takes="increasing values")
-        if len(found) != len(places):
-            got = f"{len(found)} values over {len(places)} of {key}"
+        if len(numbers) != len(places):
+            got = f"{len(numbers)} values over {len(places)} of {key}"
             raise InputError(values, got=got, takes="as many")
         return self
 
-    def check_one_of(self, keys: Sequence[str], takes: str, *, needed: bool = False) -> None:
+    def check_alternatives(self, keys: Sequence[str], takes: str, *, needed: bool = False) -> None:
         """Raise an InputError where several of some keys are given, or none though one is needed."""
         given = [key for key in keys if getattr(self, key) is not None]
         if len(given) > 1 or (needed and not given):
@@ -248,19 +248,19 @@ class Table(BaseModel, metaclass=_Listed):
 
     def arrays(self) -> dict[str, Array]:
         """Arrays of the keys that have a number for each of many points, by dotted key; none by default."""
-        found: dict[str, Array] = {}
+        arrays: dict[str, Array] = {}
         for name, value in (*self.__dict__.items(), *(self.__pydantic_extra__ or {}).items()):
             if isinstance(value, Table):
-                found |= {f"{name}.{key}": array for key, array in value.arrays().items()}
+                arrays |= {f"{name}.{key}": array for key, array in value.arrays().items()}
             elif getattr(value, "ndim", 0):
-                found[name] = value
-        return found
+                arrays[name] = value
+        return arrays
 
     def with_values(self, values: Mapping[str, Any]) -> Self:
         """Copy with values of dotted keys in its tables, which are not checked."""
-        own, within = by_table(values)
+        direct, within = by_table(values)
         inner = {name: getattr(self, name).with_values(changes) for name, changes in within.items()}
-        return self.model_copy(update=own | inner)
+        return self.model_copy(update=direct | inner)
 
     def single(self, index: int) -> Self:
         """Table of one of many points, with its numbers as floats, which are not checked."""
@@ -284,9 +284,9 @@ class Table(BaseModel, metaclass=_Listed):
         """
         unused: set[str] = set()
         for name, field in cls.known_keys().items():
-            inner, own = table_of(field.annotation), as_mapping(given.get(name))
+            inner, entries = table_of(field.annotation), as_mapping(given.get(name))
             if inner is not None:
-                unused |= {f"{name}.{key}" for key in inner.unused_keys(own)}
+                unused |= {f"{name}.{key}" for key in inner.unused_keys(entries)}
         return unused
 
     @classmethod
@@ -339,7 +339,7 @@ class CaseFile(Tabled, Table):
         for within, key in self._speeds(table):
             value = within[key]
             listed = isinstance(value, list)
-            within[key] = [f"{one!r} {ROTATION}" for one in value] if listed else f"{value!r} {ROTATION}"
+            within[key] = [f"{item!r} {ROTATION}" for item in value] if listed else f"{value!r} {ROTATION}"
         return tomli_w.dumps(table)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:  # noqa: ARG002
@@ -355,15 +355,15 @@ def by_table(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, dict[
     >>> by_table({"title": "A", "bearing.base": "6208"})
     ({'title': 'A'}, {'bearing': {'base': '6208'}})
     """
-    own: dict[str, Any] = {}
+    direct: dict[str, Any] = {}
     within: dict[str, dict[str, Any]] = {}
     for key, value in values.items():
         first, _, rest = key.partition(".")
         if rest:
             within.setdefault(first, {})[rest] = value
         else:
-            own[first] = value
-    return own, within
+            direct[first] = value
+    return direct, within
 
 
 def _frozen(name: str) -> InputError:
@@ -562,7 +562,7 @@ def similar_keys(key: str, known: Sequence[str]) -> list[str]:
     table, _, leaf = key.rpartition(".")
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
-        alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
+        alias = [prefix + other for other in ALIASES.get(name.lower(), ()) if prefix + other in known]
         if alias:
             return alias
     return _nearest_of(key, table, leaf, known)
@@ -574,7 +574,7 @@ def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> list[s
     if elsewhere:
         return elsewhere[:1]
     inside = {name.rpartition(".")[2]: name for name in known if name.rpartition(".")[0] == table}
-    begun = [one for one in inside if len(leaf) >= _LEAST_LETTERS and one.startswith(leaf)]
+    begun = [begin for begin in inside if len(leaf) >= _LEAST_LETTERS and begin.startswith(leaf)]
     close = difflib.get_close_matches(leaf[:100], [*inside], n=1, cutoff=_SIMILAR)
     if begun or close:
         return [inside[name] for name in (close or begun)[:1]]
@@ -619,13 +619,13 @@ def with_name_keys(changes: Mapping[str, Any], model: type[Table]) -> dict[str, 
     >>> with_name_keys({"lubricant": "paper", "title": "A"}, Case)
     {'lubricant.base': 'paper', 'title': 'A'}
     """
-    found: dict[str, Any] = {}
+    keys: dict[str, Any] = {}
     for key, value in changes.items():
         name = name_key(key, model) if isinstance(value, str) else key
         if name != key and name in changes:
             raise InputError.worded(name, f"is given twice, also as {key}", takes="one of the two")
-        found[name] = value
-    return found
+        keys[name] = value
+    return keys
 
 
 def opened_names(tables: Mapping[str, Any], model: type[Table]) -> dict[str, Any]:
@@ -637,14 +637,14 @@ def opened_names(tables: Mapping[str, Any], model: type[Table]) -> dict[str, Any
     >>> opened_names({"contact": {"body_1": "steel"}, "title": "A"}, Case)
     {'contact': {'body_1': {'material': 'steel'}}, 'title': 'A'}
     """
-    found = dict(tables)
+    opened = dict(tables)
     for key, value in tables.items():
         field = model.model_fields.get(key)
         inner = None if field is None else table_of(field.annotation)
         if inner is not None:
             table = inner.of_name(value)
-            found[key] = opened_names(table, inner) if isinstance(table, Mapping) else table
-    return found
+            opened[key] = opened_names(table, inner) if isinstance(table, Mapping) else table
+    return opened
 
 
 def _kind(key: str, model: type[Table]) -> str:

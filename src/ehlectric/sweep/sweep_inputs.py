@@ -25,7 +25,7 @@ from ehlectric.cases.drive_case import (
     SweptCase,
     swept_case_of_dict,
     swept_case_of_file,
-    with_found_files,
+    with_absolute_files,
 )
 from ehlectric.cases.input_keys import input_field, is_of_drive, key_of_names, kind_of
 from ehlectric.cases.table import (
@@ -395,7 +395,7 @@ class Sweep(Tabled, Table):
             case str(name):
                 table["case"] = str(folder / name)
             case dict(inner):
-                table["case"] = with_found_files(inner, folder)
+                table["case"] = with_absolute_files(inner, folder)
         if isinstance(table.get("vary"), dict):
             _locate(table["vary"], folder)
         return cls.from_written(table)

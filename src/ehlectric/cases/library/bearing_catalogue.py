@@ -112,9 +112,9 @@ def with_class(table: Mapping[str, Any]) -> Mapping[str, Any]:
     if table.get("clearance_class") is not None:
         raise InputError("radial_clearance", got=f"{name!r} with clearance_class", takes="one of the two")
     # C0 is an older name of the normal class.
-    found = name.strip().upper().replace("C0", "CN")
+    class_name = name.strip().upper().replace("C0", "CN")
     return {key: value for key, value in table.items() if key != "radial_clearance"} | {
-        "clearance_class": found
+        "clearance_class": class_name
     }
 
 

@@ -48,14 +48,14 @@ class Suffix:
 @cache
 def suffixes() -> dict[str, Suffix]:
     """Suffixes whose meaning is known, by their text, in which "#" stands for a digit."""
-    found = {}
+    known = {}
     for row in library.rows("suffixes.csv"):
         kinds = [kind for kind in row["kinds"].split("|") if kind]
         clearance: Any = row["clearance"] or None
-        found[row["suffix"]] = Suffix(
+        known[row["suffix"]] = Suffix(
             text=row["suffix"],
             group=row["group"],
-            kinds=tuple(one for kind in kinds for one in (_BALL_KINDS if kind == "ball" else (kind,))),
+            kinds=tuple(name for kind in kinds for name in (_BALL_KINDS if kind == "ball" else (kind,))),
             not_series=tuple(part for part in row["not_series"].split("|") if part),
             meaning=row["meaning"],
             elsewhere=row["elsewhere"],
@@ -63,7 +63,7 @@ def suffixes() -> dict[str, Suffix]:
             clearance=clearance,
             bore_below=float(row["bore_below"]) if row["bore_below"] else None,
         )
-    return found
+    return known
 
 
 @lru_cache(maxsize=4096)
@@ -75,13 +75,13 @@ def known_suffix(text: str, bore: float | None = None) -> Suffix | None:
     >>> known_suffix("VT143").group, known_suffix("C3WT")
     ('grease', None)
     """
-    found = suffixes().get(text) or suffixes().get(re.sub(r"\d", "#", text))
-    if found is None:
-        shapes = (one for one in suffixes().values() if "#" in one.text)
-        found = next((one for one in shapes if re.fullmatch(one.text.replace("#", r"\d"), text)), None)
-    if found is None or (found.bore_below is not None and (bore is None or bore >= found.bore_below)):
+    suffix = suffixes().get(text) or suffixes().get(re.sub(r"\d", "#", text))
+    if suffix is None:
+        shapes = (known for known in suffixes().values() if "#" in known.text)
+        suffix = next((known for known in shapes if re.fullmatch(known.text.replace("#", r"\d"), text)), None)
+    if suffix is None or (suffix.bore_below is not None and (bore is None or bore >= suffix.bore_below)):
         return None
-    return replace(found, text=text)
+    return replace(suffix, text=text)
 
 
 @lru_cache(maxsize=1024)
@@ -107,7 +107,7 @@ def parted(text: str, bore: float | None = None) -> tuple[tuple[Suffix, ...], st
 
 def _singles(suffixes: Sequence[Suffix]) -> int:
     """Number of single letters."""
-    return sum(len(one.text) == 1 for one in suffixes)
+    return sum(len(last.text) == 1 for last in suffixes)
 
 
 def _divided(text: str, bore: float | None, before: tuple[Suffix, ...] = ()) -> Iterator[tuple[Suffix, ...]]:
@@ -115,7 +115,11 @@ def _divided(text: str, bore: float | None, before: tuple[Suffix, ...] = ()) -> 
     if not text:
         yield before
     for end in range(min(len(text), _LONGEST), 0, -1):
-        one = known_suffix(text[:end], bore)
-        if one is None or one.group in {suffix.group for suffix in before} or (end == 1 and _singles(before)):
+        last = known_suffix(text[:end], bore)
+        if (
+            last is None
+            or last.group in {suffix.group for suffix in before}
+            or (end == 1 and _singles(before))
+        ):
             continue
-        yield from _divided(text[end:], bore, (*before, one))
+        yield from _divided(text[end:], bore, (*before, last))

@@ -49,7 +49,7 @@ def type_of(head: str) -> DesignationType | None:
     >>> type_of("22210 E").kind, type_of("NU299").modelled, type_of("own")
     ('spherical roller', True, None)
     """
-    return next((one for one in _types() if one.pattern.match(head)), None)
+    return next((kind for kind in _types() if kind.pattern.match(head)), None)
 
 
 def no_such_bearing(text: object) -> InputError:
@@ -58,26 +58,26 @@ def no_such_bearing(text: object) -> InputError:
     The error names the kind of bearings that are not modelled. Examples in it are of the kind of the text.
     """
     parts = parts_of(text) if isinstance(text, str) else Parts((), "", (), (), "")
-    found = type_of(parts.head)
+    known = type_of(parts.head)
     for word, prefix in parts.prefixes:
         if not prefix.kinds:
             return refused(text, word, prefix.meaning, prefix.instead)
     angles = _angles(parts)
-    if found is None:
+    if known is None:
         why, takes = _unknown(parts), _usual(_alike(str(text)) or _EXAMPLES)
-    elif not found.modelled:
-        why = f", a designation of {found.kind} bearings, a kind that is not modelled"
+    elif not known.modelled:
+        why = f", a designation of {known.kind} bearings, a kind that is not modelled"
         takes = f"a bearing of one of the kinds {', '.join(KINDS_OF_BEARINGS)}"
     elif angles:
         where = f", and {shown(parts.rest[0])} begins with none" if parts.rest else ""
         why = f", a number of angular-contact ball bearings that needs the letter of its contact angle{where}"
         takes = angles
     else:
-        hint = f": {found.hint}" if found.hint else ""
+        hint = f": {known.hint}" if known.hint else ""
         why = (
-            f", a designation of {found.kind} bearings that is not in the library or in a usual series{hint}"
+            f", a designation of {known.kind} bearings that is not in the library or in a usual series{hint}"
         )
-        takes = _usual(_of_kind(found.kind, parts))
+        takes = _usual(_of_kind(known.kind, parts))
     got = shown(text)
     return InputError.worded("base", f"got {got}{why}; expected {takes}", got=got, takes=takes)
 
@@ -93,8 +93,8 @@ def _usual(examples: Sequence[str]) -> str:
 
 def _number(head: str) -> str:
     """Letters and digits at the beginning of a designation."""
-    found = re.match(r"[A-Z]*\d*[A-Z]?\d+(?:[/-]\d+)?|\S+", head)
-    return found[0] if found else head
+    match = re.match(r"[A-Z]*\d*[A-Z]?\d+(?:[/-]\d+)?|\S+", head)
+    return match[0] if match else head
 
 
 def _unknown(parts: Parts) -> str:
@@ -107,10 +107,10 @@ def _unknown(parts: Parts) -> str:
 
 def _angles(parts: Parts) -> str:
     """Designations of angular-contact bearings with the number of a text without a known contact angle."""
-    found = (one for stem in parts.stems for name, one in series().items() if name.startswith(f"{stem}-"))
+    variants = (row for stem in parts.stems for name, row in series().items() if name.startswith(f"{stem}-"))
     return " or ".join(
-        f"'{one.name.upper().replace('-', ' ')}' ({math.degrees(one.contact_angle or 0.0):.0f} deg)"
-        for one in found
+        f"'{row.name.upper().replace('-', ' ')}' ({math.degrees(row.contact_angle or 0.0):.0f} deg)"
+        for row in variants
     )
 
 
@@ -122,11 +122,11 @@ def _alike(text: str) -> list[str]:
 def _of_kind(kind: str, parts: Parts) -> list[str]:
     """Bearings of a kind whose names are most similar to the number of a designation, nearest first."""
     stem = parts.stems[0] if parts.stems else parts.head.lower()
-    names = [name for name, one in series().items() if one.kind == kind]
+    names = [name for name, entry in series().items() if entry.kind == kind]
 
     def far(name: str) -> tuple[int, int]:
         pairs = enumerate(zip(stem, name, strict=False))
-        alike = next((place for place, (one, other) in pairs if one != other), min(len(stem), len(name)))
+        alike = next((place for place, (a, b) in pairs if a != b), min(len(stem), len(name)))
         return -alike, abs(_digits(name.partition("-")[0] if name[0].isdigit() else name) - _digits(stem))
 
     return sorted(names, key=far)[:3]

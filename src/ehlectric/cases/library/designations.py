@@ -90,14 +90,14 @@ def known_bearings() -> Mapping[str, None]:
 @cache
 def _prefixes() -> tuple[Prefix, ...]:
     """Known prefixes. After letters a sign or a digit follows, after a digit a sign."""
-    found = []
+    prefixes = []
     for row in library.rows("designation_prefixes.csv"):
         pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?<=[A-Z])(?=\d)|$)"
         if row["group"] != "prefix":
             pattern = rf"({row['prefix']})(?:[\s/.,;:+_()-]+|(?=\d|NU|NJ|QJ|HK|NK|NA|RNA|AXK)|$)"
         kinds = tuple(kind for kind in row["kinds"].split("|") if kind)
-        found.append(Prefix(re.compile(pattern), row["group"], kinds, row["meaning"], row["instead"]))
-    return tuple(found)
+        prefixes.append(Prefix(re.compile(pattern), row["group"], kinds, row["meaning"], row["instead"]))
+    return tuple(prefixes)
 
 
 def plain(text: str) -> str:
@@ -128,13 +128,13 @@ def parts_of(text: str) -> Parts:
     """Prefixes, number and suffixes of a designation."""
     rest, prefixes, makers = plain(text).lstrip("( #"), [], []
     while rest:
-        found = next(((one, hit) for one in _prefixes() if (hit := one.pattern.match(rest))), None)
-        if found is None:
+        first = next(((prefix, hit) for prefix in _prefixes() if (hit := prefix.pattern.match(rest))), None)
+        if first is None:
             break
-        if found[0].group == "prefix":
-            prefixes.append((found[1][1], found[0]))
-        makers += [found[1][1]] if found[0].group == "maker" else []
-        rest = rest[found[1].end() :].lstrip()
+        if first[0].group == "prefix":
+            prefixes.append((first[1][1], first[0]))
+        makers += [first[1][1]] if first[0].group == "maker" else []
+        rest = rest[first[1].end() :].lstrip()
     head = re.sub(r"^([A-Z]+)[\s.-]+(?=\d)", r"\1", rest)
     stems, behind = _stems(rest)
     words = tuple(part for part in _SEPARATORS.split(behind) if part)
@@ -152,13 +152,13 @@ def seals_of(text: str) -> str:
     >>> seals_of("SKF 6208-2RS1/C3"), seals_of("6309-2Z"), seals_of("NU 208 ECP")
     ('two rubbing seals (SKF)', 'two shields', '')
     """
-    found = (one for word in parts_of(text).rest for one in parted(word)[0])
-    return next((one.meaning for one in found if one.group == "seal"), "")
+    parts = (part for word in parts_of(text).rest for part in parted(word)[0])
+    return next((part.meaning for part in parts if part.group == "seal"), "")
 
 
 def _group_of(word: str) -> str:
     """Group of a word of makers or for a bearing behind a number; empty for another word."""
-    return next((one.group for one in _prefixes() if one.pattern.fullmatch(word)), "")
+    return next((prefix.group for prefix in _prefixes() if prefix.pattern.fullmatch(word)), "")
 
 
 def _stems(text: str) -> tuple[tuple[str, ...], str]:
@@ -171,10 +171,10 @@ def _stems(text: str) -> tuple[tuple[str, ...], str]:
             return stems[1:], behind
         # NA 49/22 has a bore of 22 mm and NA 4922 one of 110 mm.
         return (stems[:1] if letters == "NK" or "/" in sign else stems), behind
-    found = _NUMBERED.fullmatch(text)
-    if found is None:
+    match = _NUMBERED.fullmatch(text)
+    if match is None:
         return (), ""
-    letters, number, behind = found[1], re.sub(r"\s", "", found[2]), found[3]
+    letters, number, behind = match[1], re.sub(r"\s", "", match[2]), match[3]
     if not letters:
         number = _THIN.sub(lambda hit: hit[1] or hit[2], number)
         number = re.sub(r"^(6[89])/(\d)$", r"\1\2", number)
@@ -197,20 +197,22 @@ def read_designation(text: str, names: Collection[str]) -> Designation | None:
     if whole in names:
         return Designation(whole, None)
     parts = parts_of(text)
-    found = [reading for stem in parts.stems if (reading := _named(stem, parts.rest, names)) is not None]
-    found += _with_two_seals(parts, names)
-    if not found:
+    readings = [reading for stem in parts.stems if (reading := _named(stem, parts.rest, names)) is not None]
+    readings += _with_two_seals(parts, names)
+    if not readings:
         return None
-    if len(found) > 1:
-        takes = "a sign between number and suffix: it can be " + " or ".join(one.upper() for one, _ in found)
+    if len(readings) > 1:
+        takes = "a sign between number and suffix: it can be " + " or ".join(
+            name.upper() for name, _ in readings
+        )
         raise InputError("base", got=shown(text), takes=takes)
-    name, rest = found[0]
+    name, rest = readings[0]
     for word, prefix in parts.prefixes:
         _check_prefix(text, word, prefix, name)
     _check_angle_letters(text, name, parts.rest)
     suffixes = tuple(_checked_suffixes(text, rest, name))
     _check_reinforced(text, suffixes, name)
-    classes = [one.clearance for one in suffixes if one.clearance]
+    classes = [suffix.clearance for suffix in suffixes if suffix.clearance]
     if len(set(classes)) > 1:
         raise InputError("base", got=shown(text), takes="one class of clearance, C2, CN, C3, C4, C5 or CM")
     return Designation(name, classes[0] if classes else None)
@@ -238,7 +240,7 @@ def _angle(rest: Sequence[str]) -> tuple[str, str]:
     """
     if re.match(r"C([NM\d]|T$)", rest[0]) or (rest[0] == "C" and rest[1:2] and rest[1].isdigit()):
         return "", rest[0]
-    letter = next((one for one in _ANGLES if rest[0].startswith(one)), "")
+    letter = next((letters for letters in _ANGLES if rest[0].startswith(letters)), "")
     more = rest[0][len(letter) :]
     if letter == "AC" and more[:1].isdigit():
         return "A", f"C{more}"
@@ -276,7 +278,7 @@ def _check_angle_letters(text: str, name: str, rest: Sequence[str]) -> None:
         return
     more = _angle(rest)[1]
     known, unknown = parted(more) if more else ((), "")
-    if unknown or any(one.group == "design" and not one.harmless(kind, of_series) for one in known):
+    if unknown or any(suffix.group == "design" and not suffix.harmless(kind, of_series) for suffix in known):
         angles = "A (30 deg), A5 or AC (25 deg), B or BE (40 deg), C or CD (15 deg)"
         takes = f"letters of a contact angle that are known, {angles}: {shown(rest[0])} may mean other balls"
         raise InputError("base", got=shown(text), takes=f"{takes} or another angle")
@@ -295,8 +297,8 @@ def _checked_suffixes(text: str, rest: Sequence[str], name: str) -> Iterator[Suf
                 "change the geometry; omit it only if the catalogue says that all elements are the same"
             )
             raise InputError("base", got=shown(text), takes=takes)
-        for one in known:
-            _check_suffix(text, one, kind, of_series)
+        for suffix in known:
+            _check_suffix(text, suffix, kind, of_series)
         yield from known
 
 
@@ -329,9 +331,9 @@ def _check_reinforced(text: str, suffixes: Sequence[Suffix], name: str) -> None:
     """Refuse a cage or the type NF without a reinforced design: they mean smaller rollers at some makers."""
     if kind_and_series(name)[1] not in _REINFORCED:
         return
-    reinforced = any(one.group == "design" and one.text.startswith("E") for one in suffixes)
+    reinforced = any(suffix.group == "design" and suffix.text.startswith("E") for suffix in suffixes)
     old = ["NF"] if parts_of(text).head.startswith("NF") else []
-    old += [one.text for one in suffixes if one.group == "cage"]
+    old += [suffix.text for suffix in suffixes if suffix.group == "cage"]
     if old and not reinforced:
         meaning = "smaller rollers at some makers if there is no E"
         raise refused(text, old[0], meaning, "or with E, such as 'NU 208 E' or 'NU 208 EM'")

@@ -146,15 +146,15 @@ class SeriesBearing:
 def series() -> Mapping[str, SeriesBearing]:
     """Bearings of the usual series by name, such as "6314", "nu-210", "7210-b" or "nk-20/20"."""
     lengths = ("bore", "outer_diameter", "width", "inner_raceway", "outer_raceway", "cup_width")
-    found = {}
+    bearings = {}
     for row in library.rows("series.csv"):
         # Decimal places of a millimetre are kept, as the product has a rounding error.
         sizes = {key: float(f"{row[key]}e-3") if row[key] else None for key in lengths}
         angle = math.radians(float(row["contact_angle"])) if row["contact_angle"] else None
         ratings = {key: float(row[key]) for key in ("dynamic", "static")}
         name = row["designation"]
-        found[name] = SeriesBearing(name=name, kind=row["kind"], contact_angle=angle, **sizes, **ratings)  # type: ignore[arg-type]
-    return found
+        bearings[name] = SeriesBearing(name=name, kind=row["kind"], contact_angle=angle, **sizes, **ratings)  # type: ignore[arg-type]
+    return bearings
 
 
 @dataclass(frozen=True)
@@ -268,7 +268,7 @@ def _best_balls(
     rates: tuple[Callable[[int, float], float], Callable[[int, float], float]],
 ) -> EstimatedGeometry:
     """Number and standard ball with the least distance from the ratings."""
-    best, found = _MOST_MISSED, None
+    best, geometry = _MOST_MISSED, None
     for ball in _standard_balls(bearing):
         # The static rating is proportional to the number.
         near = target.static / rates[1](1, ball)
@@ -276,10 +276,10 @@ def _best_balls(
             if number >= 3 and number * ball < _MOST_FILLED * math.pi * pitch:
                 miss = target.miss(rates[0](number, ball), rates[1](number, ball), ball)
                 if miss < best:
-                    best, found = miss, EstimatedGeometry(number, ball, float(f"{pitch:.9g}"))
-    if found is None:
+                    best, geometry = miss, EstimatedGeometry(number, ball, float(f"{pitch:.9g}"))
+    if geometry is None:
         raise _no_elements(bearing)
-    return found
+    return geometry
 
 
 def _standard_balls(bearing: SeriesBearing) -> Iterator[float]:
@@ -461,18 +461,18 @@ def estimated_bearing(name: str, dynamic: float | None = None, static: float | N
     (8, '0.0254 m', '0.07 m')
     """
     bearing = series()[name]
-    found = estimated_geometry(bearing, dynamic, static)
+    geometry = estimated_geometry(bearing, dynamic, static)
     lengths = {
-        "element_diameter": found.element_diameter,
-        "pitch_diameter": found.pitch_diameter,
-        "roller_length": found.roller_length,
+        "element_diameter": geometry.element_diameter,
+        "pitch_diameter": geometry.pitch_diameter,
+        "roller_length": geometry.roller_length,
         "bore": bearing.bore,
         "outer_diameter": bearing.outer_diameter,
         "width": bearing.width,
     }
-    table: dict[str, Any] = {"kind": bearing.kind, "elements": found.elements}
+    table: dict[str, Any] = {"kind": bearing.kind, "elements": geometry.elements}
     table |= {key: f"{size!r} m" for key, size in lengths.items() if size is not None}
-    if found.roller_length is None:
+    if geometry.roller_length is None:
         table |= _grooves(bearing)
     else:
         table["profile"] = "logarithmic"

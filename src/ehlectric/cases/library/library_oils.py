@@ -85,8 +85,8 @@ def _source(entry: Mapping[str, Any]) -> Source:
 
 def weakest(sources: Iterable[Source], keys: Iterable[str]) -> Kind | None:
     """Kind of the weakest source among those of some keys; none where the keys have no source."""
-    wanted = set(keys)
-    kinds = [source.kind for source in sources if wanted & set(source.keys)]
+    names = set(keys)
+    kinds = [source.kind for source in sources if names & set(source.keys)]
     return max(kinds, key=KINDS.index, default=None)
 
 

@@ -69,7 +69,7 @@ def printed_ratings(
     if base not in series():
         return None
     bearing = series()[base]
-    found = estimated_geometry(bearing, dynamic, static)
+    geometry = estimated_geometry(bearing, dynamic, static)
     factors = rating_factors(bearing.kind)
     return PrintedRatings(
         maker=_maker(base, bearing.series),
@@ -77,10 +77,10 @@ def printed_ratings(
         kind=bearing.kind,
         dynamic=factors[0] * bearing.dynamic,
         static=factors[1] * bearing.static,
-        elements=found.elements,
-        element_diameter=found.element_diameter,
-        pitch_diameter=found.pitch_diameter,
-        roller_length=found.roller_length,
+        elements=geometry.elements,
+        element_diameter=geometry.element_diameter,
+        pitch_diameter=geometry.pitch_diameter,
+        roller_length=geometry.roller_length,
         contact_angle=bearing.contact_angle,
     )
 
