@@ -6,32 +6,22 @@ asked for by a key of ``[source]``, and never guessed from the numbers.
 
 from __future__ import annotations
 
-import codecs
-import io
-import math
-import os
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
-from decimal import Decimal
-from itertools import chain, islice
+from itertools import chain
 from pathlib import Path
-from typing import Any, TextIO
 
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
-from ehlectric.quantities.grouped_digits import has_thousands, proven_mark, ungrouped, value_of
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.quantities.unit_spelling import typed
 from ehlectric.readable import readable
-from ehlectric.runtime import delimited
-from ehlectric.runtime.reading import regular
-from ehlectric.runtime.sizes import check_memory_for, check_size
+from ehlectric.runtime.sizes import check_memory_for
+from ehlectric.runtime.text_table import Dialect, Layout, layout_of, name_and_unit, text_blocks
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,12 +216,8 @@ LEAST_SAMPLES = 16
 # Largest size of a file [bytes]: some 100 million samples of time and voltage.
 MOST_BYTES = 2_000_000_000
 
-# Characters of the beginning, in which the columns are found, and of each block behind it; longest line, as a
-# file without line ends would fill the memory; longest number.
-_HEAD, _BLOCK, _LONGEST, _LONGEST_NUMBER = 65_536, 8_000_000, 100_000, 100
-
-# Lines that are tried with every separator, and characters of numbers with a decimal point.
-_TRIED, _OF_NUMBERS = 400, frozenset("0123456789+-.eE")
+# Characters of the beginning, which shows the columns.
+_HEAD = 65_536
 
 # Memory for a sample while it is read [bytes]: numbers, times, and their deviations from equal steps.
 _MEMORY = 40.0
@@ -264,8 +250,8 @@ _USUAL = {"s": "'s', 'ms' or 'us'", "V": "'V', 'mV' or 'kV'"}
 _TIME_NAMES = ("time", "t", "zeit", "temps", "tiempo", "tempo", "x-axis", "timestamp")
 _NUMBERINGS = ("nr", "no", "no.", "#", "index", "sample", "samples", "point", "points", "sequence")
 
-# Signs before a line of comment, and between a key above the numbers and its values.
-_COMMENT, _BETWEEN = "#%/ \t", re.compile("[:;,=\t]")
+# Signs between a key above the numbers and its values.
+_BETWEEN = re.compile("[:;,=\t]")
 
 # First letters of keys of units above the numbers that belong to the other axis: "Vertical Units", "xunit".
 _OTHERS = {"s": "vy", "V": "hxt"}
@@ -276,9 +262,6 @@ _INTERVALS = ("interval", "increment", "xinc", "rate", "period", "frequency", "d
 
 # Words of keys above the numbers, which are no names of columns.
 _STATED = ("unit", "length", *_INTERVALS)
-
-# Field of the first row that no file has behind its last column.
-_BEHIND = "behind-the-last-column"
 
 
 def read_waveform(
@@ -313,187 +296,22 @@ def read_waveform(
         raise InputError("step", got=step, takes="a sampling interval above 0 s")
     if not np.isfinite(scale) or scale == 0.0:
         raise InputError("scale", got=scale, takes="a finite factor other than 0")
-    with _opened(path) as (text, size):
-        content = _blocks(path, text, size)
-        beginning = next(content, "")
-        layout = _layout(path, beginning.split("\n"))
-        choice = _choice(path, layout, (column, time_column), (time_unit, value_unit), step)
-        count = size * (beginning.count("\n") + 1) / len(beginning)
-        check_memory_for(path, _MEMORY * count, f"has some {readable(count, 2)} samples")
-        first = beginning.split("\n", layout.first)[layout.first]
-        read = _samples(path, layout, choice.places, chain([first], content), ordered=step is None)
+    content = text_blocks(path, most=MOST_BYTES)
+    beginning = next(content, "")
+    lines = beginning[: beginning.find("\n", _HEAD) + 1 or None].split("\n")
+    layout = layout_of(path, lines)
+    labels = _labels(layout, lines)
+    choice = _choice(path, labels, (column, time_column), (time_unit, value_unit), step)
+    count = path.stat().st_size * (beginning.count("\n") + 1) / len(beginning)
+    check_memory_for(path, _MEMORY * count, f"has some {readable(count, 2)} samples")
+    blocks = chain([layout.below(beginning)], content)
+    read = _samples(path, layout, choice.places, blocks, ordered=step is None)
     if read.values.size < LEAST_SAMPLES:
         raise InputError(path, f"has {read.values.size} samples", takes=f"at least {LEAST_SAMPLES}")
     start, interval, gaps = _timing(path, read, choice, step)
     waveform = Waveform(start, interval, _volts(path, read.values, choice, scale))
-    warnings = (*_of_reading(path, layout, choice, read.values.size), *gaps)
+    warnings = (*_of_reading(path, labels, choice, read.values.size), *gaps)
     return waveform, (*warnings, *quality_warnings(str(path), waveform))
-
-
-@contextmanager
-def _opened(path: Path) -> Iterator[tuple[TextIO, int]]:
-    """Text of a file in UTF-8, UTF-16 or Windows-1252 with single line ends, and its size [bytes]."""
-    with regular(path) as file:
-        size = os.fstat(file.fileno()).st_size
-        check_size(path, size, MOST_BYTES, copies=0.0)
-        head = file.read(_HEAD)
-        file.seek(0)
-        encoding = "utf-8-sig"
-        if head[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
-            encoding = "utf-16"
-        else:
-            try:
-                codecs.getincrementaldecoder("utf-8")().decode(head)
-            except UnicodeDecodeError:
-                encoding = "cp1252"
-        errors = "strict" if encoding == "utf-16" else "replace"
-        try:
-            yield io.TextIOWrapper(file, encoding, errors=errors), size
-        except UnicodeDecodeError:
-            raise InputError(path, "is not text in UTF-16") from None
-
-
-def _blocks(path: Path, text: TextIO, size: int) -> Iterator[str]:
-    """Blocks of whole lines; only the last line of the file may have no end."""
-    length = _HEAD
-    while block := text.read(length):
-        rest = text.readline(_LONGEST)
-        block, length = block + rest, _BLOCK
-        size -= len(block)
-        if "\0" in block:
-            raise InputError(path, "is not a text file")
-        if len(rest) == _LONGEST:
-            raise InputError(path, f"has a line of more than {_LONGEST} characters", takes="a sample a line")
-        if size < 0:
-            raise InputError(path, "grows while it is read")
-        yield block
-
-
-@dataclass(frozen=True)
-class _Dialect:
-    """Separator of columns, None for white space, and decimal mark."""
-
-    separator: str | None
-    decimal: str
-
-    def fields(self, line: str) -> list[str]:
-        """Fields of a line, without white space and quotes around them."""
-        if '"' in line and self.separator is not None:
-            return delimited.fields(line, self.separator)
-        return [field.strip().strip('"').strip() for field in line.split(self.separator)]
-
-    def number(self, field: str) -> float | None:
-        """Number in a field; None for other texts, and for numbers that are not finite.
-
-        Examples
-        --------
-        >>> _Dialect(";", ",").number("-1,5e-3"), _Dialect(";", ",").number("1.5")
-        (-0.0015, None)
-        >>> _Dialect(",", ".").number("1,500.5")
-        1500.5
-        """
-        if has_thousands(field) and proven_mark(field) == self.decimal:
-            return value_of(field, self.decimal)
-        if self.decimal == ",":
-            if "." in field or field.endswith(","):
-                return None
-            field = field.replace(",", ".")
-        if not field or len(field) > _LONGEST_NUMBER or not _OF_NUMBERS.issuperset(field):
-            return None
-        try:
-            value = float(field)
-        except ValueError:
-            return None
-        return value if math.isfinite(value) else None
-
-    def is_row(self, row: Sequence[str]) -> bool:
-        """Whether all fields that are not empty are numbers, and any is."""
-        filled = [field for field in row if field]
-        return bool(filled) and all(self.number(field) is not None for field in filled)
-
-
-# In the order of preference: a comma separates columns only where neither semicolon nor tab does.
-_DIALECTS = tuple(_Dialect(separator, decimal) for separator in (";", "\t", ",", None) for decimal in ".,")
-
-
-@dataclass(frozen=True)
-class _Layout:
-    """Places of the columns of numbers from 0, number of fields of a row, and first line of numbers from 0.
-
-    ``header`` are the lines above the numbers, and ``stated`` values of keys there and left of the numbers.
-    """
-
-    dialect: _Dialect
-    columns: tuple[int, ...]
-    width: int
-    first: int
-    header: tuple[str, ...]
-    stated: Mapping[str, Sequence[str]]
-
-    @property
-    def above(self) -> str:
-        """Last line above the numbers; empty without any."""
-        return next((line.strip() for line in reversed(self.header) if line.strip()), "")
-
-
-def _layout(path: object, lines: Sequence[str]) -> _Layout:
-    """Columns of numbers in the first lines of a file; an error where they can be read in two ways."""
-    filled = [line for line in lines if line.strip()]
-    if not filled:
-        raise InputError(path, "is empty", takes="lines of time and voltage")
-    sample = filled[-max(1, min(_TRIED, (len(filled) + 1) // 2)) :]
-    dialect, rows = _dialect(path, filled, sample)
-    counts = Counter(place for row in rows for place, field in enumerate(row) if field)
-    columns = tuple(sorted(place for place, count in counts.items() if 2 * count > len(rows)))
-    first = _first_row(path, lines, dialect, columns)
-    above = [line.lstrip(_COMMENT) for line in lines[:first]]
-    left = columns[0] if columns[0] > 1 else 0
-    beside = [",".join(dialect.fields(line)[:left]) for line in lines[first:]] if left else []
-    return _Layout(dialect, columns, columns[-1] + 1, first, tuple(above), _stated([*above, *beside]))
-
-
-def _dialect(path: object, filled: Sequence[str], sample: Sequence[str]) -> tuple[_Dialect, list[list[str]]]:
-    """Dialect in which most of the sampled lines are rows of numbers, and these rows."""
-    found: list[tuple[tuple[int, int], _Dialect, list[list[str]]]] = []
-    for dialect in _DIALECTS:
-        rows = [row for row in map(dialect.fields, sample) if dialect.is_row(row)]
-        if 2 * len(rows) > len(sample):
-            found.append(((len(rows), max(sum(map(bool, row)) for row in rows)), dialect, rows))
-    if not found:
-        raise InputError(
-            path,
-            f"has no columns of numbers, as in its line {shown(sample[-1].strip())}",
-            takes="numbers separated by ';', ',', tabs or spaces",
-        )
-    score, best, rows = max(found, key=lambda one: one[0])
-    # A pair such as "0,5" is one number with a decimal comma, too: the heads decide.
-    single = next((one for one in found if one[1] == _Dialect(";", ",") and one[0][0] == score[0]), None)
-    if best == _Dialect(",", ".") and single is not None:
-        heads = [line for line in filled if not best.is_row(best.fields(line))]
-        if not heads:
-            raise InputError(
-                path,
-                f"has lines such as {shown(sample[-1].strip())}, one number with a decimal comma or two;",
-                takes="a semicolon or a tab between columns, or heads above them",
-            )
-        if len(best.fields(heads[-1])) < score[1]:
-            return single[1:]
-    return best, rows
-
-
-def _first_row(path: object, lines: Sequence[str], dialect: _Dialect, columns: Sequence[int]) -> int:
-    """Place of the first line of numbers that another one follows."""
-    filled = [place for place, line in enumerate(lines) if line.strip()]
-    rows = [dialect.fields(lines[place]) for place in filled]
-    starts = [dialect.is_row([row[k] for k in columns if k < len(row)]) for row in rows]
-    for k, place in enumerate(filled):
-        if starts[k] and all(starts[k + 1 : k + 2]):
-            if k and starts[0]:
-                wrong = filled[starts.index(False)]
-                text = shown(lines[wrong].strip())
-                raise InputError(path, f"line {wrong + 1} is {text}", takes="numbers below the first numbers")
-            return place
-    raise InputError(path, "has no lines of numbers below each other", takes="a line for each sample")
 
 
 def _stated(lines: Sequence[str]) -> dict[str, list[str]]:
@@ -560,11 +378,9 @@ def _parts(head: str) -> tuple[str, str]:
     >>> _parts("Time (us)"), _parts("C1 in V"), _parts("time_ms"), _parts("Channel A")
     (('Time', 'us'), ('C1', 'V'), ('time', 'ms'), ('Channel A', ''))
     """
-    text = " ".join(typed(head).split())
-    for opening, closing in ("[]", "()"):
-        start = text.rfind(opening)
-        if start >= 0 and text.endswith(closing):
-            return text[:start].strip(), text[start + 1 : -1].strip()
+    text, unit = name_and_unit(head)
+    if unit is not None:
+        return text, unit
     words = text.replace("_", " ").replace("/", " ").split()
     base = _unit(words[-1])[0] if words else ""
     if len(words) > 1 and words[-2].lower() == "in" and base:
@@ -577,7 +393,27 @@ def _parts(head: str) -> tuple[str, str]:
     return text, ""
 
 
-def _heads(layout: _Layout) -> list[_Head]:
+@dataclass(frozen=True)
+class _Labels:
+    """Heads of the columns, and what the lines above the numbers and the fields left of them state."""
+
+    heads: list[_Head]
+    header: tuple[str, ...]  # lines above the numbers
+    stated: Mapping[str, Sequence[str]]  # values of keys, by keys in small letters
+
+    @property
+    def above(self) -> str:
+        """Last line above the numbers; empty without any."""
+        return next((line.strip() for line in reversed(self.header) if line.strip()), "")
+
+
+def _labels(layout: Layout, lines: Sequence[str]) -> _Labels:
+    left = layout.columns[0] if layout.columns[0] > 1 else 0
+    keys = [",".join(layout.dialect.fields(line)[:left]) for line in lines[layout.first :]] if left else []
+    return _Labels(_heads(layout), layout.header, _stated([*layout.header, *keys]))
+
+
+def _heads(layout: Layout) -> list[_Head]:
     """Heads of the columns of numbers, by the last one or two lines above them."""
     rows = [row for row in (_head_fields(layout, line) for line in layout.header) if any(row)]
     rows = [[], *(row if _covers(layout, row) else [] for row in rows)][-2:]
@@ -595,7 +431,7 @@ def _heads(layout: _Layout) -> list[_Head]:
     return [_Head(place, *(_parts(names[place]) if names else ())) for place in layout.columns]
 
 
-def _head_fields(layout: _Layout, line: str) -> list[str]:
+def _head_fields(layout: Layout, line: str) -> list[str]:
     """Fields of a line of heads: between columns of white space, names have spaces and units brackets."""
     row = layout.dialect.fields(line)
     if layout.dialect.separator is None and len(row) != layout.width:
@@ -605,14 +441,14 @@ def _head_fields(layout: _Layout, line: str) -> list[str]:
     return row
 
 
-def _covers(layout: _Layout, row: Sequence[str]) -> bool:
+def _covers(layout: Layout, row: Sequence[str]) -> bool:
     """Whether a row has a field for every column of numbers; the first one may be empty."""
     # Any sentence has as many words as there are columns.
     enough = len(row) == layout.width or (len(row) > layout.width and layout.dialect.separator is not None)
     return enough and all(row[place] for place in layout.columns[1:])
 
 
-def _are_names(layout: _Layout, row: Sequence[str]) -> bool:
+def _are_names(layout: Layout, row: Sequence[str]) -> bool:
     """Whether a row has names in the columns of numbers: texts, or whole numbers of channels."""
     if any(word in row[0].lower() for word in _STATED):
         return False
@@ -639,15 +475,15 @@ class _Choice:
 
 def _choice(
     path: Path,
-    layout: _Layout,
+    labels: _Labels,
     wanted: tuple[str | int | None, str | int | None],
     given: tuple[str | None, str | None],
     step: float | None,
 ) -> _Choice:
     """Columns that are read, of ``wanted`` voltage and time; ``given`` are the units of time and voltage."""
-    heads = _heads(layout)
+    heads = labels.heads
     times = [head for head in heads if head.is_time]
-    unnamed, unread = not any(head.name or head.unit for head in heads), layout.above
+    unnamed, unread = not any(head.name or head.unit for head in heads), labels.above
     if wanted[1] is not None:
         times = [_named(path, "time_column", wanted[1], heads)]
     elif unnamed and unread and step is None and len(heads) > 1:
@@ -663,22 +499,22 @@ def _choice(
     before = [head for head in times if head.place < value.place]
     time = (before or times[:1])[-1] if times else None
     if time is None and step is None:
-        raise InputError.worded("step", f"missing; {path} has {_no_times(layout, heads)}")
+        raise InputError.worded("step", f"missing; {path} has {_no_times(labels)}")
     assumed: list[str] = []
-    factor = _factor(path, layout, value, ("value_unit", given[1], "V"), assumed)
+    factor = _factor(path, labels, value, ("value_unit", given[1], "V"), assumed)
     of_time = ("time_unit", given[0], "s")
-    time_factor = 1.0 if time is None else _factor(path, layout, time, of_time, assumed)
+    time_factor = 1.0 if time is None else _factor(path, labels, time, of_time, assumed)
     return _Choice(value, factor, time, time_factor, tuple(assumed))
 
 
-def _no_times(layout: _Layout, heads: Sequence[_Head]) -> str:
+def _no_times(labels: _Labels) -> str:
     """Columns of a file without times, the line that may have its interval, and what to give."""
-    lines = [*layout.header, *(f"{key}: {values[0]}" for key, values in layout.stated.items())]
+    lines = [*labels.header, *(f"{key}: {values[0]}" for key, values in labels.stated.items())]
     line = next((line for line in lines if any(word in line.lower() for word in _INTERVALS)), None)
     states = "" if line is None else f", and the line {shown(line.strip())}"
     return (
-        f"no column of times that is known, but {_listed(heads)}{states}; expected a sampling interval, such "
-        "as 4e-9 or '4 ns', or the name or number of the column of times as time_column"
+        f"no column of times that is known, but {_listed(labels.heads)}{states}; expected a sampling "
+        "interval, such as 4e-9 or '4 ns', or the name or number of the column of times as time_column"
     )
 
 
@@ -715,7 +551,7 @@ def _single(path: Path, channels: Sequence[_Head]) -> _Head:
 
 
 def _factor(
-    path: Path, layout: _Layout, head: _Head, asked: tuple[str, str | None, str], assumed: list[str]
+    path: Path, labels: _Labels, head: _Head, asked: tuple[str, str | None, str], assumed: list[str]
 ) -> float:
     """Factor from the unit of a column to the SI unit: as its head, the user or a line above states it.
 
@@ -731,14 +567,14 @@ def _factor(
         return stated
     above = [
         value
-        for name, values in layout.stated.items()
+        for name, values in labels.stated.items()
         if "unit" in name and name[:1] not in _OTHERS[base]
         for value in values
     ]
     factors = {_unit(value)[1] for value in above if _unit(value)[0] == base}
-    if not above and layout.above and not head.name:
+    if not above and labels.above and not head.name:
         # The line above the numbers could not be read, and may state the unit.
-        above = [layout.above]
+        above = [labels.above]
     if wanted is not None and factors <= {wanted}:
         return wanted
     if above and (len(factors) != 1 or wanted is not None):
@@ -771,13 +607,13 @@ class _Samples:
 
 
 def _samples(
-    path: Path, layout: _Layout, places: tuple[int, ...], blocks: Iterable[str], *, ordered: bool
+    path: Path, layout: Layout, places: tuple[int, ...], blocks: Iterable[str], *, ordered: bool
 ) -> _Samples:
     """Numbers of the columns at ``places``; ``ordered`` times must increase."""
     parts: list[tuple[Array, ...]] = []
     line, last, head, tail = layout.first + 1, -np.inf, "", ""
     for text in blocks:
-        columns = _numbers(path, layout, places, text, line)
+        columns = layout.numbers(path, places, text, line)
         if ordered and len(places) > 1 and columns[1].size:
             _check_order(path, layout, (text, line), np.diff(columns[1], prepend=last))
             last = columns[1][-1]
@@ -789,109 +625,20 @@ def _samples(
     )
     # The last line of the one text may be cut off, and the first one of the other.
     ends = head.split("\n")[:-1][:_COUNTED], tail.split("\n")[1:][-_COUNTED:]
-    return _Samples(values, times, _digit(layout.dialect, places[-1], ends) if times.size else 0.0)
+    return _Samples(values, times, layout.last_digit(places[-1], ends) if times.size else 0.0)
 
 
-def _numbers(path: Path, layout: _Layout, places: tuple[int, ...], text: str, line: int) -> tuple[Array, ...]:
-    """Numbers of lines, of which the first one has the number ``line``; an error names a wrong line."""
-    columns = _at_once(layout, places, text)
-    if columns is None:
-        rows = [_row(path, layout, places, number, row) for number, row in _rows(layout.dialect, text, line)]
-        columns = tuple(np.array(rows, dtype=float).reshape(-1, len(places)).T.copy())
-    return columns
-
-
-def _rows(dialect: _Dialect, text: str, line: int) -> Iterator[tuple[int, list[str]]]:
-    """Rows that are not empty, with the numbers of their lines."""
-    for number, each in enumerate(text.split("\n"), line):
-        row = dialect.fields(each) if each.strip() else []
-        if any(row):
-            yield number, row
-
-
-def _at_once(layout: _Layout, places: tuple[int, ...], text: str) -> tuple[Array, ...] | None:
-    """Numbers as pandas reads them; None where it meets a line that is not of numbers only."""
-    if '"' in text:
-        # A quote that is not closed would make one field of many lines.
-        return None
-    import pandas as pd  # takes a while
-
-    # A field behind the last column would be left out without a word, so that there is a column for it: its
-    # category is empty. A row of zeros before the others makes the parser know of this column.
-    kinds: dict[int, Any] = dict.fromkeys(places, np.float64) | {layout.width: "category"}
-    separator = layout.dialect.separator
-    longer = (separator or " ").join([*["0"] * layout.width, _BEHIND])
-    try:
-        table = pd.read_csv(
-            io.StringIO(f"{longer}\n{text}"),
-            sep=separator or r"\s+",
-            decimal=layout.dialect.decimal,
-            header=None,
-            names=range(layout.width + 1),
-            usecols=list(kinds),
-            index_col=False,
-            dtype=kinds,
-            na_filter=False,
-            skipinitialspace=True,
-        )
-    except ValueError:  # of pandas, too
-        return None
-    columns = tuple(table[place].to_numpy()[1:] for place in places)
-    behind = {"", _BEHIND}.issuperset(table[layout.width].cat.categories)
-    return columns if behind and all(np.isfinite(each).all() for each in columns) else None
-
-
-def _row(path: Path, layout: _Layout, places: Sequence[int], number: int, row: Sequence[str]) -> list[float]:
-    """Numbers of a row; an error names its line and column."""
-    count = max(k for k, field in enumerate(row, 1) if field)
-    if count > layout.width:
-        raise InputError(
-            path, f"line {number} has {count} columns", takes=f"{layout.width} as in other lines"
-        )
-    values = []
-    for place in places:
-        if place >= count:
-            takes = "a number in each line; is the file cut off?"
-            raise InputError(path, f"line {number} has no column {place + 1}", takes=takes)
-        value = layout.dialect.number(row[place])
-        if value is None:
-            mark = "point" if layout.dialect.decimal == "." else "comma"
-            got = f"line {number}, column {place + 1}: got {shown(row[place])}"
-            raise InputError(path, got, takes=f"a finite number with a decimal {mark}, or none")
-        values.append(value)
-    return values
-
-
-def _check_order(path: Path, layout: _Layout, block: tuple[str, int], steps: Array) -> None:
+def _check_order(path: Path, layout: Layout, block: tuple[str, int], steps: Array) -> None:
     """Refuse times that do not increase; ``block`` is the text in which they are, and its first line."""
     if np.all(steps > 0.0):
         return
     bad = int(np.argmin(steps > 0.0))
-    number = next(islice(_rows(layout.dialect, *block), bad, None))[0]
+    number = layout.line_of(*block, bad)
     what, takes = "goes backward in time", "increasing times"
     if steps[bad] == 0.0:
         what = "repeats the time before it"
         takes += "; if times are printed with too few digits, give the sampling interval as step"
     raise InputError(path, f"line {number} {what}", takes=takes)
-
-
-def _digit(dialect: _Dialect, place: int, ends: Iterable[Sequence[str]]) -> float:
-    """Last printed digit of times, at that end of a record where it is coarser.
-
-    A program that leaves out zeros at the end prints some times with fewer digits than others, and one with a
-    fixed number of digits prints fewer decimal places the larger a time is. At each end, the largest time
-    therefore counts, with the most digits that any time there has.
-    """
-    digits = []
-    for lines in ends:
-        rows = [dialect.fields(line) for line in lines]
-        texts = [row[place] for row in rows if place < len(row) and dialect.number(row[place]) is not None]
-        numbers = [Decimal(ungrouped(text, dialect.decimal)) for text in texts]
-        filled = [number for number in numbers if number] or numbers
-        if filled:
-            most = max(len(number.as_tuple().digits) for number in filled)
-            digits.append(max(number.adjusted() for number in filled) - most + 1)
-    return float(10.0 ** max([-300, *digits]))
 
 
 def _timing(
@@ -952,12 +699,12 @@ def _volts(path: Path, values: Array, choice: _Choice, scale: float) -> Array:
     return values
 
 
-def _of_reading(path: Path, layout: _Layout, choice: _Choice, count: int) -> Iterator[ResultWarning]:
+def _of_reading(path: Path, labels: _Labels, choice: _Choice, count: int) -> Iterator[ResultWarning]:
     """Warnings about units that the file does not state, and about a length that it does not have."""
     if choice.assumed:
         assumptions = " and that ".join(choice.assumed)
         yield ResultWarning.of("units-assumed", file=path, assumptions=assumptions)
-    stated = [layout.stated[key][-1] for key in _LENGTHS if key in layout.stated]
-    points = max((_Dialect(None, ".").number(text) or 0.0 for text in stated), default=0.0)
+    stated = [labels.stated[key][-1] for key in _LENGTHS if key in labels.stated]
+    points = max((Dialect(None).number(text) or 0.0 for text in stated), default=0.0)
     if count < points:
         yield ResultWarning.of("samples-missing", "cut_off", file=path, stated=points, count=count)
