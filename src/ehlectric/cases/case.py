@@ -207,7 +207,7 @@ class Case(CaseFile, book="case_file"):
         return self.grid.first(rough=bool(self.roughness))
 
     @property
-    def own_laws(self) -> OwnLaws | None:
+    def user_laws(self) -> OwnLaws | None:
         """Laws of the user's own that replace the laws of the lubricant; None without any."""
         return self._laws
 
@@ -338,12 +338,12 @@ class Case(CaseFile, book="case_file"):
         displace_alternatives(table, flat, geometry)
         set_keys(table, flat)
         changed = self.from_dict(table | {LAWS: laws})
-        if changed.own_laws is not None:
+        if changed.user_laws is not None:
             before = flattened(self._without_laws())
             others = {key: (before.get(key),) for key in flattened(flat) if key != BASE}
             check_changes(changed, others)
             if BASE in flat and not new_laws:
-                refuse_another_oil(changed.lubricant, self.lubricant, changed.own_laws.names)
+                refuse_another_oil(changed.lubricant, self.lubricant, changed.user_laws.names)
         return changed
 
 
@@ -370,9 +370,9 @@ def check_changes(case: Case, changes: Mapping[str, Iterable[Any]]) -> None:
     """Raise an InputError if one of the values of a key differs from the value in a case, and a law of the
     user's own replaces this value. Keys are dotted, and values in SI units.
     """
-    if case.own_laws is not None:
+    if case.user_laws is not None:
         given = flattened(case._without_laws())
-        refuse_replaced(case.lubricant, case.own_laws.names, given, changes)
+        refuse_replaced(case.lubricant, case.user_laws.names, given, changes)
 
 
 def _of_keys(kind: type[C], geometry: str, keys: Mapping[str, Any]) -> C:
@@ -397,10 +397,10 @@ def _of_kind(case: C, geometry: str) -> C:
 
 def _same_laws(case: Case, other: Case) -> bool:
     """Whether two cases have the same laws of a user's own: equal functions, or equal values of a file."""
-    if case.own_laws is None or other.own_laws is None:
-        return case.own_laws is other.own_laws
-    if isinstance(case.own_laws, Laws) and isinstance(other.own_laws, Laws):
-        return case.own_laws == other.own_laws
+    if case.user_laws is None or other.user_laws is None:
+        return case.user_laws is other.user_laws
+    if isinstance(case.user_laws, Laws) and isinstance(other.user_laws, Laws):
+        return case.user_laws == other.user_laws
     assert case.law_values is not None and other.law_values is not None
     return case.law_values.same_values(other.law_values)
 

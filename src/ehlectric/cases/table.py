@@ -51,7 +51,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "known_keys",
     "law_values",
     "of_name",
-    "own_laws",
+    "user_laws",
     "plain_tables",
     "shape",
     "sign_of",

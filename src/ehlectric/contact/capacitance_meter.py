@@ -306,19 +306,19 @@ def _coating(contact: Metered, coated: float, film_breakdown: float | None) -> d
     bare = contact.parts(Layers(rq=contact.layers.rq))
     uncoated = bare["capacitance_domain"] + bare["capacitance_outside"]
     share = contact.film_share
-    own = None if coating.strength is None else coating.strength * coating.thickness
+    breakdown = None if coating.strength is None else coating.strength * coating.thickness
     film = None if film_breakdown is None else film_breakdown / share
     both = None
-    if own is not None and film is not None and film_breakdown is not None:
+    if breakdown is not None and film is not None and film_breakdown is not None:
         # Either part breaks down first, and the whole voltage then lies on the other one.
-        both = min(max(film, own), max(own / (1.0 - share), film_breakdown))
+        both = min(max(film, breakdown), max(breakdown / (1.0 - share), film_breakdown))
     return {
         "capacitance_uncoated": uncoated,
         "coating_capacitance": 1.0 / (1.0 / coated - 1.0 / uncoated),
         "coating_voltage_share": 1.0 - share,
         "film_voltage_share": share,
         "film_breakdown_voltage": film,
-        "coating_breakdown_voltage": own,
+        "coating_breakdown_voltage": breakdown,
         "breakdown_voltage": both,
     }
 

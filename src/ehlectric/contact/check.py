@@ -155,9 +155,9 @@ def portable(case: Case) -> Case:
 
     Raises InputError if a function has no valid value at a temperature or a pressure of the contact.
     """
-    if not isinstance(case.own_laws, Laws):
+    if not isinstance(case.user_laws, Laws):
         return case
-    recorder = Recorder(case.own_laws)
+    recorder = Recorder(case.user_laws)
     recorded = case.with_laws(recorder)
     conditions = KINDS[case.contact.geometry].resolve(recorded)
     physics_of(recorded, conditions)

@@ -68,7 +68,7 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
         )
     assert contact.temperature is not None
     inlet = contact.temperature
-    warm = tuple(inlet if own is None else own for own in (contact.temperature_1, contact.temperature_2))
+    warm = tuple(inlet if t is None else t for t in (contact.temperature_1, contact.temperature_2))
     bodies = tuple(
         Body(temperature, **thermal_properties(contact.value(name), f"contact.{name}"))
         for name, temperature in zip(("body_1", "body_2"), warm, strict=True)
@@ -77,7 +77,7 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
         bodies=(bodies[0], bodies[1]),
         inlet_temperature=inlet,
         oil=hot_oil(
-            case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES, laws=case.own_laws
+            case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES, laws=case.user_laws
         ),
     )
 
@@ -148,8 +148,8 @@ def heat_warnings(
         if physics.thermal is not None:
             thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
             if thicker is not None:
-                told = _thicker(thicker, conditions.max_pressure)
-                yield ResultWarning.of("film-temperature-range", "not_converged", thicker=told)
+                text = _thicker(thicker, conditions.max_pressure)
+                yield ResultWarning.of("film-temperature-range", "not_converged", thicker=text)
         return
     if heated.isothermal_minimum_thickness is None:
         yield ResultWarning.of("isothermal-unsolved")
@@ -224,28 +224,28 @@ def _temperatures(
     case: Case, heated: HeatedFilm, oil: HotOil, max_pressure: float
 ) -> Iterator[ResultWarning]:
     """Warnings about temperatures at which oil, laws or model are not known."""
-    found, known = heated.temperature_range, case.lubricant.temperature_range
-    if case.own_laws is not None and "viscosity" in case.own_laws.names:
+    reached, known = heated.temperature_range, case.lubricant.temperature_range
+    if case.user_laws is not None and "viscosity" in case.user_laws.names:
         known = None  # the range of the laws that are replaced
-    assert found is not None
+    assert reached is not None
     reasons = []
-    if known is not None and not (known[0] <= found[0] and found[1] <= known[1]):
+    if known is not None and not (known[0] <= reached[0] and reached[1] <= known[1]):
         reasons.append(
             f"the laws of the oil hold for {_celsius(*known)} (lubricant.temperature_range), and are "
             "extrapolated"
         )
-    if not (oil.lowest <= found[0] and found[1] <= oil.highest):
-        effect = ", whose effect is part of temperature_rise_error" if found[1] > oil.highest else ""
+    if not (oil.lowest <= reached[0] and reached[1] <= oil.highest):
+        effect = ", whose effect is part of temperature_rise_error" if reached[1] > oil.highest else ""
         reasons.append(
             f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight "
             f"lines{effect}"
         )
     thicker = _thicker_from(oil, max_pressure)
-    if thicker is not None and thicker < found[1]:
+    if thicker is not None and thicker < reached[1]:
         reasons.append(_thicker(thicker, max_pressure))
     if reasons:
         yield ResultWarning.of(
-            "film-temperature-range", "converged", temperatures=_celsius(*found), reasons="; ".join(reasons)
+            "film-temperature-range", "converged", temperatures=_celsius(*reached), reasons="; ".join(reasons)
         )
     rise = heated.max_temperature_rise or 0.0
     if rise > _LARGE_RISE:

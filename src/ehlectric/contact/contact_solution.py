@@ -152,8 +152,8 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     @property
     def spots(self) -> Asperities | None:
         """Asperities of a converged contact whose surfaces touch; None where they do not."""
-        found = self.asperities
-        return found if found is not None and found.spots.number else None
+        asperities = self.asperities
+        return asperities if asperities is not None and asperities.spots.number else None
 
     @read_only_property
     def discharge(self) -> Assessment | None:

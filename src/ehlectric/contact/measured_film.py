@@ -99,8 +99,8 @@ def contact_factors(
 
 def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
     """Changes of the case that make each row; the slide-to-roll ratio stays that of the case."""
-    own = KINDS[case.contact.geometry].resolve(case)
-    speeds = measured.values.get("entrainment_speed", np.full(measured.size, own.entrainment_speed))
+    conditions = KINDS[case.contact.geometry].resolve(case)
+    speeds = measured.values.get("entrainment_speed", np.full(measured.size, conditions.entrainment_speed))
     warm = measured.values.get("temperature", np.zeros(measured.size))
     different = len(set(zip(speeds.tolist(), warm.tolist(), strict=True)))
     if different > MOST_POINTS:
@@ -110,7 +110,7 @@ def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]
             takes=f"at most {MOST_POINTS}; average neighbouring rows",
         )
     keys = {"contact.entrainment_speed": speeds}
-    keys["contact.slide_to_roll_ratio"] = np.full(measured.size, own.slide_to_roll_ratio)
+    keys["contact.slide_to_roll_ratio"] = np.full(measured.size, conditions.slide_to_roll_ratio)
     if measured.has("temperature"):
         keys["contact.temperature"] = warm
     columns = (values.tolist() for values in keys.values())
@@ -153,10 +153,10 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
         changed = case.replace(rows[number])
         contact = kind.resolve(changed).contact
         try:
-            found = contact_film(contact, changed.oil)
+            by_formula = contact_film(contact, changed.oil)
         except InputError:
             return float(formula[number]), _FORMULA_ERROR
-        return float(found.central_thickness), float(found.errors["central"])
+        return float(by_formula.central_thickness), float(by_formula.errors["central"])
 
     films, errors = zip(*_once_each(rows, film), strict=True)
     error = max(errors)
@@ -196,8 +196,8 @@ def _spread(formula: Array) -> list[int]:
     films, places = np.unique(formula, return_index=True)
     logs = np.log(films)
     number = min(_MOST, _LEAST + int((logs[-1] - logs[0]) / math.log(_RATIO)))
-    wanted = np.linspace(logs[0], logs[-1], number) if len(films) > number else logs
-    return [int(places[k]) for k in np.unique([int(np.argmin(np.abs(logs - at))) for at in wanted])]
+    levels = np.linspace(logs[0], logs[-1], number) if len(films) > number else logs
+    return [int(places[k]) for k in np.unique([int(np.argmin(np.abs(logs - at))) for at in levels])]
 
 
 def _result(
@@ -243,7 +243,7 @@ def _result(
         mean=mean,
         slope=trend,
         warnings=(
-            *(one for one in films.warnings if one.code != "temperature-unused"),
+            *(warning for warning in films.warnings if warning.code != "temperature-unused"),
             *temperature_warnings(measured, case.lubricant),
             *measurement_warnings(measured, reasons, mean, trend, "entrainment speed"),
         ),

@@ -31,10 +31,10 @@ _AT_EDGE = 0.05
 
 def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
     """Warnings about the supply of oil of a film; none for a film without ``[inlet]``."""
-    found, inlet = film.starvation, setup.inlet
-    if found is None or inlet is None:
+    supply, inlet = film.starvation, setup.inlet
+    if supply is None or inlet is None:
         return
-    yield from _of_flooded(film, found, inlet)
+    yield from _of_flooded(film, supply, inlet)
     if not film.converged:
         return
     table = inlet.layer_table
@@ -48,19 +48,19 @@ def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator
                 lower=-1e6 * side,
                 upper=1e6 * side,
             )
-    asked, ratio = inlet.film_ratio, found.film_ratio
-    if asked is not None and ratio is not None and abs(ratio / asked - 1.0) > _MISSED:
-        yield ResultWarning.of("film-ratio-missed", ratio=ratio, wanted=asked)
+    target, ratio = inlet.film_ratio, supply.film_ratio
+    if target is not None and ratio is not None and abs(ratio / target - 1.0) > _MISSED:
+        yield ResultWarning.of("film-ratio-missed", ratio=ratio, wanted=target)
     nearly = ratio is not None and ratio > _FLOODED
-    if asked is None and (film.film_fraction is None or nearly):
+    if target is None and (film.film_fraction is None or nearly):
         flooded = "the film is flooded"
         if film.film_fraction is not None:
             flooded = (
-                f"the central film is {readable(100.0 * (found.film_ratio or 1.0), 4)} % of the flooded one"
+                f"the central film is {readable(100.0 * (supply.film_ratio or 1.0), 4)} % of the flooded one"
             )
         yield ResultWarning.of("oil-layer-thick", layer=_layer(inlet), flooded=flooded)
     if film.film_fraction is not None:
-        yield from _of_meniscus(setup, film, found, nearly=nearly)
+        yield from _of_meniscus(setup, film, supply, nearly=nearly)
 
 
 def _layer(inlet: Inlet) -> str:
@@ -70,20 +70,20 @@ def _layer(inlet: Inlet) -> str:
     return f"the layer of oil of {readable(1e6 * inlet.oil_layer)} µm"
 
 
-def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iterator[ResultWarning]:
+def _of_flooded(film: Film | PointFilm, supply: Starvation, inlet: Inlet) -> Iterator[ResultWarning]:
     """Warning about a flooded film that is unknown or wrong.
 
     Where the ratio of films is given, a domain that is too small for the flooded film is too small for the
     film, whose warning says so.
     """
-    upstream, sides = found.flooded_inlet_deficit, found.flooded_side_deficit
-    if upstream is None or found.flooded_central_thickness is None:
-        supply = "layer" if inlet.film_ratio is None else "ratio"
-        yield ResultWarning.of("flooded-film-wrong", supply)
+    upstream, sides = supply.flooded_inlet_deficit, supply.flooded_side_deficit
+    if upstream is None or supply.flooded_central_thickness is None:
+        given = "layer" if inlet.film_ratio is None else "ratio"
+        yield ResultWarning.of("flooded-film-wrong", given)
     elif inlet.film_ratio is None and film.film_fraction is not None:
         lost = upstream
         if sides is not None:
-            flooded = found.flooded_central_thickness / film.scales.thickness
+            flooded = supply.flooded_central_thickness / film.scales.thickness
             lost = lost_film(flooded, upstream, sides)
         if lost > _LOST:
             sideways = "" if sides is None else " and raise grid.side"
@@ -91,13 +91,13 @@ def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iter
 
 
 def _of_meniscus(
-    setup: Case | Setup, film: Film | PointFilm, found: Starvation, *, nearly: bool
+    setup: Case | Setup, film: Film | PointFilm, supply: Starvation, *, nearly: bool
 ) -> Iterator[ResultWarning]:
     """Warning about a meniscus at the edge of the domain or of the Hertz zone.
 
     Where the central film is ``nearly`` flooded, the place of a meniscus far upstream changes nothing.
     """
-    b, place = film.scales.length, found.meniscus
+    b, place = film.scales.length, supply.meniscus
     if place is not None and place > -(1.0 + _AT_HERTZ) * b - float(film.x[1] - film.x[0]):
         yield ResultWarning.of("meniscus-at-edge", "hertz", place=place / b)
     elif not nearly and (place is None or place < (1.0 - _AT_EDGE) * film.x[0] - _AT_EDGE * b):

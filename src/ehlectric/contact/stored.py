@@ -181,7 +181,7 @@ def parts_of(dataset: xr.Dataset, geometry: str, scales: Scales) -> dict[str, An
         heated=optional(HeatedFilm, "heated", form.heated),
     )
     are_times = partial(is_list, right=partial(is_number, values="not negative"))
-    are_tables = partial(is_list, right=lambda one: isinstance(one, dict))
+    are_tables = partial(is_list, right=lambda value: isinstance(value, dict))
     film_seconds, field_seconds = json_of(attributes, "seconds", are_times)
     return {
         "film": film,
@@ -201,9 +201,9 @@ def _check_field(field: Field | PointField, heights: Array) -> None:
     """Check that the field is that of its voltage and its gap, and its strength that of its components."""
     parts = [field.field_x, field.field_y, *([field.field_z] if isinstance(field, PointField) else [])]
     across = field.thin_gap_strength * (heights[..., -1] - heights[..., 0])
-    for name, found, expected in (
+    for name, values, expected in (
         ("thin_gap_strength", across, field.voltage),
         ("strength", field.strength, np.sqrt(sum(part**2 for part in parts))),
     ):
-        if not np.allclose(found, expected, rtol=_ROUNDING, atol=0.0):
+        if not np.allclose(values, expected, rtol=_ROUNDING, atol=0.0):
             raise UnfitError(f"{name} does not belong to the field")

@@ -187,13 +187,13 @@ def breakdown_by_formula(
         return None
     if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
         return None
-    found = minimum_by_formula(conditions)
-    film = found["minimum_thickness"]
+    films = minimum_by_formula(conditions)
+    film = films["minimum_thickness"]
     if film is None:
         return None
     strength = float(dielectric_strength(discharge, np.zeros(())))
     voltage, applied = strength * film, case.electric.voltage
-    return found | {
+    return films | {
         "dielectric_strength": strength,
         "breakdown_voltage": voltage,
         "applied_voltage": applied,

@@ -78,11 +78,11 @@ class Spots:
         weights = areas(axes)
         labels, count = ndimage.label(contact)
         each = np.arange(1, count + 1)
-        own = _sum(weights, labels, each)
+        area = _sum(weights, labels, each)
         places = np.meshgrid(*axes, indexing="ij")
-        centres = [_sum(weights * place, labels, each) / own for place in places]
+        centres = [_sum(weights * place, labels, each) / area for place in places]
         return cls(
-            areas=own,
+            areas=area,
             positions=np.stack(centres, axis=-1),
             nodes=_sum(contact.astype(float), labels, each).astype(int),
             loads=_sum(weights * pressure, labels, each),
@@ -140,8 +140,8 @@ def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Ar
     order = np.argsort(values, axis=None)
     up_to = np.cumsum(weights.ravel()[order])
     places = np.searchsorted(up_to, np.asarray(shares) * up_to[-1] * (1.0 - 1e-12))
-    found: Array = values.ravel()[order][np.minimum(places, order.size - 1)]
-    return found
+    percentiles: Array = values.ravel()[order][np.minimum(places, order.size - 1)]
+    return percentiles
 
 
 # Shares of the area around the spots at which film thicknesses and breakdown voltages are given, by the
@@ -154,8 +154,8 @@ def _percentiles(name: str, values: Array, weights: Array) -> dict[str, float | 
     keys = [f"{name}_{percent}" for percent in _THIN_SHARES]
     if not values.size:
         return dict.fromkeys(keys)
-    found = weighted_percentiles(values, weights, list(_THIN_SHARES.values()))
-    return dict(zip(keys, found.tolist(), strict=True))
+    percentiles = weighted_percentiles(values, weights, list(_THIN_SHARES.values()))
+    return dict(zip(keys, percentiles.tolist(), strict=True))
 
 
 @dataclass(frozen=True)
@@ -652,7 +652,7 @@ def asperities(
 _CODES = {"resistive": "spots-conduct", "mixed": TOUCHING_EXPECTED, "capacitive": POSSIBLE}
 
 
-def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
+def spots_verdict(asperities: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
     """Verdict on a contact that touches in at least one spot under a voltage [V].
 
     It is red, yellow where a tribofilm insulates the spots, or grey where the film must not be used.
@@ -660,16 +660,16 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
     refused = unusable(warnings)
     if refused is not None:
         return refused
-    behaviour, around = found.electrical.behaviour, []
-    if found.electrical.breakdown_5 is not None:
-        around.append(Statement.of("around-spots", breakdown=found.electrical.breakdown_5))
-    if found.electrical.breakdown_probability is not None:
-        probability = found.electrical.breakdown_probability
+    behaviour, around = asperities.electrical.behaviour, []
+    if asperities.electrical.breakdown_5 is not None:
+        around.append(Statement.of("around-spots", breakdown=asperities.electrical.breakdown_5))
+    if asperities.electrical.breakdown_probability is not None:
+        probability = asperities.electrical.breakdown_probability
         around.append(Statement.of("chance-around-spots", probability=probability))
     return Verdict(
         "yellow" if behaviour == "capacitive" else "red",
         _CODES[behaviour],
-        Statement.of(f"spots-{behaviour}", spots=found.spots.number, voltage=voltage),
+        Statement.of(f"spots-{behaviour}", spots=asperities.spots.number, voltage=voltage),
         reasons=tuple(around),
     )
 

@@ -81,9 +81,9 @@ def own_law_warnings(
     setup: Case | Setup, conditions: Conditions | PointConditions
 ) -> Iterator[ResultWarning]:
     """Notes about laws of the user's own, which no file contains, and which heat may not change."""
-    if not isinstance(setup, Case) or setup.own_laws is None:
+    if not isinstance(setup, Case) or setup.user_laws is None:
         return
-    names = setup.own_laws.names
+    names = setup.user_laws.names
     yield ResultWarning.of("own-laws", laws=", ".join(f"{key}: {name}" for key, name in names.items()))
     if "viscosity" not in names or setup.film is None or not setup.film.thermal:
         return
@@ -99,7 +99,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
     """Note about a temperature of the contact on which the oil of its case does not depend."""
     if not isinstance(setup, Case) or setup.contact.temperature is None:
         return
-    if setup.own_laws is not None and "viscosity" in setup.own_laws.names:
+    if setup.user_laws is not None and "viscosity" in setup.user_laws.names:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
         yield ResultWarning.of(

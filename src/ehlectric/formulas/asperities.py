@@ -602,8 +602,8 @@ def area_while_touching(contact: AsperityContact, area: ArrayLike) -> Array:
     nominal = np.asarray(area, dtype=float)
     share = contact_time_share(expected_spots(contact.spots_per_area, nominal))
     real = contact.area_fraction * nominal
-    found: Array = np.divide(real, share, out=np.zeros(np.broadcast(real, share).shape), where=share > 0.0)
-    return found
+    mean: Array = np.divide(real, share, out=np.zeros(np.broadcast(real, share).shape), where=share > 0.0)
+    return mean
 
 
 def bearing_time_share(inner: ArrayLike, outer: ArrayLike, axis: int = -1) -> Array:
@@ -761,8 +761,8 @@ def cluster_resistance(
 def _inverse_distances(rows: Array, at: Array, first: int) -> Array:
     """Reciprocal distances of some spots, from number ``first`` on, to all; zero of a spot to itself."""
     distance = np.hypot(rows[:, :1] - at[:, 0], rows[:, 1:] - at[:, 1])
-    own = np.arange(rows.shape[0])
-    distance[own, own + first] = np.inf
+    diagonal = np.arange(rows.shape[0])
+    distance[diagonal, diagonal + first] = np.inf
     return 1.0 / distance
 
 

@@ -140,8 +140,8 @@ def _overlaps(waves: np.ndarray, modes: np.ndarray, opening: float) -> np.ndarra
     half = 0.5 * opening
     plus, minus = waves[:, None] + modes, waves[:, None] - modes
     # sinc of numpy is that of pi x.
-    found: np.ndarray = half * (np.sinc(plus * half / math.pi) + np.sinc(minus * half / math.pi))
-    return found
+    overlaps: np.ndarray = half * (np.sinc(plus * half / math.pi) + np.sinc(minus * half / math.pi))
+    return overlaps
 
 
 # Change of the offset of a gap over the smallest film thickness at which it fits.
@@ -165,8 +165,8 @@ def charge_density(gap: ArrayLike, tilt: ArrayLike, far: ArrayLike, near: ArrayL
     >>> abs(float(charge_density(1e-4, 0.0, 2 / 10e-3, 2 / 10.1e-3)) / exact - 1.0) < 1e-4
     True
     """
-    delta, beta, outer, own = (np.asarray(values, dtype=float) for values in (gap, tilt, far, near))
-    density: Array = np.sinc(beta / np.pi) / delta - outer / 6.0 - own / 3.0
+    delta, beta, outer, inner = (np.asarray(values, dtype=float) for values in (gap, tilt, far, near))
+    density: Array = np.sinc(beta / np.pi) / delta - outer / 6.0 - inner / 3.0
     return density
 
 

@@ -326,8 +326,8 @@ def dominant(films: Mapping[str, float]) -> str:
 
 
 def _of_hard_contacts(contact: LineContact) -> str:
-    found = regime(contact)
-    return "" if found == "piezoviscous-elastic" else f"{found} regime"
+    name = regime(contact)
+    return "" if name == "piezoviscous-elastic" else f"{name} regime"
 
 
 # The solutions behind all formulas except the formula of Moes are for hard contacts with piezoviscous oils.

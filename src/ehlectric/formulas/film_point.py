@@ -257,8 +257,8 @@ _HEAVIEST = 250.0
 
 def _of_hard_contacts(contact: PointContact) -> str:
     # Between both piezoviscous regimes the formulas keep their accuracy, compared with the atlas.
-    found = regime(contact)
-    return f"{found} regime" if found.startswith("isoviscous") else ""
+    name = regime(contact)
+    return f"{name} regime" if name.startswith("isoviscous") else ""
 
 
 def _of_hamrock_and_dowson(contact: PointContact) -> str:

@@ -56,16 +56,16 @@ def unit_deflection(x2: Array, y2: Array, ratio: Numbers) -> Array:
     if x2.size < _MANY * max(several.size, 1):
         return _by_integrals(x2, y2, ratios)
     tables = tuple(np.concatenate(rows, axis=1) for rows in zip(*map(_pieces, several.tolist()), strict=True))
-    one = several.size == 1
+    single = several.size == 1
     firsts: IntArray = np.zeros(1, dtype=np.intp)
-    if not one:
+    if not single:
         firsts = np.broadcast_to(_PIECES * number.reshape(np.shape(ratio)), x2.shape).reshape(-1)
     deflection = np.empty(x2.shape)
     flat, x2, y2, ratios = (values.reshape(-1) for values in (deflection, x2, y2, ratios))
     step = math.ceil(x2.size / math.ceil(x2.size / _BLOCK))
     for start in range(0, x2.size, step):
         part = slice(start, start + step)
-        of, first = (several[0], firsts) if one else (ratios[part], firsts[part])
+        of, first = (several[0], firsts) if single else (ratios[part], firsts[part])
         flat[part] = _by_pieces(x2[part], y2[part], of, first, (tables[0], tables[1]))
     return deflection
 

@@ -105,10 +105,10 @@ class SmoothTable:
         of_first = matrix @ newton[0]
         size = at[-1].size
         group = np.arange(size) if group is None else group
-        found, work = np.empty(size), np.empty((2, len(matrix), min(size, _BLOCK)))
+        sums, work = np.empty(size), np.empty((2, len(matrix), min(size, _BLOCK)))
         for start in range(0, size, _BLOCK):
             part = slice(start, start + _BLOCK)
-            total = np.ones((1, found[part].size))
+            total = np.ones((1, sums[part].size))
             for row, column, values in zip(rows[:-1], columns[:-1], newton[1:-1], strict=True):
                 total = total[row] * values[column, part]
             products, other = work[:, :, : total.shape[1]]
@@ -116,11 +116,11 @@ class SmoothTable:
             np.take(newton[-1][:, part], columns[-1], axis=0, out=other, mode="clip")
             products *= other
             if of_first.shape[1] == 1:
-                np.dot(of_first[:, 0], products, out=found[part])
+                np.dot(of_first[:, 0], products, out=sums[part])
             else:
                 np.take(of_first, group[part], axis=1, out=other, mode="clip")
-                np.einsum("ij,ij->j", products, other, out=found[part])
-        return found
+                np.einsum("ij,ij->j", products, other, out=sums[part])
+        return sums
 
     def _scaled(self, values: Array, variable: int) -> Array:
         """Variable from -1 to 1; 0 where its range is a point."""
@@ -213,9 +213,9 @@ class _Known:
         for number in rows.T:
             nodes = leja_points()[: int(number.max()) + 1]
             matrix *= _newton(nodes, nodes.size)[number][:, number]
-        found = solve_triangular(matrix.T, self.values, lower=True, unit_diagonal=True)
+        coefficients = solve_triangular(matrix.T, self.values, lower=True, unit_diagonal=True)
         ends = np.where(self.high > self.low, 1.0, 0.0)
-        self.table = SmoothTable(-ends, ends, rows, found, np.nan)
+        self.table = SmoothTable(-ends, ends, rows, coefficients, np.nan)
 
     def grow(self, large: float) -> bool:
         """Add products next to those with larger coefficients than ``large``; False where all have them."""

@@ -53,8 +53,8 @@ def variance_shares(at: Array, values: Array) -> VarianceShares:
     number, inputs = at.shape
     terms = _terms(inputs, number)
     # Orthonormal polynomials of each input, shape (n, k, degree + 1).
-    own = legvander(at, _DEGREE) * np.sqrt(2.0 * np.arange(_DEGREE + 1) + 1.0)
-    matrix = _matrix(own, terms)
+    polynomials = legvander(at, _DEGREE) * np.sqrt(2.0 * np.arange(_DEGREE + 1) + 1.0)
+    matrix = _matrix(polynomials, terms)
     basis, triangle = np.linalg.qr(matrix)
     coefficients = np.linalg.solve(triangle, basis.T @ values)
     parts = np.square(coefficients)
@@ -71,23 +71,23 @@ def variance_shares(at: Array, values: Array) -> VarianceShares:
     )
 
 
-def _matrix(own: Array, terms: IntArray) -> Array:
+def _matrix(polynomials: Array, terms: IntArray) -> Array:
     """Products of polynomials of all inputs, shape (n, terms)."""
-    matrix = np.ones((own.shape[0], len(terms)))
-    for k in range(own.shape[1]):
-        matrix *= own[:, k, terms[:, k]]
+    matrix = np.ones((polynomials.shape[0], len(terms)))
+    for k in range(polynomials.shape[1]):
+        matrix *= polynomials[:, k, terms[:, k]]
     return matrix
 
 
 def _terms(inputs: int, number: int) -> IntArray:
     """Degrees of the polynomials of each input in each term, shape (terms, k); the first is the constant."""
-    found = [np.zeros(inputs, dtype=int)]
+    terms = [np.zeros(inputs, dtype=int)]
     for degree in range(1, _DEGREE + 1):
         further = [
             np.bincount(chosen, minlength=inputs)
             for chosen in combinations_with_replacement(range(inputs), degree)
         ]
-        if _POINTS * (len(found) + len(further)) > number:
+        if _POINTS * (len(terms) + len(further)) > number:
             break
-        found += further
-    return np.array(found)
+        terms += further
+    return np.array(terms)

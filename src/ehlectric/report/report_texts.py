@@ -86,7 +86,7 @@ def conditions_of(case: SweptCase) -> dict[str, bool]:
         return _of_drive(case)
     conditions = _of_bearing(case) if isinstance(case, BearingCase) else _of_contact(case)
     oil, discharge = case.lubricant, case.discharge
-    replaced = case.own_laws.names if isinstance(case, Case) and case.own_laws is not None else {}
+    replaced = case.user_laws.names if isinstance(case, Case) and case.user_laws is not None else {}
     laws = [
         getattr(oil, f"{name}_law")
         for name in ("viscosity", "density", "permittivity")

@@ -52,15 +52,15 @@ class Label:
 
 def label_of(key: str, case: SweptCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary."""
-    own = _counted_from_one(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
-    result, entry = key_of(result_keys(case), key), input_of(own) or input_of(_list_of(own))
+    inner = _counted_from_1(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
+    result, entry = key_of(result_keys(case), key), input_of(inner) or input_of(_list_of(inner))
     # A number of the case that is in the summary, too, is the input.
-    if result is not None and (entry is None or (result.label and kind_of(own) is None)):
+    if result is not None and (entry is None or (result.label and kind_of(inner) is None)):
         bound = result.bound if _bounds(case) else ""
         return Label(result.label or key, result.symbol, result.unit, bound, result.shown)
-    end = NAMES_OF_ENDS.get(end_and_key(own)[0], "")
+    end = NAMES_OF_ENDS.get(end_and_key(inner)[0], "")
     if entry is None:
-        return Label(key, "", "" if own == key else unit_of(own))
+        return Label(key, "", "" if inner == key else unit_of(inner))
     name = f"{entry.label}, {end}" if end else entry.label
     return Label(name, entry.symbol, entry.unit, shown="°C" if entry.absolute else entry.shown)
 
@@ -77,12 +77,12 @@ def _bounds(case: SweptCase) -> bool:
         case BearingCase():
             return case.bearing.bounding
         case DriveCase():
-            return any(one.bearing.bounding for one in case.bearings)
+            return any(at.bearing.bounding for at in case.bearings)
         case _:
             return True
 
 
-def _counted_from_one(key: str) -> str:
+def _counted_from_1(key: str) -> str:
     """Key of an input from its key in the summary, whose rough surfaces are counted from zero."""
     table, _, rest = key.partition(".")
     number, dot, name = rest.partition(".")

@@ -51,8 +51,12 @@ class Batch:
 
 def _with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Nested tables with values of dotted keys; tables that do not change are those that were given."""
-    own, within = by_table(values)
-    return {**table, **own, **{name: _with_values(table.get(name, {}), one) for name, one in within.items()}}
+    direct, within = by_table(values)
+    return {
+        **table,
+        **direct,
+        **{name: _with_values(table.get(name, {}), deep) for name, deep in within.items()},
+    }
 
 
 def batches_of(
@@ -97,11 +101,11 @@ def run_batches(
     with closing(finished_tasks(((each, each) for each in batches), crew, solve_batch, _lost)) as finished:
         for some in finished:
             outcomes: list[tuple[str, Outcome]] = []
-            for batch, found in some:
-                if found is None:
+            for batch, results in some:
+                if results is None:
                     left.append(batch)
                 else:
-                    outcomes += zip(batch.keys, found, strict=True)
+                    outcomes += zip(batch.keys, results, strict=True)
             done(outcomes)
     return left
 
@@ -193,8 +197,8 @@ def _summaries(batch: Batch, part: SolvedPart) -> Iterator[dict[str, Any]]:
     if samples is not None:
         spreads = spreads_of(solution, samples, SEED)
         probable = [tables_of_spread(spread) for spread in spreads]
-        for own, spread in zip(codes, spreads, strict=True):
-            own |= {one.code: CODES[one.code].meaning for one in warnings_of_spread(spread)}
+        for of_point, spread in zip(codes, spreads, strict=True):
+            of_point |= {warning.code: CODES[warning.code].meaning for warning in warnings_of_spread(spread)}
     for place, (point, tables) in enumerate(zip(part.points.tolist(), single_tables(part), strict=True)):
         yield {
             "schema": SCHEMA,

@@ -65,21 +65,21 @@ def computed_line(
 
     def drawn(places: Array) -> Array:
         """Drawn values at places on the axis, shape (m,) -> (1, m)."""
-        found = columns_of(case.with_arrays({key: to_x(places)})).values
-        values = found.get(selection.value, np.full(places.size, np.nan))
+        columns = columns_of(case.with_arrays({key: to_x(places)})).values
+        values = columns.get(selection.value, np.full(places.size, np.nan))
         return _onto(values, log=log)[np.newaxis]
 
-    places, own = _onto(x, log=log_x), _onto(known, log=log)
+    places, drawn_values = _onto(x, log=log_x), _onto(known, log=log)
     again = drawn(places)
     same = {"rtol": 0.0, "atol": _SAME} if log else {"rtol": _SAME, "atol": 0.0}
-    if not np.allclose(again[0], own, **same, equal_nan=True):
+    if not np.allclose(again[0], drawn_values, **same, equal_nan=True):
         return None
-    span = 1.0 if log else max(float(np.ptp(own[np.isfinite(own)])), 1e-300)
+    span = 1.0 if log else max(float(np.ptp(drawn_values[np.isfinite(drawn_values)])), 1e-300)
     length = float(np.ptp(places))
-    found = where_it_bends(
+    line = where_it_bends(
         drawn, places, again, tolerance=_BEND * span, closest=_CLOSEST * length, always=_ALWAYS
     )
-    return to_x(found[0]), np.exp(found[1][0]) if log else found[1][0]
+    return to_x(line[0]), np.exp(line[1][0]) if log else line[1][0]
 
 
 def _case(results: SweepResults, selection: Slice, inputs: Mapping[str, Any]) -> BearingCase | None:
@@ -90,10 +90,10 @@ def _case(results: SweepResults, selection: Slice, inputs: Mapping[str, Any]) ->
     if not is_quantity(selection.x) or not all(map(is_number, selection.along.tolist())):
         return None
     try:
-        own = case.replace(dict(inputs))
+        at_inputs = case.replace(dict(inputs))
     except InputError:
         return None
-    return own if is_quick(own) else None
+    return at_inputs if is_quick(at_inputs) else None
 
 
 def _onto(values: Array, *, log: bool) -> Array:

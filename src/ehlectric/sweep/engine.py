@@ -57,7 +57,7 @@ PointCase: TypeAlias = Mapping[str, Any] | Case
 
 def task_of(case: SweptCase) -> PointCase:
     """Case of a point as data for any process."""
-    if isinstance(case, Case) and case.own_laws is not None:
+    if isinstance(case, Case) and case.user_laws is not None:
         return portable(case)
     return case.to_dict()
 
@@ -112,7 +112,7 @@ def case_key(case: SweptCase, uncertainty_samples: int | None = None) -> str:
             with regular(path) as file:
                 status = os.fstat(file.fileno())
             holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
-    if isinstance(case, Case) and (laws := portable(case).own_laws) is not None:
+    if isinstance(case, Case) and (laws := portable(case).user_laws) is not None:
         assert isinstance(laws, SampledLaws)
         table["laws"] = laws.digest
     return hash_of(text_of(table, uncertainty_samples))
@@ -362,19 +362,19 @@ async def _ask(address: str) -> None:
 
 def _crew(client: Any, executor: Executor) -> Crew:
     """Crew of the workers of a connected client."""
-    threads, asked_at = 0, -math.inf
+    threads, counted_at = 0, -math.inf
 
     def width() -> int:
         """Number of points that the present workers may have in flight.
 
         The number of workers is requested at intervals only, because each request costs the scheduler time.
         """
-        nonlocal threads, asked_at
+        nonlocal threads, counted_at
         if client.status != "running":
             raise LostError("the connection is lost")
-        if time.monotonic() - asked_at > _REFRESH:
+        if time.monotonic() - counted_at > _REFRESH:
             try:
-                threads, asked_at = sum(client.nthreads().values()), time.monotonic()
+                threads, counted_at = sum(client.nthreads().values()), time.monotonic()
             except Exception as error:  # from the connection
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)

@@ -91,8 +91,8 @@ def evaluate(case: BearingCase | DriveCase, inputs: Mapping[str, Any], *, laws: 
             raise InputError(key, got=f"{length} values", takes=f"{number}, as many as {first}")
     if isinstance(case, DriveCase):
         return _of_drive(case, given, number)
-    columns, found = _columns(_quick(case), given, number)
-    return _dataset(case, columns, found)
+    columns, inputs_of_points = _columns(_quick(case), given, number)
+    return _dataset(case, columns, inputs_of_points)
 
 
 def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Dataset:
@@ -100,26 +100,26 @@ def _of_drive(case: DriveCase, given: Mapping[str, Any], number: int) -> xr.Data
     import xarray as xr
 
     parts: list[xr.Dataset] = []
-    found: dict[str, Any] = {}
+    inputs_of_drive: dict[str, Any] = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):
-        own = {key: _key_of_end(key, end) for key in given}
-        inputs = {name: given[key] for key, name in own.items() if name is not None}
+        of_end = {key: _key_of_end(key, end) for key in given}
+        inputs = {name: given[key] for key, name in of_end.items() if name is not None}
         columns, values = _columns(_quick(bearing), inputs, number)
-        found |= {key: values[name] for key, name in own.items() if name is not None}
+        inputs_of_drive |= {key: values[name] for key, name in of_end.items() if name is not None}
         part = _dataset(bearing, columns, values).drop_vars(list(values))
         parts.append(part.rename_vars({name: f"{end}.{name}" for name in part.data_vars}))
-    coordinates = {key: ("point", values) for key, values in found.items()}
+    coordinates = {key: ("point", values) for key, values in inputs_of_drive.items()}
     attributes = parts[0].attrs | {"title": case.title or "Drive at many points", "case": case.to_toml()}
     return xr.merge(parts, combine_attrs="drop").assign_coords(coordinates).assign_attrs(attributes)
 
 
 def _key_of_end(key: str, end: str) -> str | None:
     """Key of a bearing file that a key of a drive stands for at one of its ends; None for the other end."""
-    of, own = end_and_replaced(key)
+    of, inner = end_and_replaced(key)
     if not of or key == REPLACED["contacts"]:
         takes = "drive.speed, drive.temperature, or a key of drive_end, non_drive_end or bearings"
         raise InputError(key, got="a key of the drive itself", takes=takes)
-    return own if of in (BOTH, end) else None
+    return inner if of in (BOTH, end) else None
 
 
 def _values(key: str, values: Any) -> Any:
@@ -143,16 +143,16 @@ def _quick(case: BearingCase) -> BearingCase:
 
 def _columns(case: BearingCase, given: Mapping[str, Any], number: int) -> tuple[Columns, dict[str, Any]]:
     """Results of all points, and their inputs in SI units."""
-    columns, found = Columns(number), {key: np.empty(number, dtype=object) for key in given}
+    columns, inputs = Columns(number), {key: np.empty(number, dtype=object) for key in given}
     for points, names in _groups(given, number):
-        own = case.replace(names) if names else case
+        named = case.replace(names) if names else case
         arrays = {key: _at(values, points) for key, values in given.items() if key not in names}
-        many = many_of(own, arrays, points.size)
+        many = many_of(named, arrays, points.size)
         columns.take(points, columns_of(many))
-        own_inputs = names | many.arrays()
-        for key, column in found.items():
-            column[points] = own_inputs[key]
-    return columns, {key: np.array(column.tolist()) for key, column in found.items()}
+        of_group = names | many.arrays()
+        for key, column in inputs.items():
+            column[points] = of_group[key]
+    return columns, {key: np.array(column.tolist()) for key, column in inputs.items()}
 
 
 def _at(values: Any, points: IntArray) -> Any:
@@ -184,11 +184,11 @@ def _dataset(case: BearingCase, columns: Columns, inputs: Mapping[str, Any]) -> 
 
     solved = columns.solved
     reasons = np.array([columns.reasons.get(k, "") for k in range(columns.size)], dtype=object)
-    codes = np.array(["; ".join(own) for own in columns.codes_of()], dtype=object)
-    own = {"converged": ("point", solved), "reason": ("point", reasons), "warning_codes": ("point", codes)}
+    codes = np.array(["; ".join(about) for about in columns.codes_of()], dtype=object)
+    about = {"converged": ("point", solved), "reason": ("point", reasons), "warning_codes": ("point", codes)}
     results = {key: entry(key, values) for key, values in columns.values.items() if key not in inputs}
     return xr.Dataset(
-        own | results,
+        about | results,
         coords={key: entry(key, values) for key, values in inputs.items()},
         attrs={
             "Conventions": "CF-1.11",

@@ -72,7 +72,7 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
     An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
     example is a viscosity that follows from a varied temperature.
     """
-    varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
+    varied = {f"inputs.{key}" for key in results.varied for key in of_both_ends(key)}
     return {
         key: values
         for key, values in results.numbers.items()
@@ -99,7 +99,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
         return dimensions, _array(values).reshape(shape)
 
     columns = columns_of(results)
-    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in SWEEP_COLUMNS.items()}
+    about = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in SWEEP_COLUMNS.items()}
     inputs = {key: columns.pop(key) for key in results.varied}
     coordinates = {
         key: (
@@ -118,7 +118,7 @@ def dataset_of(results: SweepPoints) -> xr.Dataset:
         for key, values in columns.items()
     }
     return xr.Dataset(
-        own | summaries,
+        about | summaries,
         coords=coordinates,
         attrs={
             "Conventions": "CF-1.11",
@@ -279,8 +279,8 @@ class SweepResults(Shown, SweepPoints):
         if self.uncertainty_samples:
             table["uncertainty_samples"] = self.uncertainty_samples
         ranges = {
-            key: {"from": _written(key, one.start), "to": _written(key, one.stop), "spacing": one.spacing}
-            for key, one in self.ranges.items()
+            key: {"from": _written(key, span.start), "to": _written(key, span.stop), "spacing": span.spacing}
+            for key, span in self.ranges.items()
         }
         axes = {key: [_written(key, value) for value in values] for key, values in self.axes.items()}
         return tomli_w.dumps(table | {"case": tomllib.loads(case), "vary": axes | ranges})

@@ -23,7 +23,7 @@ from ehlectric.sweep.engine import Outcome, Planned, Task, run_points, task_of
 from ehlectric.sweep.point_groups import Inputs, plan_together
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
-from ehlectric.sweep.sweep_inputs import Sweep, check_own_laws
+from ehlectric.sweep.sweep_inputs import Sweep, check_user_laws
 from ehlectric.sweep.verdict_rule import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
@@ -77,8 +77,8 @@ def run_sweep(
     Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
     was killed or ran out of memory.
     """
-    given, told = _with_laws(_sweep_of(sweep), laws), told_to(progress)
-    return run(given, folder, told, solvers=crew(executor, workers)).result
+    given, report = _with_laws(_sweep_of(sweep), laws), told_to(progress)
+    return run(given, folder, report, solvers=crew(executor, workers)).result
 
 
 def _sweep_of(given: object) -> Sweep:
@@ -98,7 +98,7 @@ def _with_laws(sweep: Sweep, laws: Laws | None) -> Sweep:
     if laws is None:
         return sweep
     changed = sweep.model_copy(update={"case": case_with_laws(sweep.case, laws)})
-    check_own_laws(changed)
+    check_user_laws(changed)
     return changed
 
 

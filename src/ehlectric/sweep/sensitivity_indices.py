@@ -154,9 +154,9 @@ def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, see
             takes="a value that varies",
         )
     a, b, mixed = pages[0, complete], pages[1, complete], pages[2:, complete]
-    first, total = (found.tolist() for found in indices(a, b, mixed))
+    first, total = (shares.tolist() for shares in indices(a, b, mixed))
     ends = intervals(a, b, mixed, resamples=resamples, seed=seed)
-    low, high = (found.tolist() for found in ends)
+    low, high = (shares.tolist() for shares in ends)
     share, bounds = _broken(results, value, drawn) or (None, None)
     return Sensitivity(
         value=value,

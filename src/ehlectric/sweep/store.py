@@ -169,7 +169,7 @@ def _is_axis(key: str, value: Any) -> bool:
     right = (
         _is_small
         if kind is None
-        else lambda one: is_number(one) or (_may_be_infinite(key) and one == INFINITE)
+        else lambda item: is_number(item) or (_may_be_infinite(key) and item == INFINITE)
     )
     return is_list(value, right) and bool(value)
 
@@ -252,7 +252,7 @@ def _check_design(results: SweepResults) -> None:
         planned = (sweep_design.grid if results.design == "grid" else sweep_design.paired)(axes)
         # A grid may have far more points than the file: no list of them is made.
         pairs = zip_longest(planned, (point.inputs for point in points))
-        if any(wanted != found for wanted, found in pairs):
+        if any(expected != stored for expected, stored in pairs):
             raise UnfitError("its points are not those of the design")
         return
     if results.samples < 1 or len(points) != results.samples * (len(ranges) + 2):
@@ -354,8 +354,8 @@ def _readable(summary: Mapping[str, Any]) -> str:
     fit = _with_fit_numbers(summary, "", unfit)
     if unfit:
         names = ", ".join(f"{key} is {value:.3g}" for key, value in unfit.items())
-        told = texts_and_codes([*warnings_of(fit), ResultWarning.of("number-not-stored", names=names)])
-        fit |= told
+        warnings = texts_and_codes([*warnings_of(fit), ResultWarning.of("number-not-stored", names=names)])
+        fit |= warnings
     return json.dumps(fit, allow_nan=False)
 
 
@@ -363,11 +363,11 @@ def _with_fit_numbers(value: Any, key: str, unfit: dict[str, float]) -> Any:
     """Value of JSON whose numbers are null if no file may contain them; these are added to ``unfit``."""
     if isinstance(value, Mapping):
         return {
-            name: _with_fit_numbers(one, f"{key}.{name}" if key else name, unfit)
-            for name, one in value.items()
+            name: _with_fit_numbers(item, f"{key}.{name}" if key else name, unfit)
+            for name, item in value.items()
         }
     if isinstance(value, list | tuple):
-        return [_with_fit_numbers(one, f"{key}.{number}", unfit) for number, one in enumerate(value)]
+        return [_with_fit_numbers(item, f"{key}.{number}", unfit) for number, item in enumerate(value)]
     if isinstance(value, float) and not abs(value) < LARGEST:
         unfit[key] = value
         return None
@@ -428,9 +428,7 @@ class Store(Journal):
             "version": __version__,
             "date": now(),
         }
-        rows = (
-            (one.number, json.dumps(_written_inputs(one.inputs)), one.key, one.refused) for one in planned
-        )
+        rows = ((at.number, json.dumps(_written_inputs(at.inputs)), at.key, at.refused) for at in planned)
         with self.transaction(create=True) as file:
             file.execute("DELETE FROM sweep")
             file.execute("DELETE FROM points")

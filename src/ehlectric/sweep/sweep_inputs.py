@@ -73,18 +73,18 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
 
 def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     """Check a key of a drive."""
-    end, own = end_and_key(key)
+    end, inner = end_and_key(key)
     if not is_of_drive(key) and key != "title":
         raise InputError.unknown(key, _nearest(key))
     if key == BOTH:
         raise InputError(key, "is a table", takes=f"one of its keys, as {BOTH}.bearing.radial_load")
     input_field(key)
-    if end and own.partition(".")[0] in _NOT_VARIED:
+    if end and inner.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
-    above = REPLACED.get(own) if end else None
-    if above is not None and (above in varied or own in case.replaced):
+    above = REPLACED.get(inner) if end else None
+    if above is not None and (above in varied or inner in case.replaced):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
-    both = f"{BOTH}.{own}"
+    both = f"{BOTH}.{inner}"
     if end in ENDS and both in varied:
         raise InputError.worded(key, f"varies beside {both}; vary one of them, or both ends", takes=both)
 
@@ -355,7 +355,7 @@ class Sweep(Tabled, Table):
             raise InputError("vary", got=f"{self.size} points", takes=f"at most {MOST_POINTS}")
         if self.uncertainty_samples is not None:
             self._check_uncertainty(self.uncertainty_samples)
-        check_own_laws(self)
+        check_user_laws(self)
         return self
 
     def _check_uncertainty(self, samples: int) -> None:
@@ -474,7 +474,7 @@ class Sweep(Tabled, Table):
         return {"grid": grid, "paired": paired}[self.design](self.axes)
 
 
-def check_own_laws(sweep: Sweep) -> None:
+def check_user_laws(sweep: Sweep) -> None:
     """Raise an InputError if a varied value has no effect, because a law of the user's own replaces it."""
     if isinstance(sweep.case, Case):
         check_changes(
@@ -541,8 +541,8 @@ def _names_a_file(key: str) -> bool:
 
 def _keys_of_range(key: str, name: str) -> list[str]:
     """Keys in the range of a varied key that an unknown name may mean."""
-    found = similar_keys(f"vary.{name}", ["vary", *(f"vary.{one}" for one in _RANGE_KEYS)])
-    return [f"{key}.{one.removeprefix('vary.')}" for one in found]
+    similar = similar_keys(f"vary.{name}", ["vary", *(f"vary.{name}" for name in _RANGE_KEYS)])
+    return [f"{key}.{name.removeprefix('vary.')}" for name in similar]
 
 
 def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:

@@ -59,7 +59,7 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     if missing:
         reasons.append(Statement.of("points-without-margin", missing=missing, why=_why(results, usable)))
     touching = sum(
-        math.isfinite(margin) and any(one.code == "asperities-touch" for one in point.warnings)
+        math.isfinite(margin) and any(warning.code == "asperities-touch" for warning in point.warnings)
         for point, margin in zip(results.points, usable, strict=True)
     )
     if touching:
@@ -134,7 +134,7 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[Statement]:
         if weak:
             yield Statement.of("points-by-strength", number=weak)
     doubtful = sum(
-        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"})
+        bool({warning.code for warning in point.warnings} & {*DOUBTS, "partial-film"})
         for point, margin in known
         if margin >= 1.0
     )
@@ -265,8 +265,8 @@ def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
     logarithmic = low[0] > 0.0
     ends = (math.log(low[0]), math.log(high[0])) if logarithmic else (low[0], high[0])
     part = -math.log(low[1]) / (math.log(high[1]) - math.log(low[1]))
-    found = ends[0] + part * (ends[1] - ends[0])
-    return math.exp(found) if logarithmic else found
+    place = ends[0] + part * (ends[1] - ends[0])
+    return math.exp(place) if logarithmic else place
 
 
 def value_text(key: str, value: Any, case: SweptCase) -> str:

@@ -44,7 +44,7 @@ def sweep_warnings(results: SweepResults) -> Iterator[ResultWarning]:
 def _kinds(solved: Sequence[Point]) -> Iterator[ResultWarning]:
     """One warning or note for each kind that solved points have, with their number; notes come last."""
     counts = Counter(code for point in solved for code in {warning.code for warning in point.warnings})
-    for kind, count in sorted(counts.items(), key=lambda one: (CODES[one[0]].severity == "note", -one[1])):
+    for kind, count in sorted(counts.items(), key=lambda pair: (CODES[pair[0]].severity == "note", -pair[1])):
         cause = CODES[kind]
         code = "points-with-notes" if cause.severity == "note" else "points-with-warnings"
         meaning = cause.meaning[0].lower() + cause.meaning[1:].rstrip(".")

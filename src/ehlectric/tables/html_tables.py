@@ -97,8 +97,8 @@ def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
     for key, value in given.items():
         if key != "title":
             yield input_row(case, key, value)
-    if isinstance(case, Case) and case.own_laws is not None:
-        for key, name in case.own_laws.names.items():
+    if isinstance(case, Case) and case.user_laws is not None:
+        for key, name in case.user_laws.names.items():
             yield Row(f"laws.{key}", name)
 
 

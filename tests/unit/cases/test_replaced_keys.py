@@ -132,7 +132,7 @@ def test_another_oil_is_refused_if_an_own_law_replaces_its_property(name, tmp_pa
 
 def test_another_oil_is_accepted_without_effect_on_own_laws_or_with_new_laws():
     own = case("plain", "viscosity")
-    assert own.replace(lubricant="fva-3", laws=None).own_laws is None
+    assert own.replace(lubricant="fva-3", laws=None).user_laws is None
     new = own.replace(lubricant="fva-3", laws=laws_of("viscosity"))
     assert new.lubricant.base == "fva-3"
     assert new.oil.viscosity == visc(0.0, 313.15)

@@ -61,7 +61,7 @@ def _interpolated(ratio: Array, inner_groove: Array, outer_groove: Array) -> Arr
 
 
 @lru_cache(maxsize=32)
-def _of_one(ratio: float, inner_groove: float, outer_groove: float) -> Array:
+def _of_ratio(ratio: float, inner_groove: float, outer_groove: float) -> Array:
     return _interpolated(*(np.array([value]) for value in (ratio, inner_groove, outer_groove)))
 
 
@@ -74,7 +74,7 @@ def stiffness_laws(bearing: BallBearing, modulus: Numbers) -> tuple[Array, Array
     """
     shapes = (bearing.ball_diameter / bearing.pitch_diameter, bearing.inner_groove, bearing.outer_groove)
     if all(np.ndim(value) == 0 for value in shapes):
-        laws = _of_one(*map(float, shapes))[..., 0]
+        laws = _of_ratio(*map(float, shapes))[..., 0]
     else:
         columns = np.stack(np.broadcast_arrays(*shapes), axis=-1)
         distinct, where = np.unique(columns.reshape(-1, 3), axis=0, return_inverse=True)

@@ -361,15 +361,15 @@ def _first_ring(points: _Points) -> tuple[Array, Array]:
 T = TypeVar("T")
 
 
-def _columns(one: T, points: Any) -> T:
+def _columns(fields_of: T, points: Any) -> T:
     """Same class with the values of some of the points; each array has a value of every point."""
-    return type(one)(*(value[..., points] for value in vars(one).values()))
+    return type(fields_of)(*(value[..., points] for value in vars(fields_of).values()))
 
 
-def _either(first: Mask, one: T, other: T) -> T:
+def _either(first: Mask, fields_of: T, other: T) -> T:
     """Same class with the values of one where ``first``, and of the other elsewhere."""
-    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
-    return type(one)(*(np.where(first, x, y) for x, y in pairs))
+    pairs = zip(vars(fields_of).values(), vars(other).values(), strict=True)
+    return type(fields_of)(*(np.where(first, x, y) for x, y in pairs))
 
 
 @dataclass(frozen=True)
@@ -387,7 +387,7 @@ class _Forces:
 
     state: _State  # the state, with the places of balls that touch only one groove or none, and its own cage
     contacts: Contacts  # of both rings, shape (2, elements, n)
-    own: Array  # axial and radial unbalanced force on each ball [N], shape (2, elements, n)
+    on_balls: Array  # axial and radial unbalanced force on each ball [N], shape (2, elements, n)
     missing: Array  # axial, radial and lateral unbalanced force on the ring [N], shape (3, n)
     residual: Array  # largest unbalanced force over load and centrifugal force, shape (n,)
 
@@ -403,7 +403,7 @@ class _Forces:
 
     def chosen(self, points: Mask) -> _Forces:
         """Contacts and forces of some of the points."""
-        others = (value[..., points] for value in (self.own, self.missing, self.residual))
+        others = (value[..., points] for value in (self.on_balls, self.missing, self.residual))
         return _Forces(_columns(self.state, points), _columns(self.contacts, points), *others)
 
 
@@ -442,12 +442,12 @@ def _placed(points: _Points, state: _State, centres: Array) -> tuple[Array, Span
             np.stack([centres[0] - place[0], place[0]]), np.stack([centres[1] - place[1], place[1]])
         )
 
-    found = spans()
-    lost = held & np.any(found.length <= points.offsets, axis=0)
+    lengths = spans()
+    lost = held & np.any(lengths.length <= points.offsets, axis=0)
     if lost.any():
         place[:, lost] = first_guess(points.grooves(lost, state.outward), centres[:, lost])
-        found = spans()
-    return place, found
+        lengths = spans()
+    return place, lengths
 
 
 def _forces(points: _Points, state: _State) -> _Forces:
@@ -457,11 +457,11 @@ def _forces(points: _Points, state: _State) -> _Forces:
     outward = points.outward(_mean_cosine(contacts))
     axial, radial = contacts.components
     missing = points.load - points.summed(axial[0], radial[0])
-    own = np.stack([axial[0] - axial[1], radial[0] - radial[1] + outward])
-    worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(own), axis=(0, 1)))
+    on_balls = np.stack([axial[0] - axial[1], radial[0] - radial[1] + outward])
+    worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(on_balls), axis=(0, 1)))
     # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
     residual = worst / (points.size + outward + points.preload)
-    return _Forces(_State(state.ring, place, outward), contacts, own, missing, residual)
+    return _Forces(_State(state.ring, place, outward), contacts, on_balls, missing, residual)
 
 
 @dataclass(frozen=True)
@@ -490,9 +490,9 @@ class _Linear:
         little = 1e-13 * (inner.load + outer.load + forces.state.outward) / self._offset + _LITTLE
         self._first, self._second = first + little, second + little
         self._over = 1.0 / np.maximum(determinant(self._first, self._mixed, self._second), little**2)
-        self._own = self._moved(*forces.own)
+        self._of_balls = self._moved(*forces.on_balls)
         # Unbalanced force on the ring [N], shape (3, n), when the balls have moved into balance.
-        self.missing = forces.missing + points.summed(*self._force(*self._own))
+        self.missing = forces.missing + points.summed(*self._force(*self._of_balls))
 
     def _moved(self, axial: Array, radial: Array) -> tuple[Array, Array]:
         """Movements of the balls under forces."""
@@ -510,7 +510,7 @@ class _Linear:
         """Newton step; ``reach`` is the largest movement of the ring [m], shape (n,)."""
         ring, limited = _ring_step(self.missing, self._points.stiffness(*self._series), reach)
         more = self._moved(*self._force(*self._points.moved(ring)))
-        place = np.stack([self._own[0] + more[0], self._own[1] + more[1]])
+        place = np.stack([self._of_balls[0] + more[0], self._of_balls[1] + more[1]])
         length = np.sqrt(place[0] ** 2 + place[1] ** 2)
         place *= np.minimum(1.0, 0.5 * self._offset / np.maximum(length, _TINY))
         return _Step(ring, place, limited, np.add.reduce(self.missing * ring, axis=0))
@@ -642,9 +642,9 @@ class _BallReaction:
 
     def __call__(self, ring: Array, which: IntArray) -> tuple[Array, Array]:
         """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
-        own, seats, shape = chosen(self._points, which), self.seats(ring.T, which), (-1, len(which))
-        force = own.summed(*(value.reshape(shape) for value in seats.inner.components))
-        a, b, c, d, e, f = own.stiffness(*(value.reshape(shape) for value in seats.tangent))
+        points, seats, shape = chosen(self._points, which), self.seats(ring.T, which), (-1, len(which))
+        force = points.summed(*(value.reshape(shape) for value in seats.inner.components))
+        a, b, c, d, e, f = points.stiffness(*(value.reshape(shape) for value in seats.tangent))
         return force.T, np.stack([a, b, c, b, d, e, c, e, f], axis=-1).reshape(-1, 3, 3)
 
 
@@ -668,10 +668,10 @@ def _nested(points: _Points) -> tuple[_State, IntArray]:
     outward, aim, steps = np.zeros(number), np.full(number, _LOOSE), np.zeros(number, dtype=np.intp)
     for _ in range(_MOST_ROUNDS):
         reaction = _BallReaction(points, cosines, place, outward)
-        found, _, more = balance(
+        balanced, _, more = balance(
             reaction, points.load.T, ring.T, points.reach, points.size + outward + points.preload, aim
         )
-        ring, steps = found.T, steps + more
+        ring, steps = balanced.T, steps + more
         seats = reaction.seats(ring, everyone)
         contacts = Contacts(
             *(

@@ -237,8 +237,8 @@ def seat(grooves: Grooves, g: Array, guess: Array | None = None) -> Seats:
         held = np.where(turning, grooves.contacts(place, g)[0].depth > 0.0, held)
         pressed = held & turning
         if pressed.any():
-            own, there = grooves.chosen(pressed), g[:, pressed]
+            part, there = grooves.chosen(pressed), g[:, pressed]
             place[:, pressed] = _settled(
-                own, there, _start(own, there, None if guess is None else guess[:, pressed])
+                part, there, _start(part, there, None if guess is None else guess[:, pressed])
             )
     return Seats(place, held, *grooves.contacts(place, g))

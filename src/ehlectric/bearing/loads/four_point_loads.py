@@ -39,10 +39,10 @@ _SIDES = np.array([1.0, -1.0])
 T = TypeVar("T")
 
 
-def _take(one: T, points: IntArray, other: T) -> None:
+def _take(target: T, points: IntArray, source: T) -> None:
     """Take the values of some of the points, the last dimension of arrays, from another of the same class."""
-    for each in fields(one):  # type: ignore[arg-type]
-        getattr(one, each.name)[..., points] = getattr(other, each.name)
+    for each in fields(target):  # type: ignore[arg-type]
+        getattr(target, each.name)[..., points] = getattr(source, each.name)
 
 
 def _spans(ring: Array, place: Array, apart: Array) -> Spans:
@@ -348,7 +348,7 @@ def _first_ring(points: _Points, stiffness: Array, outward: Array) -> Array:
     touch = distance + (outward / (2.0 * outer * points.free_cosine)) ** (2.0 / 3.0)
 
     def reaction(ring: Array, which: IntArray) -> tuple[Array, Array]:
-        own, (axial, radial) = chosen(points, which), chosen(points, which).middles(ring.T)
+        chosen_points, (axial, radial) = chosen(points, which), chosen(points, which).middles(ring.T)
         sides = np.multiply.outer(_SIDES, np.broadcast_to(apart, touch.shape)[which])[:, np.newaxis]
         spans = Spans.of(*np.broadcast_arrays(axial + sides, radial))
         contacts = spans.stiff_contacts(touch[which], series[which])
@@ -356,7 +356,7 @@ def _first_ring(points: _Points, stiffness: Array, outward: Array) -> Array:
             tuple(np.add.reduce(value, axis=0) for value in values)
             for values in (contacts.components, contacts.tangent)
         )
-        return own.forces(force, tangent)
+        return chosen_points.forces(force, tangent)
 
     axial, radial, _ = points.load
     start = np.zeros((points.shape[1], 3))
@@ -392,11 +392,11 @@ class _Reaction:
 
     def contacts(self, ring: Array, which: IntArray) -> Contacts:
         """Contacts at displacements, shape (3, m), of the points ``which``, shape (2, 2, elements m)."""
-        own = chosen(self._points, which)
-        shape = own.shape
-        apart, offsets = (np.broadcast_to(value, (2, *shape)) for value in (own.apart, own.offsets))
+        part = chosen(self._points, which)
+        shape = part.shape
+        apart, offsets = (np.broadcast_to(value, (2, *shape)) for value in (part.apart, part.offsets))
         balls = _Balls(
-            ring=own.middles(ring).reshape(2, -1),
+            ring=part.middles(ring).reshape(2, -1),
             apart=apart.reshape(2, -1),
             offsets=offsets.reshape(2, -1),
             stiffness=self._stiffness[..., which].reshape(2, 2, -1),
@@ -412,16 +412,16 @@ class _Reaction:
 
     def __call__(self, ring: Array, which: IntArray) -> tuple[Array, Array]:
         """Forces on rings at displacements, and their derivatives, as ``balance`` needs them."""
-        own, contacts = chosen(self._points, which), self.contacts(ring.T, which)
-        axial, radial = (np.sum(value[0], axis=0).reshape(own.shape) for value in contacts.components)
+        part, contacts = chosen(self._points, which), self.contacts(ring.T, which)
+        axial, radial = (np.sum(value[0], axis=0).reshape(part.shape) for value in contacts.components)
         # Inner and outer contacts in series, A (A + B)^-1 B = (det(A) B + det(B) A)/det(A + B).
         (a, det_a), (b, det_b) = (_tangent(contacts.of(side)) for side in (0, 1))
         mixed = a[0] * b[2] + a[2] * b[0] - 2.0 * a[1] * b[1]
         over = 1.0 / np.maximum(det_a + det_b + mixed, _TINY)
         first, mixed, second = (
-            ((det_a * y + det_b * x) * over).reshape(own.shape) for x, y in zip(a, b, strict=True)
+            ((det_a * y + det_b * x) * over).reshape(part.shape) for x, y in zip(a, b, strict=True)
         )
-        return own.forces((axial, radial), (first, mixed, second))
+        return part.forces((axial, radial), (first, mixed, second))
 
 
 # Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
@@ -442,14 +442,14 @@ def _round(points: _Points, state: _State, aim: Array) -> tuple[_State, Array, I
     reach = 2.0 * (points.size / softest) ** (2.0 / 3.0)
     # The balls are better in balance than the rings.
     reaction = _Reaction(points, state, 0.01 * aim * scale)
-    found, _, steps = balance(reaction, points.load.T, state.ring.T, reach, scale, aim)
+    ring, _, steps = balance(reaction, points.load.T, state.ring.T, reach, scale, aim)
     # The places belong to the best displacement, which need not be the last one.
-    reaction.contacts(found.T, np.arange(len(found)))
-    there = _State(found.T, reaction.place, reaction.depth, state.cosines, state.outward)
+    reaction.contacts(ring.T, np.arange(len(ring)))
+    there = _State(ring.T, reaction.place, reaction.depth, state.cosines, state.outward)
     contacts = there.contacts(points)
     change = np.max(np.abs(contacts.cosine - state.cosines), axis=(0, 1, 2))
     outward = points.outward(_mean_cosine(contacts))
-    return _State(found.T, there.place, there.depth, contacts.cosine, outward), change, steps
+    return _State(ring.T, there.place, there.depth, contacts.cosine, outward), change, steps
 
 
 def _solved(points: _Points) -> tuple[_State, IntArray]:
@@ -473,8 +473,8 @@ def _residual(points: _Points, state: _State, contacts: Contacts) -> Array:
     """Largest unbalanced force on ring or ball over load and centrifugal force, shape (n,)."""
     axial, radial = (np.add.reduce(value, axis=1) for value in contacts.components)
     missing = points.load - points.summed(axial[0], radial[0])
-    own = np.stack([axial[0] - axial[1], radial[0] - radial[1] + state.outward])
-    worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(own), axis=(0, 1)))
+    on_balls = np.stack([axial[0] - axial[1], radial[0] - radial[1] + state.outward])
+    worst = np.maximum(np.max(np.abs(missing), axis=0), np.max(np.abs(on_balls), axis=(0, 1)))
     return np.asarray(worst / (points.size + state.outward))
 
 

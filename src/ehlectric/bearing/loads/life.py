@@ -83,9 +83,9 @@ def reliability_factor(reliability: float) -> float:
     [1.0, 0.64, 0.25]
     """
     failures = [-math.log(1.0 - value) for value in _RELIABILITIES]
-    found = np.exp(np.interp(-math.log(1.0 - reliability), failures, np.log(_FACTORS)))
+    factor = np.exp(np.interp(-math.log(1.0 - reliability), failures, np.log(_FACTORS)))
     # Two or three digits of each value are printed in the table.
-    return float(f"{found:.12g}")
+    return float(f"{factor:.12g}")
 
 
 def basic_life(rating: float, load: float, exponent: float = 3.0) -> float:

@@ -196,9 +196,9 @@ class Batch(Generic[G]):
         def row(number: Any) -> Any:
             return number if np.ndim(number) == 0 else np.broadcast_to(number, shape)[solvable]
 
-        def rowed(one: Any) -> Any:
-            arrays = {name: row(value) for name, value in vars(one).items() if np.ndim(value)}
-            return replace(one, **arrays) if arrays else one
+        def rowed(thing: Any) -> Any:
+            arrays = {name: row(value) for name, value in vars(thing).items() if np.ndim(value)}
+            return replace(thing, **arrays) if arrays else thing
 
         position = operation.positions(bearing.elements, bearing.rows.number)
         return cls(
@@ -236,18 +236,18 @@ class Batch(Generic[G]):
 
     def spread_rows(self, rows: Array | IntArray) -> Any:
         """Rows of all points, shape (n, ...), as an array of the shape of the points and of a row."""
-        found: Any = rows
+        values: Any = rows
         if not self.able.all():
-            found = np.full((self.able.size, *rows.shape[1:]), np.nan)
-            found[self.able.ravel()] = rows
-        found = np.ascontiguousarray(found).reshape(self.shape + rows.shape[1:])
-        return found.item() if found.ndim == 0 else found
+            values = np.full((self.able.size, *rows.shape[1:]), np.nan)
+            values[self.able.ravel()] = rows
+        values = np.ascontiguousarray(values).reshape(self.shape + rows.shape[1:])
+        return values.item() if values.ndim == 0 else values
 
 
-def chosen(one: T, points: slice | Mask | IntArray) -> T:
+def chosen(thing: T, points: slice | Mask | IntArray) -> T:
     """Same class with some of the points, the last dimension of its arrays; a dimension of 1 is for all."""
-    values = (getattr(one, each.name) for each in fields(one))  # type: ignore[arg-type]
-    return type(one)(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
+    values = (getattr(thing, each.name) for each in fields(thing))  # type: ignore[arg-type]
+    return type(thing)(*(value if value.shape[-1] == 1 else value[..., points] for value in values))
 
 
 def joined(parts: Sequence[T]) -> T:

@@ -202,8 +202,8 @@ class _Points:
         load = np.stack([zero + operation.radial_load, zero, zero + operation.axial_load])
         play = 0.5 * bearing.radial_clearance * cosine - _closed(bearing, profile, sine)
 
-        def spread(values: Numbers, wanted: tuple[int, ...]) -> Array:
-            return np.array(np.broadcast_to(values, wanted))
+        def spread(values: Numbers, shape: tuple[int, ...]) -> Array:
+            return np.array(np.broadcast_to(values, shape))
 
         return cls(
             profile,
@@ -317,14 +317,14 @@ class _Rollers:
         half = 0.5 * self.interference
         low, high = np.maximum(half, self.bottom), np.minimum(half + self.bottom, self.interference)
         outer = np.clip(guess, low, high)
-        found, going, own = [np.empty_like(half) for _ in range(4)], np.arange(half.size), self
+        results, going, now = [np.empty_like(half) for _ in range(4)], np.arange(half.size), self
         for _ in range(_MOST_STEPS):
-            (load, stiff), (inner, soft) = own.profile.load(outer), own.profile.load(own.interference - outer)
-            excess, both = load - inner - own.outward, stiff + soft
-            noise = _ROUNDING * (load + own.outward) + _NUDGE * own.interference * both
-            done = (np.abs(excess) <= noise) | (high - low <= 1e-16 * own.interference)
+            (load, stiff), (inner, soft) = now.profile.load(outer), now.profile.load(now.interference - outer)
+            excess, both = load - inner - now.outward, stiff + soft
+            noise = _ROUNDING * (load + now.outward) + _NUDGE * now.interference * both
+            done = (np.abs(excess) <= noise) | (high - low <= 1e-16 * now.interference)
             share = soft / both
-            for values, new in zip(found, (outer, inner, stiff * share, share), strict=True):
+            for values, new in zip(results, (outer, inner, stiff * share, share), strict=True):
                 values[going] = new
             if done.all():
                 break
@@ -332,8 +332,8 @@ class _Rollers:
             low, high = np.where(excess < 0.0, outer, low)[on], np.where(excess < 0.0, high, outer)[on]
             newton = (outer - excess / both)[on]
             outer = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
-            going, own = going[on], own.chosen(on)
-        return found
+            going, now = going[on], now.chosen(on)
+        return results
 
     def chosen(self, rollers: Mask) -> _Rollers:
         """Some of the rollers."""
@@ -504,13 +504,13 @@ def roller_equilibrium(
     depths, lines = np.empty((2, bodies, number)), np.empty((2, number, bodies, slices))
     for first in range(0, number, _BLOCK):
         part = slice(first, first + _BLOCK)
-        own = points.chosen(part)
-        moved, outer, residual[part], steps[part] = _solved(own)
+        of_part = points.chosen(part)
+        moved, outer, residual[part], steps[part] = _solved(of_part)
         ring[: len(moved), part] = moved
-        depths[:, :, part] = inner, outer = own.interference(moved) - outer, outer
+        depths[:, :, part] = inner, outer = of_part.interference(moved) - outer, outer
         lines[0, part], lines[1, part] = (
-            own.profile.slices(inner.T, slices),
-            own.profile.slices(outer.T, slices),
+            of_part.profile.slices(inner.T, slices),
+            of_part.profile.slices(outer.T, slices),
         )
     loads = np.add.reduce(lines, axis=-1)
     missing = np.max(np.abs(loads[1] - loads[0] - points.outward[:, np.newaxis]), axis=1)

@@ -111,20 +111,20 @@ def thrust_ball_equilibrium(
     batch = Batch.of(bearing, operation, modulus, density, able)
     if not batch.shape:
         check_thrust_loads(bearing, operation)
-    own, duty, rows = batch.bearing, batch.operation, (bearing.elements, batch.number)
+    of_batch, duty, rows = batch.bearing, batch.operation, (bearing.elements, batch.number)
     square = bearing.bottom_angle
-    sizes = own.ball_diameter, own.pitch_diameter
+    sizes = of_batch.ball_diameter, of_batch.pitch_diameter
     speeds = rolling_speeds(*sizes, duty.inner_speed, duty.outer_speed, square)
-    outward = centrifugal_force(own.element_mass(batch.density), own.pitch_diameter, speeds.cage)
+    outward = centrifugal_force(of_batch.element_mass(batch.density), of_batch.pitch_diameter, speeds.cage)
     along = duty.axial_load / bearing.elements
-    slopes = _slopes(own, batch.modulus, along, outward)
+    slopes = _slopes(of_batch, batch.modulus, along, outward)
     loads = [along * np.hypot(1.0, slope) for slope in slopes]
     asides = [np.arctan(slope) for slope in slopes]
     angles = square + asides[0], square - asides[1]
-    depths = _depths(own, batch.modulus, along, slopes)
+    depths = _depths(of_batch, batch.modulus, along, slopes)
     moved = [
         (offset + depth) * np.cos(aside)
-        for offset, depth, aside in zip(own.offsets, depths, asides, strict=True)
+        for offset, depth, aside in zip(of_batch.offsets, depths, asides, strict=True)
     ]
     # The distance of both grooves equals that of the ball from each of them up to rounding.
     residual = np.abs(loads[0] * np.sin(asides[0]) + loads[1] * np.sin(asides[1]) - outward)
