@@ -62,10 +62,10 @@ def any_of(*conditions: Booleans) -> Booleans:
     >>> any_of(False, np.array([True, False])).tolist(), any_of()
     ([True, False], False)
     """
-    found: Booleans = False
+    holds: Booleans = False
     for condition in conditions:
-        found = found | condition
-    return found
+        holds = holds | condition
+    return holds
 
 
 def as_float(values: Numbers | np.floating[Any] | NDArray[np.floating[Any]]) -> Numbers:

@@ -116,16 +116,16 @@ class TouchHistory:
     @property
     def coarser(self) -> float | None:
         """Mean load share of the companion at its steps that count; None if it lacks one of them."""
-        found = self._coarser_steps
-        return None if found is None else float(np.mean(self.coarse_share[found]))
+        steps = self._coarser_steps
+        return None if steps is None else float(np.mean(self.coarse_share[steps]))
 
     @property
     def share_change(self) -> float:
         """Change of the mean load share from the companion, at the same steps; NaN if unknown."""
-        found = self._coarser_steps
-        if found is None:
+        steps = self._coarser_steps
+        if steps is None:
             return math.nan
-        return float(np.mean(self.load_share[found]) - np.mean(self.coarse_share[found]))
+        return float(np.mean(self.load_share[steps]) - np.mean(self.coarse_share[steps]))
 
     @property
     def _coarser_steps(self) -> Mask | None:

@@ -153,5 +153,5 @@ class TransientSolver:
         """Position on the line y = 0 from which oil fills the gap [m]; NaN if the inlet is flooded."""
         if self._moving.layer is None:
             return math.nan
-        found = meniscus_of(self._moving.film.level.mesh, instant.full_film)
-        return math.nan if found is None else self.contact.problem.scales.length * found
+        meniscus = meniscus_of(self._moving.film.level.mesh, instant.full_film)
+        return math.nan if meniscus is None else self.contact.problem.scales.length * meniscus

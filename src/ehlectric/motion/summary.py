@@ -217,17 +217,17 @@ def _progress(run: MotionRun) -> dict[str, Any]:
     }
 
 
-def _asperities(found: TouchHistory) -> dict[str, Any]:
-    largest = int(np.argmax(found.load_share))
+def _asperities(touching: TouchHistory) -> dict[str, Any]:
+    largest = int(np.argmax(touching.load_share))
     return {
-        "load_share_mean": found.mean_share,
-        "load_share_mean_coarser": found.coarser,
-        "load_share_largest": found.load_share[largest],
-        "load_share_largest_time": found.time[largest] if np.any(found.spots) else None,
-        "contact_area_share_mean": np.mean(found.area_share[found.counted]),
-        "spots_mean": np.mean(found.spots[found.counted]),
-        "time_share": found.time_share,
-        "steps": found.steps,
+        "load_share_mean": touching.mean_share,
+        "load_share_mean_coarser": touching.coarser,
+        "load_share_largest": touching.load_share[largest],
+        "load_share_largest_time": touching.time[largest] if np.any(touching.spots) else None,
+        "contact_area_share_mean": np.mean(touching.area_share[touching.counted]),
+        "spots_mean": np.mean(touching.spots[touching.counted]),
+        "time_share": touching.time_share,
+        "steps": touching.steps,
     }
 
 
@@ -356,7 +356,7 @@ def _discharge(run: MotionRun) -> dict[str, Any] | None:
     }
 
 
-def instant_beside(run: MotionRun) -> int | None:
+def coincident_instant(run: MotionRun) -> int | None:
     """Number of the recorded instant at which all roughness is at its position in the case.
 
     None if no instant is recorded close to this time, or the run has no stationary film to compare with.
@@ -374,7 +374,7 @@ def _compared_with_stationary(run: MotionRun) -> dict[str, Any] | None:
 
     The nodes with abs(x) < b are compared. None if no such instant is recorded.
     """
-    frame, dataset = instant_beside(run), run.dataset
+    frame, dataset = coincident_instant(run), run.dataset
     if frame is None:
         return None
     inside = np.abs(dataset["x"].values) < run.conditions.half_width

@@ -74,25 +74,25 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
         yield ResultWarning.of("steps-too-long", steps=steps, surface=surface, fewest=fewest, enough=enough)
 
 
-def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
+def touch_warnings(touching: TouchHistory) -> Iterator[ResultWarning]:
     """Warnings about a run whose surfaces touch.
 
     The first says what touching means. The second is given where the load share depends on the grid, or is
     not known on a coarser one.
     """
-    share, coarser = found.mean_share, found.coarser
+    share, coarser = touching.mean_share, touching.coarser
     yield ResultWarning.of(
         "asperities-touch",
-        "moving" if found.filled else "short_run",
-        percent=100.0 * found.time_share,
-        steps=found.steps,
+        "moving" if touching.filled else "short_run",
+        percent=100.0 * touching.time_share,
+        steps=touching.steps,
         share=about_share(share, coarser),
     )
     what, grid = "the mean load share", "every second node with twice the time step"
     if coarser is None:
         yield unknown_share(what, grid)
     else:
-        yield from changed_share(what, share, coarser, grid, change=found.share_change)
+        yield from changed_share(what, share, coarser, grid, change=touching.share_change)
 
 
 def _passed(contact: TransientContact, surface: int) -> float:

@@ -44,8 +44,8 @@ def effect(name: str) -> dict[str, Any]:
     >>> effect("film")["falls"]
     'the films get thinner'
     """
-    found: dict[str, Any] = _data()["effects"][name]
-    return found
+    texts: dict[str, Any] = _data()["effects"][name]
+    return texts
 
 
 def help_at(key: str) -> Help:

@@ -137,7 +137,7 @@ _PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
 
 # Other units without prefixes: limits of current density are published in A/mm^2, shaft speeds in rpm, and
 # kinematic viscosities in mm^2/s.
-_OWN = ("A/mm²", "rpm", "mm²/s")
+_ENGINEERS = ("A/mm²", "rpm", "mm²/s")
 
 
 def scale_for(largest: float, unit: str) -> Scale:
@@ -154,9 +154,9 @@ def scale_for(largest: float, unit: str) -> Scale:
     """
     if unit in _PLAIN:
         return Scale(1.0, unit)
-    for own in _OWN:
-        if UNITS[own][0] == unit:
-            return Scale(UNITS[own][1], own)
+    for unit_of_engineers in _ENGINEERS:
+        if UNITS[unit_of_engineers][0] == unit:
+            return Scale(UNITS[unit_of_engineers][1], unit_of_engineers)
     if unit.startswith("kg"):
         return Scale(1.0, printed(unit))  # it has a prefix
     if unit.startswith("1/"):

@@ -45,8 +45,8 @@ def certain(text: str) -> str:
     >>> certain("123.456 N"), certain("1234.567 N"), certain("0.125 N")
     ('123.4560 N', '1234.567 N', '0.125 N')
     """
-    found = _GROUPED.fullmatch(text)
-    return text if found is None else f"{found[1]}.{found[2]}0 {found[3] or ''}".rstrip()
+    match = _GROUPED.fullmatch(text)
+    return text if match is None else f"{match[1]}.{match[2]}0 {match[3] or ''}".rstrip()
 
 
 def is_grouped(text: str) -> bool:
@@ -143,10 +143,10 @@ def doubt(text: str, bounds: Bounds, factor: Callable[[str], float]) -> str | No
     UserWarning
         If both readings of a load in kN are possible.
     """
-    found = _GROUPED.fullmatch(text.strip())
-    if found is None:
+    match = _GROUPED.fullmatch(text.strip())
+    if match is None:
         return None
-    whole, part, unit = found[1], found[2], (found[3] or "").strip()
+    whole, part, unit = match[1], match[2], (match[3] or "").strip()
     ratio = factor(unit)
     decimal, thousands = ratio * float(f"{whole}.{part}"), ratio * float(whole + part)
     low, high = bounds.typical or (0.0, float("inf"))

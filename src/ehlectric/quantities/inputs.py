@@ -171,10 +171,10 @@ def input_at(key: str) -> Input | None:
     """
     table, name, number = table_and_key(key)
     places = (table,) if table else _FILES
-    found = next((inputs()[one][name] for one in places if name in inputs().get(one, {})), None)
-    if found is None or not number:
-        return found
-    return replace(found, label=f"{found.label} {_NUMBERED[table]} {number}") if table in _NUMBERED else None
+    entry = next((inputs()[book][name] for book in places if name in inputs().get(book, {})), None)
+    if entry is None or not number:
+        return entry
+    return replace(entry, label=f"{entry.label} {_NUMBERED[table]} {number}") if table in _NUMBERED else None
 
 
 def described(entry: Quantity) -> str:

@@ -79,8 +79,8 @@ def drive_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     divided = dict.fromkeys(_DIVIDED, any(unknown)) | {"capacitance": bool(unknown) and all(unknown)}
     lives: dict[str, bool] = {}
     for end in ENDS:
-        own = {key.removeprefix("duty_"): value for key, value in (summary.get(end) or {}).items()}
-        for key, holds in cycle_life_bounds(own, "duty_").items():
+        of_cycle = {key.removeprefix("duty_"): value for key, value in (summary.get(end) or {}).items()}
+        for key, holds in cycle_life_bounds(of_cycle, "duty_").items():
             lives[key] = lives.get(key, False) or holds
     divided |= lives
     return _holding(book, lambda key: divided.get(key.rpartition(".")[2], ideal))
@@ -161,13 +161,13 @@ _OF_CYCLE = {
 def cycle_life_bounds(duty: Mapping[str, Any], prefix: str) -> dict[str, bool]:
     """Whether the lives of a duty cycle are upper bounds, by their keys with a prefix."""
     missing = bool(duty.get("unsolved_share"))
-    found = {
+    of_rows = {
         f"{prefix}{key}": missing or bool(duty.get(share))
         for share, keys in _OF_CYCLE.items()
         for key in keys
     }
     of_loads = {f"{prefix}{key}": missing for key in ("reference_life", "reliable_reference_life")}
-    return {**of_loads, **found}
+    return {**of_loads, **of_rows}
 
 
 def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:

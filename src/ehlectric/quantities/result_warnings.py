@@ -157,7 +157,7 @@ def texts_and_codes(warnings: Iterable[ResultWarning]) -> dict[str, list[str]]:
     {'warnings': ['rigid-piezoviscous regime'], 'warning_codes': ['regime']}
     """
     listed = tuple(warnings)
-    return {TEXTS: [str(one) for one in listed], CODES_OF_TEXTS: [one.code for one in listed]}
+    return {TEXTS: [str(warning) for warning in listed], CODES_OF_TEXTS: [warning.code for warning in listed]}
 
 
 def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:

@@ -70,14 +70,15 @@ def _read(kind: str, geometry: str = "", *, stored: bool = True) -> dict[str, Qu
 
 def _within(table: str, keys: Keys) -> dict[str, Quantity]:
     """Quantities of a table, by their names in it."""
-    return {key.removeprefix(f"{table}."): one for key, one in keys.items() if key.startswith(f"{table}.")}
+    start = f"{table}."
+    return {key.removeprefix(start): quantity for key, quantity in keys.items() if key.startswith(start)}
 
 
 def _of_heights(statistics: Keys, zone: str) -> dict[str, Quantity]:
     """Statistics of z1 + z2 within a zone."""
     return {
-        name: replace(one, meaning=f"{one.meaning}, of z1 + z2 within the {zone}")
-        for name, one in statistics.items()
+        name: replace(quantity, meaning=f"{quantity.meaning}, of z1 + z2 within the {zone}")
+        for name, quantity in statistics.items()
     }
 
 
@@ -128,9 +129,9 @@ ELEMENT_KEYS: Keys = _within("contacts", BEARING_KEYS)
 # Drives: the table "end" is that of the bearing at either end, "event" a row of the table of discharges.
 _DRIVE = {**_read("drive"), **under("end.life", _within("life", BEARING_KEYS))}
 _ENDS: Keys = {
-    f"{end}.{name}": replace(one, label=f"{one.label}, {words}" if one.label else "")
+    f"{end}.{name}": replace(quantity, label=f"{quantity.label}, {words}" if quantity.label else "")
     for end, words in NAMES_OF_ENDS.items()
-    for name, one in _within("end", _DRIVE).items()
+    for name, quantity in _within("end", _DRIVE).items()
 }
 # Sums of both bearings that each remedy has.
 _SUMS = (
@@ -144,11 +145,11 @@ _SUMS = (
     "duty.left_out_share",
 )
 DRIVE_KEYS: Keys = {
-    **{key: one for key, one in _DRIVE.items() if not key.startswith(("end.", "event."))},
+    **{key: quantity for key, quantity in _DRIVE.items() if not key.startswith(("end.", "event."))},
     **_ENDS,
     **under("remedies", _ENDS),
     **under("remedies", {key: _DRIVE[key] for key in _SUMS}),
 }
 DRIVE_BOOK: Keys = {**_DRIVE, **DRIVE_KEYS, **_read("drive", stored=False)}
 EVENT_KEYS: Keys = _within("event", _DRIVE)
-EVENT_COLUMNS = {name: one.unit for name, one in EVENT_KEYS.items()}
+EVENT_COLUMNS = {name: quantity.unit for name, quantity in EVENT_KEYS.items()}

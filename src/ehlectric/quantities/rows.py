@@ -158,10 +158,10 @@ def sheet_rows(
         if section.only and not words.holds[section.only](summary):
             continue
         keys = (key for key in section.keys if key not in hidden)
-        found = [row for key in keys for row in _row(key, book, summary, words, bounds)]
-        if found:
+        rows = [row for key in keys for row in _row(key, book, summary, words, bounds)]
+        if rows:
             yield Row(section.heading)
-            yield from found
+            yield from rows
 
 
 def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[str, Bound]) -> Iterator[Row]:

@@ -75,4 +75,4 @@ class Statement:
 def _as_data(value: Any) -> Any:
     if isinstance(value, Statement):
         return value.as_data()
-    return [_as_data(one) for one in value] if isinstance(value, tuple | list) else value
+    return [_as_data(item) for item in value] if isinstance(value, tuple | list) else value

@@ -71,7 +71,7 @@ def typed(text: str) -> str:
     if text.isascii():
         return text
     return _NOT_RAISED.sub(
-        lambda found: unicodedata.normalize("NFKC", found[0].translate(_BEFORE)).translate(_AFTER), text
+        lambda match: unicodedata.normalize("NFKC", match[0].translate(_BEFORE)).translate(_AFTER), text
     )
 
 
@@ -83,10 +83,10 @@ def plain(text: str) -> str:
     >>> plain("GPa⁻¹"), plain("W/(m K)"), plain("V/mil"), plain("° F"), plain("mPas")
     ('GPa^-1', 'W/m/K', 'V/thou', 'degF', 'mPa s')
     """
-    text = _SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_DIGITS), typed(text)).strip()
+    text = _SUPERSCRIPT.sub(lambda match: "^" + match[0].translate(_DIGITS), typed(text)).strip()
     if text == "°":
         return "deg"
-    text = _BRACKETS.sub(lambda found: "/" + "/".join(_PRODUCT.split(found[1].strip())), text)
+    text = _BRACKETS.sub(lambda match: "/" + "/".join(_PRODUCT.split(match[1].strip())), text)
     text = _DOT.sub("·", text)
     for pattern, spelling in _WORDS:
         text = pattern.sub(spelling, text)

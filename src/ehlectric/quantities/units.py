@@ -146,10 +146,10 @@ def comma_advice(text: str) -> str | None:
     >>> comma_advice("1,000 mm")
     'decimal comma: write 1 mm, or 1000 mm if the comma separates thousands'
     """
-    found = _COMMA.fullmatch(typed(text))
-    if found is None:
+    match = _COMMA.fullmatch(typed(text))
+    if match is None:
         return None
-    whole, part, rest = found.groups()
+    whole, part, rest = match.groups()
     rest = rest.rstrip()
     if not is_grouped(f"{whole},{part}"):
         return f"decimal comma: write {short(f'{whole}.{part}{rest}')}"
@@ -169,11 +169,11 @@ def known_factor(written: str, unit: str) -> float | None:
     written = plain(written)
     if unit in (ROTATION, "rpm") and written.replace(" ", "").lower() in _TURNS:
         written = "rpm"
-    found, wanted = _known(written), _known(unit)
-    if found is None or wanted is None or found[2] != wanted[2]:
+    given, target = _known(written), _known(unit)
+    if given is None or target is None or given[2] != target[2]:
         return None
     # A power of ten is read from its text, which rounds it once.
-    return found[0] / wanted[0] * float(f"1e{found[1] - wanted[1]}")
+    return given[0] / target[0] * float(f"1e{given[1] - target[1]}")
 
 
 @cache
@@ -185,13 +185,13 @@ def _known(unit: str) -> tuple[float, int, tuple[int, ...]] | None:
     number, power = 1.0, 0
     dimensions: tuple[int, ...] = (0,) * 7
     for sign, name, raised in _FACTOR.findall(text):
-        found = _named(name)
-        if found is None:
+        part = _named(name)
+        if part is None:
             return None
         exponent = int(raised or 1) * (-1 if "/" in sign else 1)
-        number *= found[0] ** exponent
-        power += found[1] * exponent
-        dimensions = tuple(a + exponent * b for a, b in zip(dimensions, found[2], strict=True))
+        number *= part[0] ** exponent
+        power += part[1] * exponent
+        dimensions = tuple(a + exponent * b for a, b in zip(dimensions, part[2], strict=True))
     return number, power, dimensions
 
 
@@ -234,8 +234,8 @@ def factor(written: str, unit: str) -> float:
     expression = f"1{named}" if named.startswith("/") else named
     known_units = registry()
     try:
-        one = known_units.Quantity(1.0, known_units.parse_units(expression))
-        value = float(one.to(unit).magnitude)
+        unit_quantity = known_units.Quantity(1.0, known_units.parse_units(expression))
+        value = float(unit_quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         other, hint = _HINTS.get(unit, ("", ""))
         mistaken = other and known_units.Quantity(1.0, expression).check(other)
@@ -246,7 +246,7 @@ def factor(written: str, unit: str) -> float:
     except pint.PintError:
         raise ValueError(f"{shown(written)} is not a unit") from None
     if unit == "rad":
-        _check_angle(one)
+        _check_angle(unit_quantity)
     return value
 
 
@@ -289,8 +289,8 @@ def absolute(number: float, written: str) -> float:
 def _scale(written: str) -> tuple[float, float]:
     """Zero point of a temperature scale, and the size of its degree [K]; pint knows further scales."""
     name = plain(written)
-    if found := _known_scale(name):
-        return found
+    if scale := _known_scale(name):
+        return scale
     if "delta" in name:
         raise ValueError(f"{shown(written)} is a difference of temperatures")
     try:
@@ -329,8 +329,8 @@ def degree(written: str) -> float | None:
     >>> degree("K"), degree("°C"), round(degree("delta_degF"), 4), degree("m")
     (1.0, 1.0, 0.5556, None)
     """
-    found = _known_scale(plain(written).removeprefix("delta_"))
-    return None if found is None else found[1]
+    scale = _known_scale(plain(written).removeprefix("delta_"))
+    return None if scale is None else scale[1]
 
 
 def is_pint(entry: object) -> TypeGuard[pint.Quantity[float]]:
@@ -355,8 +355,8 @@ def on_scale(entry: object) -> bool:
     (True, True, False, False)
     """
     if isinstance(entry, str):
-        found = split(entry)
-        unit = "" if found is None else found[1]
+        parts_of_entry = split(entry)
+        unit = "" if parts_of_entry is None else parts_of_entry[1]
     else:
         unit = str(entry.units) if is_pint(entry) else ""
     return _SCALES.get(plain(unit), (0.0, 1.0))[0] != 0.0
@@ -427,11 +427,11 @@ def _parts(text: str, otherwise: str) -> tuple[str, str]:
     if len(text) > LONGEST:
         raise ValueError(f"it has {len(text)} characters, which is too long")
     read = typed(text)
-    found = _NUMBER_AND_UNIT.fullmatch(read.strip())
+    match = _NUMBER_AND_UNIT.fullmatch(read.strip())
     advice = comma_advice(read)
-    if found is None or advice:
+    if match is None or advice:
         raise ValueError(advice or otherwise)
-    return found[1], found[2]
+    return match[1], match[2]
 
 
 def parts(text: str) -> tuple[str, str] | None:
@@ -460,11 +460,11 @@ def is_infinite(text: str, unit: str) -> bool:
     >>> is_infinite("inf", "m"), is_infinite("∞ mm", "m"), is_infinite("flat", "m"), is_infinite("inf N", "m")
     (True, True, True, False)
     """
-    found = _INFINITE.fullmatch(typed(text[:LONGEST]).strip().lower())
-    if found is None:
+    match = _INFINITE.fullmatch(typed(text[:LONGEST]).strip().lower())
+    if match is None:
         return False
     try:
-        return not found[1] or factor(found[1], unit) > 0.0
+        return not match[1] or factor(match[1], unit) > 0.0
     except ValueError:
         return False
 
@@ -477,8 +477,8 @@ def split(text: str) -> tuple[float, str] | None:
     >>> split("1.8 kN"), split("46 mm²/s"), split("1,8 kN")
     ((1.8, 'kN'), (46.0, 'mm²/s'), None)
     """
-    found = parts(text)
-    return None if found is None else (float(found[0]), found[1])
+    pair = parts(text)
+    return None if pair is None else (float(pair[0]), pair[1])
 
 
 def in_unit(text: str, unit: str) -> float | None:
@@ -489,16 +489,16 @@ def in_unit(text: str, unit: str) -> float | None:
     >>> in_unit("1.8 kN", "N"), in_unit("343.15 K", "degC"), in_unit("1800", "N")
     (1800.0, 70.0, None)
     """
-    found = split(text)
-    if found is None or not found[1]:
+    pair = split(text)
+    if pair is None or not pair[1]:
         return None
-    number, written = found
+    number, written = pair
     if written == unit:
         return number
-    if wanted := _SCALES.get(plain(unit)):
+    if target := _SCALES.get(plain(unit)):
         known = _known_scale(plain(written))
         kelvin = None if known is None else (number + known[0]) * known[1]
-        return None if kelvin is None else float(f"{kelvin / wanted[1] - wanted[0]:.12g}")
+        return None if kelvin is None else float(f"{kelvin / target[1] - target[0]:.12g}")
     ratio = known_factor(written, unit)
     return None if ratio is None else float(f"{number * ratio:.12g}")
 
@@ -514,7 +514,7 @@ def si_unit(unit: str) -> str:
     if plain(unit) in _SCALES:
         return "K"
     names = {"rpm": ROTATION, "deg": "rad"}
-    return names.get(unit) or _WORD.sub(lambda found: _si_name(found[0]), unit)
+    return names.get(unit) or _WORD.sub(lambda match: _si_name(match[0]), unit)
 
 
 def _si_name(name: str) -> str:
@@ -530,8 +530,8 @@ def printed(unit: str) -> str:
     >>> printed("mm^2/s"), printed("V/um"), printed("degF"), printed("1/m**2"), printed("Pa*s")
     ('mm²/s', 'V/µm', '°F', '1/m²', 'Pa s')
     """
-    raised = _EXPONENT.sub(lambda found: found[1].translate(_RAISED), unit)
-    return _WORD.sub(lambda found: _sign(found[0]), raised.replace("*", " "))
+    raised = _EXPONENT.sub(lambda match: match[1].translate(_RAISED), unit)
+    return _WORD.sub(lambda match: _sign(match[0]), raised.replace("*", " "))
 
 
 def _sign(name: str) -> str:

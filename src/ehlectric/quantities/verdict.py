@@ -113,8 +113,8 @@ class Verdict:
 
     def sentences(self, without: tuple[str, ...] = ()) -> tuple[str, ...]:
         """Sentences of the reasons, without those of some codes."""
-        kept = (one for one in self.reasons if one.code not in without)
-        return tuple(capital(statement_text(one, self.where)) for one in kept)
+        kept = (statement for statement in self.reasons if statement.code not in without)
+        return tuple(capital(statement_text(statement, self.where)) for statement in kept)
 
     def rest(self, reasons: int | None = None) -> str:
         """Sentences after the first words; ``reasons``, number of reasons, or all of them."""
@@ -136,7 +136,7 @@ class Verdict:
         ['', 'but']
         """
         yield "", " ".join(filter(None, (self.heading, self.where)))
-        stated = [one for one in (self.answer, *self.reasons) if one is not None]
+        stated = [statement for statement in (self.answer, *self.reasons) if statement is not None]
         yield from lines_of(stated, self.where)
         if self.assumptions:
             yield "model", assumed_text(self.assumptions, self.bound, self.where, form="brief")
@@ -144,7 +144,7 @@ class Verdict:
     def as_data(self) -> dict[str, Any]:
         """Entries of ``summary.json``: text, level, and codes and values of all statements."""
         stated = (self.answer, *self.reasons, *self.assumptions)
-        reasons = [one.as_data() for one in stated if one is not None]
+        reasons = [statement.as_data() for statement in stated if statement is not None]
         return {"verdict": self.text, "verdict_level": self.level, "verdict_reasons": reasons}
 
     def __str__(self) -> str:

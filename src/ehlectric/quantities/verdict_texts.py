@@ -80,8 +80,8 @@ def _rendered(value: Any, at: str, form: str) -> Any:
     """Value of a statement, whose statements are text."""
     if isinstance(value, Statement):
         return statement_text(value, at, form)
-    if isinstance(value, tuple) and any(isinstance(one, Statement) for one in value):
-        return tuple(_rendered(one, at, form) for one in value)
+    if isinstance(value, tuple) and any(isinstance(statement, Statement) for statement in value):
+        return tuple(_rendered(statement, at, form) for statement in value)
     return value
 
 
@@ -123,7 +123,7 @@ def bound_words(bound: Bound) -> str:
 
 def assumed_text(assumptions: Iterable[Statement], bound: Bound, at: str, form: str = "text") -> str:
     """Clauses on what is assumed, behind the bound: a sentence, or the text of a line; empty without any."""
-    clauses = "; ".join(statement_text(one, at, form) for one in assumptions)
+    clauses = "; ".join(statement_text(statement, at, form) for statement in assumptions)
     if not clauses:
         return ""
     text = _texts()["bounds"][bound] + clauses
@@ -134,7 +134,7 @@ def lines_of(statements: Iterable[Statement], at: str) -> Iterator[tuple[str, st
     """Labels and texts of lines in the order of their labels: a line that the statements of a label share, or
     one for each.
     """
-    labelled = [pair for one in statements for pair in _labelled(one, at)]
+    labelled = [pair for statement in statements for pair in _labelled(statement, at)]
     for label, shared in _texts()["lines"].items():
         texts = [text for name, text in labelled if name == label and text]
         if shared and texts:

@@ -75,8 +75,8 @@ def unfit_error(name: str, values: Array, rule: str) -> UnfitError:
         return UnfitError(f"{name} is negative, {least:.3g}" if least < 0.0 else f"{name} is not finite")
     if rule == "0 to 1":
         furthest = known[np.argsort(np.abs(known - 0.5))][-1:]
-        found = f", but {furthest[0]:.3g}" if known.size == np.size(values) else ""
-        return UnfitError(f"{name} is not from 0 to 1{found}")
+        furthest_text = f", but {furthest[0]:.3g}" if known.size == np.size(values) else ""
+        return UnfitError(f"{name} is not from 0 to 1{furthest_text}")
     return UnfitError(f"{name} is not {rule}")
 
 
@@ -97,11 +97,11 @@ def check_format(attributes: Mapping[Any, Any], schema: str, path: Path, what: s
     ehlectric.errors.InputError: a.nc: is of a later version of ehlectric; expected version 2 or
     earlier of ehlectric.drive.result, not 3
     """
-    (own, version), (kind, stored) = format_of(schema), format_of(attributes.get("schema"))
-    if kind != own or not stored:
+    (expected, version), (kind, stored) = format_of(schema), format_of(attributes.get("schema"))
+    if kind != expected or not stored:
         raise InputError(path, f"is not {what} of ehlectric")
     if stored > version:
-        takes = f"version {version} or earlier of {own}, not {stored}"
+        takes = f"version {version} or earlier of {expected}, not {stored}"
         raise InputError(path, "is of a later version of ehlectric", takes=takes)
 
 
@@ -188,12 +188,12 @@ def number_of(attributes: Mapping[Any, Any], name: str, values: str = "not negat
     """Attribute that is a number, as a key of ``VALUES`` says; raises an UnfitError where it is none."""
     if name not in attributes:
         raise UnfitError(f"{name} is missing")
-    found = np.asarray(attributes[name])
-    if found.dtype.kind not in "fiub" or found.size != 1:
+    number = np.asarray(attributes[name])
+    if number.dtype.kind not in "fiub" or number.size != 1:
         raise UnfitError(f"{name} is not a number")
-    if not VALUES[values](found):
-        raise unfit_error(name, found, values)
-    return float(found.item())
+    if not VALUES[values](number):
+        raise unfit_error(name, number, values)
+    return float(number.item())
 
 
 def json_of(attributes: Mapping[Any, Any], name: str, right: Callable[[Any], bool]) -> Any:

@@ -137,17 +137,17 @@ def whole(path: Path) -> Iterator[Path]:
 
     Raises WriteError where the file cannot be written, as on a full disk.
     """
-    with _beside(path) as (beside, finish):
-        yield beside
+    with _new_file(path) as (new, finish):
+        yield new
         finish()
-        beside.replace(path.resolve())
+        new.replace(path.resolve())
 
 
 @contextmanager
-def _beside(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
+def _new_file(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
     """Context with a new file beside a path, and a function that brings its content to the disk."""
     # The name is known before the file is made: a signal in between must not leave the file behind.
-    beside = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
+    new = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
     number = -1
 
     def finish() -> None:
@@ -158,15 +158,15 @@ def _beside(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
             number = -1
 
     try:
-        with writing(path, beside):
+        with writing(path, new):
             # The kernel takes the umask off this mode: the umask can only be read by changing it.
-            number = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+            number = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
             take(number)
-            yield beside, finish
+            yield new, finish
     finally:
         if number >= 0:
             os.close(number)
-        beside.unlink(missing_ok=True)
+        new.unlink(missing_ok=True)
 
 
 def flush(number: int) -> None:
@@ -214,8 +214,8 @@ def write(path: Path, content: Content) -> None:
     """Write a file whole or not at all. Raises WriteError where the file cannot be written, as on a full
     disk.
     """
-    with whole(path) as beside:
-        _fill(beside, content)
+    with whole(path) as new:
+        _fill(new, content)
 
 
 def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iterable[str] = ()) -> list[Path]:
@@ -226,17 +226,17 @@ def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iter
     with ExitStack() as stack:
         hidden = []
         for path, content in zip(files, contents.values(), strict=True):
-            beside, finish = stack.enter_context(_beside(path))
-            with writing(path, beside):
-                _fill(beside, content)
+            new, finish = stack.enter_context(_new_file(path))
+            with writing(path, new):
+                _fill(new, content)
                 finish()
-            hidden.append(beside)
+            hidden.append(new)
         with held_back():
             # Without the earlier files first, a kill could leave files of both results.
             clear(folder, {*replaced, *contents})
-            for path, beside in zip(files, hidden, strict=True):
-                with writing(path, beside):
-                    beside.replace(path)
+            for path, new in zip(files, hidden, strict=True):
+                with writing(path, new):
+                    new.replace(path)
     return files
 
 
@@ -255,8 +255,8 @@ def clear_left_behind(folder: Path) -> None:
     removed.
     """
     with os.scandir(folder) as entries:
-        found = [entry.path for entry in entries if _LEFT.fullmatch(entry.name)]
-    for path in found:
+        hidden_files = [entry.path for entry in entries if _LEFT.fullmatch(entry.name)]
+    for path in hidden_files:
         with suppress(OSError):  # another command has removed it, or it belongs to another user
             number = os.open(path, os.O_RDONLY | _SAFELY)
             try:

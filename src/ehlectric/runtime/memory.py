@@ -127,12 +127,12 @@ def left_of_groups(process: Path = Path("/proc/self"), root: Path = Path("/")) -
 def _groups(process: Path) -> Iterator[tuple[int, PurePosixPath, PurePosixPath]]:
     """Versions, paths below the mount point, and mount points of the groups that limit memory."""
     try:
-        told = (process / "cgroup").read_text(encoding="utf-8", errors="replace").splitlines()
+        lines = (process / "cgroup").read_text(encoding="utf-8", errors="replace").splitlines()
         mounts = (process / "mountinfo").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
         return
     paths = {}
-    for line in told:
+    for line in lines:
         number, controllers, path = (*line.split(":", 2), "", "")[:3]
         if number == "0" and not controllers:
             paths[2] = path

@@ -64,39 +64,39 @@ class Part:
 
     def _placed(self, name: str, entry: Stored) -> Stored:
         entry = replace(entry, **self.changed.get(name, _EMPTY))
-        own = [axis for dim in entry.dims for axis in self.axes.get(dim, (dim,))]
-        dims = (*(() if entry.count else self.over), *own)
+        named_axes = [axis for dim in entry.dims for axis in self.axes.get(dim, (dim,))]
+        dims = (*(() if entry.count else self.over), *named_axes)
         return replace(entry, name=entry.name or self.prefix + name, dims=dims)
 
     @property
     def rules(self) -> dict[str, Rule]:
         """Rules for the variables by their names."""
-        found = {}
+        rules = {}
         for entry in self.fields.values():
             needed = entry.needed and not entry.count
-            found[entry.name] = Rule(entry.dims, entry.rule, entry.unit, needed=needed)
+            rules[entry.name] = Rule(entry.dims, entry.rule, entry.unit, needed=needed)
             if entry.count:
-                found[entry.count] = Rule(self.over, "whole", needed=entry.needed)
-        return found
+                rules[entry.count] = Rule(self.over, "whole", needed=entry.needed)
+        return rules
 
     def written(self, objects: Any) -> dict[str, Any]:
         """Variables of an object, or of nested lists of them, in the form that xarray expects.
 
         A field that is None has no variable, and neither have values without a length.
         """
-        found: dict[str, Any] = {}
+        variables: dict[str, Any] = {}
         for name, entry in self.fields.items():
             values = _mapped(objects, attrgetter(name))
             if values is None and not entry.unknown:
                 continue
             if entry.count:
-                found[entry.count] = (self.over, np.array(_mapped(values, len)))
+                variables[entry.count] = (self.over, np.array(_mapped(values, len)))
                 values = np.concatenate(list(_leaves(values)))
                 if not len(values):
                     continue
             kind = entry.dtype or ("f8" if entry.unknown else None)
-            found[entry.name] = (entry.dims, np.array(values, dtype=kind), entry.attributes)
-        return found
+            variables[entry.name] = (entry.dims, np.array(values, dtype=kind), entry.attributes)
+        return variables
 
     def check(self, thing: Any) -> None:
         """Check the values of one object by the rules of its variables; raises an UnfitError."""
@@ -107,13 +107,13 @@ class Part:
 
     def read(self, values: Mapping[str, Array], *at: int) -> dict[str, Any]:
         """Arguments of the class for the object at some place, without those that a file does not have."""
-        found: dict[str, Any] = {}
+        fields_read: dict[str, Any] = {}
         for name, entry in self.fields.items():
             if entry.count:
-                found[name] = _part(values, entry, at)
+                fields_read[name] = _part(values, entry, at)
             elif entry.name in values:
-                found[name] = _value(entry, values[entry.name][at])
-        return found
+                fields_read[name] = _value(entry, values[entry.name][at])
+        return fields_read
 
 
 def values_of(dataset: xr.Dataset) -> dict[str, Array]:
@@ -160,14 +160,14 @@ def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> d
 
     A number that may be null may also be missing.
     """
-    found: dict[str, Any] = json_of(attributes, name, _is_object_of(kind))
-    return found
+    numbers: dict[str, Any] = json_of(attributes, name, _is_object_of(kind))
+    return numbers
 
 
 def read_many_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> list[dict[str, Any]]:
     """Numbers of objects of a class in an attribute of a file, a list; raises an UnfitError."""
-    found: list[dict[str, Any]] = json_of(attributes, name, partial(is_list, right=_is_object_of(kind)))
-    return found
+    rows: list[dict[str, Any]] = json_of(attributes, name, partial(is_list, right=_is_object_of(kind)))
+    return rows
 
 
 def _is_object_of(kind: type[Any]) -> Callable[[Any], bool]:

@@ -53,10 +53,10 @@ def collected() -> Iterator[list[Undrawn]]:
 
     Yields the list of figures that failed, which grows within the context.
     """
-    found: list[Undrawn] = []
-    token = _collected.set(found)
+    failures: list[Undrawn] = []
+    token = _collected.set(failures)
     try:
-        yield found
+        yield failures
     finally:
         _collected.reset(token)
 
@@ -67,8 +67,8 @@ def kept_going(name: str = "figures") -> Iterator[list[Undrawn]]:
 
     The error is in the list under ``name``.
     """
-    with collected() as found, drawing(name):
-        yield found
+    with collected() as failures, drawing(name):
+        yield failures
 
 
 @contextmanager
@@ -80,17 +80,17 @@ def drawing(name: str) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        found = _collected.get()
-        if found is None:
+        failures = _collected.get()
+        if failures is None:
             raise
         logging.getLogger("ehlectric").debug("%s could not be drawn", name, exc_info=error)
-        found.append(Undrawn(name, error))
+        failures.append(Undrawn(name, error))
 
 
 def lines_of(undrawn: Sequence[Undrawn]) -> Iterator[str]:
     """Lines about figures that could not be drawn; one line for all that do not fit on a full disk."""
-    unwritten = [one for one in undrawn if isinstance(one.error, WriteError)]
-    yield from dict.fromkeys(one.line for one in undrawn if one not in unwritten)
+    unwritten = [failure for failure in undrawn if isinstance(failure.error, WriteError)]
+    yield from dict.fromkeys(failure.line for failure in undrawn if failure not in unwritten)
     if unwritten:
         others = f"; {len(unwritten) - 1} other files do not fit either" if len(unwritten) > 1 else ""
         yield f"{unwritten[0].line}{others}"

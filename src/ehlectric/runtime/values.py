@@ -88,20 +88,20 @@ def read_only(value: T) -> T:
     left: list[Any] = [value]
     seen: set[int] = set()
     while left:
-        one = left.pop()
-        if id(one) in seen:
+        item = left.pop()
+        if id(item) in seen:
             continue
-        seen.add(id(one))
-        if isinstance(one, np.ndarray):
-            one.flags.writeable = False
-        elif hasattr(one, "identical"):
-            left += [variable.values for variable in one.variables.values()]
-        elif isinstance(one, Mapping):
-            left += one.values()
-        elif isinstance(one, list | tuple):
-            left += one
-        elif is_dataclass(one):
-            left += getattr(one, "__dict__", {}).values()
+        seen.add(id(item))
+        if isinstance(item, np.ndarray):
+            item.flags.writeable = False
+        elif hasattr(item, "identical"):
+            left += [variable.values for variable in item.variables.values()]
+        elif isinstance(item, Mapping):
+            left += item.values()
+        elif isinstance(item, list | tuple):
+            left += item
+        elif is_dataclass(item):
+            left += getattr(item, "__dict__", {}).values()
     return value
 
 
@@ -115,8 +115,8 @@ class read_only_property(cached_property[R]):  # noqa: N801  # as cached_propert
     def __get__(self, result: object, owner: type[Any] | None = None) -> R: ...
 
     def __get__(self, result: object, owner: type[Any] | None = None) -> R | Self:
-        found = super().__get__(result, owner)
-        return found if result is None else read_only(found)
+        value = super().__get__(result, owner)
+        return value if result is None else read_only(value)
 
 
 def shortened(text: str) -> str:
@@ -137,7 +137,7 @@ def _entries(values: Any) -> Iterator[str]:
         yield f"{field.name}={text}"
 
 
-def same(one: Any, other: Any) -> bool:
+def same(value: Any, other: Any) -> bool:
     """Whether two values are equal: arrays to the last bit, NaN equal to NaN, dataclasses field by field.
 
     Examples
@@ -145,30 +145,30 @@ def same(one: Any, other: Any) -> bool:
     >>> same([1.0, float("nan")], [1.0, float("nan")]), same(np.zeros(2), np.zeros(3))
     (True, False)
     """
-    if one is other:
+    if value is other:
         return True
-    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-        return _same_arrays(np.asarray(one), np.asarray(other))
-    if isinstance(one, float) and isinstance(other, float):
-        return one == other or (one != one and other != other)
-    if type(one) is not type(other):
-        return bool(one == other)
-    if isinstance(one, Mapping) and not hasattr(one, "identical"):
-        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
-    if isinstance(one, list | tuple):
-        return len(one) == len(other) and all(map(same, one, other))
-    if is_dataclass(one):
-        compared = (field.name for field in fields(one) if field.compare)
-        return all(same(getattr(one, name), getattr(other, name)) for name in compared)
+    if isinstance(value, np.ndarray) or isinstance(other, np.ndarray):
+        return _same_arrays(np.asarray(value), np.asarray(other))
+    if isinstance(value, float) and isinstance(other, float):
+        return value == other or (value != value and other != other)
+    if type(value) is not type(other):
+        return bool(value == other)
+    if isinstance(value, Mapping) and not hasattr(value, "identical"):
+        return value.keys() == other.keys() and all(same(value[key], other[key]) for key in value)
+    if isinstance(value, list | tuple):
+        return len(value) == len(other) and all(map(same, value, other))
+    if is_dataclass(value):
+        compared = (field.name for field in fields(value) if field.compare)
+        return all(same(getattr(value, name), getattr(other, name)) for name in compared)
     # Datasets of xarray compare name, attributes and values, NaN equal, by this method.
-    return bool(one.identical(other) if hasattr(one, "identical") else one == other)
+    return bool(value.identical(other) if hasattr(value, "identical") else value == other)
 
 
-def _same_arrays(one: np.ndarray[Any, Any], other: np.ndarray[Any, Any]) -> bool:
+def _same_arrays(value: np.ndarray[Any, Any], other: np.ndarray[Any, Any]) -> bool:
     """Whether two arrays have the same type, shape and values."""
-    if one.dtype != other.dtype or one.shape != other.shape:
+    if value.dtype != other.dtype or value.shape != other.shape:
         return False
-    return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
+    return np.array_equal(value, other, equal_nan=value.dtype.kind in "fc")
 
 
 def is_number(value: object) -> TypeGuard[int | float]:
@@ -230,8 +230,8 @@ def headline(title: str, *parts: str | None, verdict: object = None) -> str:
     "'6208': minimum film 0.4 µm"
     """
     level = getattr(verdict, "level", None)
-    told = ", ".join(filter(None, [*parts, f"verdict {level}" if level else None]))
-    return ": ".join(filter(None, [repr(textwrap.shorten(title, 60)) if title else "", told]))
+    numbers = ", ".join(filter(None, [*parts, f"verdict {level}" if level else None]))
+    return ": ".join(filter(None, [repr(textwrap.shorten(title, 60)) if title else "", numbers]))
 
 
 class Tabled:

@@ -60,16 +60,16 @@ def summit_statistics(surface: Profile | Map) -> list[dict[str, Any]]:
 def _at_interval(surface: Profile | Map, interval: float) -> dict[str, Any]:
     moments = surface_moments(surface, interval)
     flat = moments.m2 == 0.0
-    found: dict[str, Any] = {"interval": interval, "m0": moments.m0, "m2": moments.m2, "m4": moments.m4}
-    found["bandwidth"] = None if flat else moments.bandwidth
+    statistics: dict[str, Any] = {"interval": interval, "m0": moments.m0, "m2": moments.m2, "m4": moments.m4}
+    statistics["bandwidth"] = None if flat else moments.bandwidth
     summits = None if flat or moments.bandwidth < LEAST_BANDWIDTH else moments.summits()
-    found["summit_density"] = summits and summits.density
-    found["summit_radius"] = summits and summits.radius
-    found["summit_deviation"] = summits and summits.height_deviation
+    statistics["summit_density"] = summits and summits.density
+    statistics["summit_radius"] = summits and summits.radius
+    statistics["summit_deviation"] = summits and summits.height_deviation
     if isinstance(surface, Map):
         both = map_moments(surface.heights, surface.spacing_x, surface.spacing_y, interval)
-        found["slope_ratio"] = both.slope_ratio if both.along_y.m2 > 0.0 else None
-    return found
+        statistics["slope_ratio"] = both.slope_ratio if both.along_y.m2 > 0.0 else None
+    return statistics
 
 
 # Minimum number of grid spacings in a correlation length, and in a wavelength or the width of a feature.
@@ -252,11 +252,11 @@ def map_variance_beyond(
     power = np.abs(np.fft.rfft2(z * np.outer(*(np.hanning(n) for n in z.shape)))) ** 2
     # rfft2 leaves out negative frequencies along y: waves with a component along y count twice.
     power[:, 1 : (z.shape[1] + 1) // 2] *= 2.0
-    own_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
-    own_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)
+    f_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
+    f_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)
     turn = np.deg2rad(orientation)
-    waves_x = own_x * np.cos(turn) - own_y * np.sin(turn)
-    waves_y = own_x * np.sin(turn) + own_y * np.cos(turn)
+    waves_x = f_x * np.cos(turn) - f_y * np.sin(turn)
+    waves_y = f_x * np.sin(turn) + f_y * np.cos(turn)
     beyond = (np.abs(waves_x) > frequency_x) | (np.abs(waves_y) > frequency_y)
     total = float(np.sum(power))
     return float(np.sum(power[beyond])) / total if total > 0.0 else 0.0

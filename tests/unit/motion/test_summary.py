@@ -14,7 +14,7 @@ from ehlectric.figures.result_figures import save_figures
 from ehlectric.motion import moving_contact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion, time_above
-from ehlectric.motion.summary import SCHEMA, counted, instant_beside, local_maxima, summary_of
+from ehlectric.motion.summary import SCHEMA, coincident_instant, counted, local_maxima, summary_of
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
@@ -378,9 +378,9 @@ def test_what_was_kept_near_the_time_at_which_all_lies_alike():
     step = schedule_of(CASE).step
     for away, number in ((0.0, 1), (0.5, 1), (-0.5, 1), (0.7, None), (-0.7, None)):
         dataset = made(CASE, times=[0.0, 6.0 + away * step, 12.0], x=X, stationary=HELD)
-        assert instant_beside(MotionRun.of(dataset)) == number
+        assert coincident_instant(MotionRun.of(dataset)) == number
     # Not held still, or never alike.
-    assert instant_beside(MotionRun.of(made(CASE, times=[0.0, 6.0, 12.0]))) is None
+    assert coincident_instant(MotionRun.of(made(CASE, times=[0.0, 6.0, 12.0]))) is None
     sliding = moving(
         LINE,
         {"contact.slide_to_roll_ratio": 1.0},
@@ -388,7 +388,7 @@ def test_what_was_kept_near_the_time_at_which_all_lies_alike():
         motion={"passes": 2.0},
     )
     dataset = made(sliding, times=[0.0, 6.0, 12.0], x=X, stationary=HELD)
-    assert instant_beside(MotionRun.of(dataset)) is None
+    assert coincident_instant(MotionRun.of(dataset)) is None
     assert summary_of(dataset)["beside_stationary"] is None
 
 
