@@ -107,7 +107,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
     The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain,
     after three grids in succession whose error is unknown because a film did not converge, or before the
-    first grid on which no film is found that conserves its oil.
+    first grid on which no film is refined that conserves its oil.
     """
     refined = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1
@@ -122,7 +122,8 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
         if refined.last.touches and problem.added_gap is not None:
             break
-        finer = finer_solution(refined, progress)
+        posed, patch = finer_problem(refined)
+        finer = RefinedSolution(posed, nested_iteration(posed, progress, refined.solutions), patch)
         # A finer film that makes oil is worse than one that conserves it on fewer nodes.
         if finer.makes_oil and not refined.makes_oil:
             break
@@ -130,16 +131,14 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     return refined
 
 
-def finer_solution(refined: RefinedSolution, progress: Progress | None) -> RefinedSolution:
-    """Solution with half of the spacings, on a patch where there is one."""
+def finer_problem(refined: RefinedSolution) -> tuple[FilmProblem, Patch | None]:
+    """Problem with half of the spacings of a solution, on a patch where there is one."""
     patch = refined.patch
     if patch is None and refined.error is not None:
         patch = Patch.around(refined.problem, refined.last)
     if patch is None:
-        finer = refined.problem.doubled()
-    else:
-        finer = patch.refined(2 * patch.times(refined.last.level.mesh))
-    return RefinedSolution(finer, nested_iteration(finer, progress, refined.solutions), patch)
+        return refined.problem.doubled(), None
+    return patch.refined(2 * patch.times(refined.last.level.mesh)), patch
 
 
 def _alike(solution: GridSolution, other: GridSolution) -> bool:

@@ -23,7 +23,7 @@ from ehlectric.film.film_solver import (
     RefinedSolution,
     StarvedSolution,
     film_method,
-    finer_solution,
+    finer_problem,
     starved_on_grids,
 )
 from ehlectric.film.heated_film import (
@@ -37,6 +37,7 @@ from ehlectric.film.heated_film import (
     start_of,
 )
 from ehlectric.film.hot_oil import HeatedFilm, Physics
+from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution, Guess, Progress, Status
 from ehlectric.film.oil_content import Supply
 from ehlectric.film.patch import part_of_domain
@@ -223,7 +224,8 @@ def _refined_together(
         if times > simple.patch.times(simple.last.level.mesh) and not small:
             if times * (problem.nodes - 1) + 1 > _most_nodes(problem):
                 break
-            finer = finer_solution(simple, progress)
+            posed, on = finer_problem(simple)
+            finer = RefinedSolution(posed, nested_iteration(posed, progress, simple.solutions), on)
             if finer.last.status == "converged":
                 simple = finer
     return _until(simple, refined.last), refined

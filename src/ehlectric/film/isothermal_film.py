@@ -15,8 +15,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.far_field import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
-from ehlectric.film.heated_solution import heated_result, solve_heated_film
-from ehlectric.film.mesh import Mesh
+from ehlectric.film.heated_solution import HeatedSolution, heated_result, solve_heated_film
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
 from ehlectric.quantities.field_metadata import number, stored
@@ -107,7 +106,10 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     >>> solve_film(FilmProblem(fluid, 401, -4.0, 2.0, thickness_guess=0.1)).status
     'converged'
     """
-    return _solved(problem, progress, _film, lambda _: _on_line)
+    with quiet_solution():
+        if problem.physics is None:
+            return _film(film_method(problem)(problem, progress))
+        return _with_heat(solve_heated_film(problem, progress), _film, _on_line)
 
 
 def _film(refined: RefinedSolution) -> Film:
@@ -269,7 +271,12 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     'converged'
     """
     assert problem.width is not None
-    return _solved(problem, progress, partial(_point_film, problem), lambda mesh: mesh.mirrored)
+    film_of = partial(_point_film, problem)
+    with quiet_solution():
+        if problem.physics is None:
+            return film_of(film_method(problem)(problem, progress))
+        outcome = solve_heated_film(problem, progress)
+        return _with_heat(outcome, film_of, outcome.refined.last.level.mesh.mirrored)
 
 
 def _point_film(problem: FilmProblem, refined: RefinedSolution) -> PointFilm:
@@ -296,28 +303,21 @@ def semi_axis_across(problem: FilmProblem) -> float:
 _Solved = TypeVar("_Solved", Film, PointFilm)
 
 
-def _solved(
-    problem: FilmProblem,
-    progress: Progress | None,
-    film_of: Callable[[RefinedSolution], _Solved],
-    shape_on: Callable[[Mesh], Shaped],
+def _with_heat(
+    outcome: HeatedSolution, film_of: Callable[[RefinedSolution], _Solved], shaped: Shaped
 ) -> _Solved:
-    """Film of a problem, with its heat and shear where the problem has their physics.
+    """Film in SI units with its heat and shear.
 
-    ``film_of`` makes a film in SI units from solutions on all grids, and ``shape_on`` gives the function that
-    brings nodal values on a mesh into the shape of the film.
+    ``film_of`` makes a film in SI units from solutions on all grids, and ``shaped`` brings nodal values on
+    the last mesh into the shape of the film.
     """
-    with quiet_solution():
-        if problem.physics is None:
-            return film_of(film_method(problem)(problem, progress))
-        outcome = solve_heated_film(problem, progress)
-        simple, film = film_of(outcome.simple), film_of(outcome.refined)
-        status = outcome.status if film.converged else film.status
-        heated = heated_result(
-            outcome,
-            shape_on(outcome.refined.last.level.mesh),
-            status=status,
-            minimum_thickness=simple.minimum_thickness if simple.converged else None,
-            central_thickness=simple.central_thickness if simple.converged else None,
-        )
-        return replace(film, heated=heated, status=status)
+    simple, film = film_of(outcome.simple), film_of(outcome.refined)
+    status = outcome.status if film.converged else film.status
+    heated = heated_result(
+        outcome,
+        shaped,
+        status=status,
+        minimum_thickness=simple.minimum_thickness if simple.converged else None,
+        central_thickness=simple.central_thickness if simple.converged else None,
+    )
+    return replace(film, heated=heated, status=status)

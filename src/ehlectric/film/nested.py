@@ -7,7 +7,7 @@ not converge, or if the film is thinner somewhere than the boundary film, the su
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 
@@ -87,31 +87,39 @@ def _full_film(
     # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
     rough = problem.added_gap is not None and problem.boundary_film > 0.0
     grids: list[GridSolution] = []
-    apart = coarse is not None and not coarse.touches
-    if coarse is not None and apart and coarse.fraction is not None:
-        filled = filled_on(levels[0].mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
-        start = open_state(levels[0], coarse), filled
-        grids.append(_conserving(problem, levels, start, progress))
-        if grids[-1].status == "converged":
-            if forms_again(grids[-1].final.full_film):
-                return grids
-            # A second converged solution on this grid would be taken for one of other surfaces.
-            grids = []
     best = None
-    if coarse is not None and apart:
-        best = _from_coarser(problem, levels, coarse, progress)
+    if coarse is not None and not coarse.touches:
+        state = open_state(levels[0], coarse)
+        if coarse.fraction is not None:
+            filled = filled_on(levels[0].mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
+            conserved = _conserving(problem, levels, (state, filled), progress)
+            if conserved.status == "converged" and forms_again(conserved.final.full_film):
+                return [conserved]
+            # A second converged solution on this grid would be taken for one of other surfaces.
+            grids = [] if conserved.status == "converged" else [conserved]
+        best = _newton_on(problem, levels, progress, spike=True)(state)
     # A solution that nearly converged does not start again.
     if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
-        *warm_up, restarted = _from_hertz(problem, levels, progress, rough=rough)
-        grids.extend(warm_up)
-        if rough and restarted.status == "diverged" and not warm_up:
-            return [*grids, restarted]
-        attempts = [restarted] if best is None else [restarted, best]
+        state = _hertz_state(problem, levels[0])
+        for solve in _restarts(problem, levels, progress):
+            grids.append(solve(state))
+            if rough and grids[-1].status == "diverged" and len(grids) == 1:
+                # The surfaces touch.
+                return grids
+            state = grids[-1].state if grids[-1].status == "converged" else state
+        attempts = [grids.pop()] if best is None else [grids.pop(), best]
         *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
         grids.extend(others)
-    if best is None:
-        return grids
-    grids.append(best)
+    return grids if best is None else _conserved(problem, levels, [*grids, best], progress)
+
+
+def _conserved(
+    problem: FilmProblem, levels: list[Level], grids: list[GridSolution], progress: Progress | None
+) -> list[GridSolution]:
+    """Solutions on one grid, the best one last, with a solution that conserves the mass of the oil in
+    cavities if the last film forms again behind a cavity, or if a rough one did not converge.
+    """
+    best = grids[-1]
     missed = best.status != "converged" and problem.added_gap is not None
     if missed or (best.status == "converged" and forms_again(best.final.full_film)):
         start = best.state, best.final.full_film
@@ -318,16 +326,6 @@ def _newton_on(
     )
 
 
-def _from_coarser(
-    problem: FilmProblem, levels: list[Level], coarse: GridSolution, progress: Progress | None
-) -> GridSolution:
-    """Solve the film equations with the solution on the next coarser grid as initial guess.
-
-    The coarse solution is interpolated by a monotone cubic, which is smooth and does not overshoot.
-    """
-    return _newton_on(problem, levels, progress, spike=True)(open_state(levels[0], coarse))
-
-
 def interpolated_state(level: Level, coarse: GridSolution) -> State:
     """State on a grid with the pressure of a solution on a coarser grid, interpolated by a monotone cubic."""
     pressure = _finer(level, coarse.level.mesh, coarse.state.pressure)
@@ -391,31 +389,30 @@ def halved(values: Array) -> Array:
     return fine
 
 
-def _from_hertz(
-    problem: FilmProblem, levels: list[Level], progress: Progress | None, *, rough: bool
-) -> Iterator[GridSolution]:
-    """Solutions with the Hertz pressure as initial guess.
-
-    The first solution has the wedge term of first order, which is monotone and converges from a worse initial
-    guess. It is the initial guess of the second solution, which has the wedge term of the problem. Where the
-    first one of ``rough`` surfaces that may touch diverges they do touch, and it is the only one.
-    """
-    level = levels[0]
+def _hertz_state(problem: FilmProblem, level: Level) -> State:
+    """State on a grid with the Hertz pressure, and a gap as thick as the guess of the problem."""
     hertz = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)
     state = State.of(level, np.maximum(hertz, problem.fluid.ambient_pressure), 0.0)
     centre = at_centre(level.mesh, state.thickness)
     state = State.of(level, state.pressure, problem.thickness_guess - centre)
-    state = state.lifted(0.5 * problem.thickness_guess)
-    if problem.wedge_order > 1:
-        monotone = [
-            replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, order=1)) for level in levels
-        ]
-        loosely = problem
-        if problem.width is None:
-            loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
-        start = _newton_on(loosely, monotone, progress, spike=False)(state)
-        yield start
-        if rough and start.status == "diverged":
-            return
-        state = start.state if start.status == "converged" else state
-    yield _newton_on(problem, levels, progress, spike=False)(state)
+    return state.lifted(0.5 * problem.thickness_guess)
+
+
+def _restarts(
+    problem: FilmProblem, levels: list[Level], progress: Progress | None
+) -> list[Callable[[State], GridSolution]]:
+    """Newton's method for a restart from the Hertz pressure, in the order of the solutions.
+
+    The first solution has the wedge term of first order, which is monotone and converges from a worse initial
+    guess. It is the initial guess of the second solution, which has the wedge term of the problem.
+    """
+    last = _newton_on(problem, levels, progress, spike=False)
+    if problem.wedge_order == 1:
+        return [last]
+    monotone = [
+        replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, order=1)) for level in levels
+    ]
+    loosely = problem
+    if problem.width is None:
+        loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
+    return [_newton_on(loosely, monotone, progress, spike=False), last]
