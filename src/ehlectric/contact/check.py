@@ -20,7 +20,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.contact_kinds import KINDS, AnyKind
 from ehlectric.contact.contact_memory import check_grid, check_memory
-from ehlectric.contact.contact_refinement import Reach, reach_of
+from ehlectric.contact.contact_refinement import Reach, Refinement, reach_of
 from ehlectric.contact.film_domain import LARGER
 from ehlectric.contact.problems import Setup, check_tolerance, domain_of, heights_of, spacings_of
 from ehlectric.contact.summary import breakdown_by_formula
@@ -50,17 +50,13 @@ class PreparedContact:
     conditions: Conditions | PointConditions  # operating conditions, SI units
     domain: Domain  # domain in which the film is solved [m]
     # Rough surfaces, one for each table ``roughness`` of the case.
-    rough: Sequence[RoughSurface] | Sequence[RoughMap]
+    rough: Sequence[RoughSurface] | Sequence[RoughMap] = ()
+    physics: Physics | None = None  # heat and shear of the film; None of an isothermal Newtonian film
 
     @property
     def kind(self) -> AnyKind:
         """Functions of the kind of this contact, line or point."""
         return KINDS[self.conditions.geometry]
-
-    @cached_property
-    def physics(self) -> Physics | None:
-        """Heat and shear of the film; None of an isothermal Newtonian film."""
-        return physics_of(self.case, self.conditions)
 
     def film_problem(self, setup: Setup, *, rough: bool = True) -> FilmProblem:
         """Film problem of the contact on the grid of a setup, with its roughness or with smooth surfaces."""
@@ -69,12 +65,16 @@ class PreparedContact:
         return problem if self.physics is None else replace(problem, physics=self.physics)
 
     @cached_property
+    def refinement(self) -> Refinement:
+        """Film problem with its surfaces, and the grids of its refinement."""
+        return Refinement.of(Setup.of(self.case), self.conditions.geometry, self.film_problem)
+
+    @cached_property
     def reach(self) -> Reach | None:
         """Expected errors and times of the grids of a refinement; None of a grid that is not refined."""
-        setup = Setup.of(self.case)
-        if setup.grid.target is None:
+        if self.case.grid.target is None:
             return None
-        return reach_of(setup, self.conditions.geometry, self.film_problem(setup))
+        return reach_of(self.refinement, self.conditions.geometry)
 
     def composite_roughness(self) -> float | None:
         """Rq of the sum of both surfaces in the Hertz zone, undeformed [m]; None for smooth surfaces."""
@@ -110,10 +110,9 @@ def check_case(case: Case) -> PreparedContact:
     check_tolerance(case.solver)
     check_memory(case)
     domain = domain_of(case, conditions)
-    # Its film is refused here where it cannot be heated.
-    physics_of(case, conditions)
+    physics = physics_of(case, conditions)
     _check_margin(case, conditions)
-    return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))
+    return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain), physics)
 
 
 def _check_margin(case: Case, conditions: Conditions | PointConditions) -> None:
@@ -194,7 +193,7 @@ def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact
     case = replace(case, grid=grid) if isinstance(case, Setup) else case.model_copy(update={"grid": grid})
     if isinstance(conditions, PointConditions):
         conditions = replace(conditions, side=side)
-    return PreparedContact(case, conditions, domain_of(case, conditions), ())
+    return replace(contact, case=case, conditions=conditions, domain=domain_of(case, conditions))
 
 
 def _larger(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from ehlectric.film.film_solver import UNKNOWN
 from ehlectric.film.heated_solution import is_too_fine
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.problem import FilmProblem, OnGrid
+from ehlectric.film.problem import FilmProblem
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.readable import readable
 
@@ -36,47 +36,53 @@ class Refined:
     # first and setup: setup with the first grid and with the last one, which have no target.
     first: Setup
     setup: Setup
-    seconds: float  # time taken to solve the films on all grids [s]
     warnings: tuple[ResultWarning, ...]  # a warning if the target error was not reached
 
 
-def refined(
-    setup: Setup,
-    geometry: str,
-    problem_of: Callable[[Setup], FilmProblem],
-    solved: Callable[[FilmProblem], Film | PointFilm],
-    on_grid: OnGrid | None = None,
-) -> Refined:
-    """Solve a film, and refine its grid until the discretisation error is below ``grid.target``.
+@dataclass(frozen=True)
+class Refinement:
+    """Film problem of a contact, and the grids from the first one up to the last one that is allowed."""
 
-    The film is solved on one grid only if the grid has no target.
+    setup: Setup
+    first: Setup  # setup with the first grid, which has no target
+    problem: FilmProblem
+    grids: Sequence[Grid]
+    refusal: str  # reason why there is no finer grid
 
-    ``problem_of``, function that makes the film problem: setup -> problem; ``solved``, function that solves
-    the film and refines its grid: problem -> film; ``on_grid``, function that is called after each grid:
-    grid, discretisation error or None -> None. Returns film of the last grid, with a warning if the target
-    error was not reached; the intervals of a line contact's grid are doubled at most eight times, those of a
-    point contact's five times; with rough surfaces three times and twice.
-    """
-    started, target = time.perf_counter(), setup.grid.target
-    first = replace(setup, grid=_fixed(setup.first_grid))
-    problem = problem_of(first)
-    if target is None:
-        return Refined(solved(problem), first, first, time.perf_counter() - started, ())
-    grids, refusal = finer_grids(setup, geometry, problem)
-    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along, on_grid=on_grid))
-    closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
-    grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
-    warnings: tuple[ResultWarning, ...] = ()
-    if film.discretisation_error is None or film.discretisation_error > target:
-        missed = ResultWarning.of(
-            "refine-not-reached",
-            key=_target_key(setup),
-            percent=100 * target,
-            nodes=grid.nodes_along,
-            reason=refusal if grid is grids[-1] else _reason(film),
-        )
-        warnings = (missed,)
-    return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
+    @classmethod
+    def of(cls, setup: Setup, geometry: str, problem_of: Callable[[Setup], FilmProblem]) -> Refinement:
+        """Make the refinement of a setup. A grid without a target has only one grid.
+
+        ``problem_of``, function that makes the film problem: setup -> problem.
+        """
+        target, first = setup.grid.target, replace(setup, grid=_fixed(setup.first_grid))
+        problem = problem_of(first)
+        if target is None:
+            return cls(setup, first, problem, (first.grid,), "")
+        grids, refusal = finer_grids(setup, geometry, problem)
+        problem = replace(problem, target_error=target, most_nodes=grids[-1].nodes_along)
+        return cls(setup, first, problem, grids, refusal)
+
+    def refined(self, film: Film | PointFilm) -> Refined:
+        """Film of the last grid, with the setup of this grid, and a warning if the target error was not
+        reached.
+        """
+        target = self.setup.grid.target
+        if target is None:
+            return Refined(film, self.first, self.first, ())
+        closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
+        grid = min(self.grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
+        warnings: tuple[ResultWarning, ...] = ()
+        if film.discretisation_error is None or film.discretisation_error > target:
+            missed = ResultWarning.of(
+                "refine-not-reached",
+                key=_target_key(self.setup),
+                percent=100 * target,
+                nodes=grid.nodes_along,
+                reason=self.refusal if grid is self.grids[-1] else _reason(film),
+            )
+            warnings = (missed,)
+        return Refined(film, self.first, replace(self.first, grid=grid), warnings)
 
 
 def _reason(film: Film | PointFilm) -> str:
@@ -215,16 +221,17 @@ class Reach:
         )
 
 
-def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
-    """Expected errors and times of the grids of a refinement."""
-    assert setup.grid.target is not None
-    grids, _ = finer_grids(setup, geometry, problem)
+def reach_of(refinement: Refinement, geometry: str) -> Reach | None:
+    """Expected errors and times of the grids of a refinement; None of a grid that is not refined."""
+    setup, problem = refinement.setup, refinement.problem
+    if setup.grid.target is None:
+        return None
     return Reach(
         _target_key(setup),
         setup.grid.target,
         tuple(
             ExpectedGrid(grid.nodes_along, expected_nodes(problem, 2**k), expected_error(problem, 2**k))
-            for k, grid in enumerate(grids)
+            for k, grid in enumerate(refinement.grids)
         ),
         _SECONDS_A_NODE[geometry],
     )

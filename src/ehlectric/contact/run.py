@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
@@ -11,12 +10,12 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.result import RESULTS, PointResult, Result, film_columns
-from ehlectric.contact.solver import OWN, Solvers, solve_prepared
+from ehlectric.contact.solver import OWN, Solvers, solve
 from ehlectric.contact.stored import SCHEMA, layout_of, parts_of, stored_case
 from ehlectric.errors import InputError
 from ehlectric.runtime.file_rules import check_format, refusing
@@ -88,7 +87,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
 
 
 def run(
-    case: Case,
+    case: Case | PreparedContact,
     folder: str | Path,
     progress: Progress = silent,
     *,
@@ -98,9 +97,9 @@ def run(
 ) -> RunOutcome[Result | PointResult]:
     """Solve a contact, and write summary.json, result.nc and film.csv.
 
-    The folder is made if it does not exist. A film that did not converge is written too, and is the
-    ``failure`` of the outcome. Raises an InputError where the case or the folder cannot be used, or another
-    command writes into the folder.
+    The case may be prepared already. The folder is made if it does not exist. A film that did not converge
+    is written too, and is the ``failure`` of the outcome. Raises an InputError where the case or the folder
+    cannot be used, or another command writes into the folder.
 
     Examples
     --------
@@ -114,12 +113,12 @@ def run(
     (True, ['summary.json', 'result.nc', 'film.csv'])
     """
     load_library()
-    prepared = check_case(case)
+    contact = case if isinstance(case, PreparedContact) else check_case(case)
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
-        told = FilmProgress(prepared.reach)
-        result = solve_prepared(
-            replace(prepared, case=solvers.accept(case)),
+        told = FilmProgress(contact.reach)
+        result = solve(
+            contact,
             progress=lambda nodes, step, residual: progress(0, 0, told.text(nodes, step, residual)),
             solvers=solvers,
             on_grid=told.on_grid,

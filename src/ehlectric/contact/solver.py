@@ -22,7 +22,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import heat_warnings
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
-from ehlectric.contact.contact_refinement import Refined, refined
+from ehlectric.contact.contact_refinement import Refined, Refinement
 from ehlectric.contact.contact_solution import Smooth
 from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
@@ -72,16 +72,16 @@ OWN = Solvers(
 
 
 def solve(
-    case: Case,
+    contact: Case | PreparedContact,
     *,
     progress: Progress | None = None,
     require_convergence: bool = False,
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
-    prepared: PreparedContact | None = None,
     on_grid: OnGrid | None = None,
 ) -> Result | PointResult:
-    """Solve the film and the electric field of a case.
+    """Solve the film and then the electric field of a case or of a prepared contact, and collect the
+    warnings.
 
     ``require_convergence``, whether to raise a ConvergenceError if the film does not converge, instead of
     returning its status; ``on_grid``, called with the grid and its discretisation error, or None, after each
@@ -98,21 +98,74 @@ def solve(
     >>> round(solve(case).film.minimum_thickness * 1e6, 2)
     0.75
     """
-    case = solvers.accept(case)
+    contact = _accepted(contact, solvers)
+    case, conditions, rough = contact.case, contact.conditions, contact.rough
+    kind, geometry = contact.kind, conditions.geometry
+    contact, films, film_seconds = _on_large_domain(contact, solvers, progress, on_grid)
+    film = films.film
+    if makes_oil(case, conditions, film):
+        film = replace(film, status="stalled")
+    LOGGER.info(
+        "%s contact: film %s on %s nodes in %.2g s, residual %.1e",
+        geometry,
+        film.status,
+        " x ".join(str(axis.size) for axis in film.axes),
+        film_seconds,
+        film.residual,
+    )
+    if require_convergence and not film.converged:
+        raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
+    roughness = heights_of(rough, *film.axes)
+    # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
+    field_solvers = solvers if film.converged else OWN
+    started = time.perf_counter()
+    field = field_solvers.field[geometry](kind.field_problem(contact.case, conditions, film, roughness))
+    smooth = _smooth(contact, films, field.axes, solvers) if rough and beside_smooth else None
+    coarser = _coarser(contact, films, solvers) if film.converged and np.any(film.contact) else None
+    return RESULTS[geometry](
+        case=case,
+        conditions=conditions,  # type: ignore[arg-type]  # their type follows from the geometry
+        film=film,
+        roughness=roughness,
+        rough=tuple(surface.describe() for surface in rough),
+        smooth=smooth,
+        coarser=coarser,
+        field=field,
+        warnings=(
+            *case_warnings(case, conditions),
+            *contact.surface_warnings(films.setup),
+            *films.warnings,
+            *film_warnings(contact.case, film),
+            *starvation_warnings(films.setup, film),
+            *heat_warnings(contact.case, contact.conditions, film, contact.physics),
+            *spot_warnings(case, conditions, film, coarser),
+            *kind.result_warnings(contact.case, film, field),
+            *meter_warnings(case, film),
+            *_field_warnings(contact, films, field, estimated=field_solvers.name == OWN.name),
+        ),
+        film_solver=solvers.name,
+        field_solver=field_solvers.name,
+        film_seconds=film_seconds,
+        field_seconds=time.perf_counter() - started,
+        version=__version__,
+        date=now(),
+    )
+
+
+def _accepted(contact: Case | PreparedContact, solvers: Solvers) -> PreparedContact:
+    """Prepared contact as some solvers solve it. Raises InputError if they cannot, or the case is wrong."""
+    if isinstance(contact, PreparedContact):
+        case = contact.case
+        taken = solvers.accept(case) if isinstance(case, Case) else case
+        return contact if taken is case else replace(contact, case=taken)
+    case = solvers.accept(contact)
     if case.motion is not None:
         raise InputError(
             "motion",
             got="[motion] where a stationary film is solved",
             takes="run_motion, or a case without it",
         )
-    return solve_prepared(
-        check_case(case) if prepared is None else replace(prepared, case=case),
-        progress=progress,
-        require_convergence=require_convergence,
-        solvers=solvers,
-        beside_smooth=beside_smooth,
-        on_grid=on_grid,
-    )
+    return check_case(case)
 
 
 def solve_contact(
@@ -162,107 +215,35 @@ def solve_contact(
     )
     check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
     domain = domain_of(setup, conditions)
-    return solve_prepared(
-        PreparedContact(
-            setup, conditions, domain, kind.rough(setup.roughness, domain) if rough is None else rough
-        ),
+    surfaces = kind.rough(setup.roughness, domain) if rough is None else rough
+    return solve(
+        PreparedContact(setup, conditions, domain, surfaces),
         progress=progress,
         require_convergence=require_convergence,
         beside_smooth=beside_smooth,
     )
 
 
-def solve_prepared(
-    contact: PreparedContact,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    solvers: Solvers = OWN,
-    beside_smooth: bool = True,
-    on_grid: OnGrid | None = None,
-) -> Result | PointResult:
-    """Solve the film and then the field of a prepared contact, and collect the warnings."""
-    kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
-    geometry = conditions.geometry
-    contact, films = _on_large_domain(contact, solvers, progress, on_grid)
-    film = films.film
-    if makes_oil(case, conditions, film):
-        film = replace(film, status="stalled")
-    LOGGER.info(
-        "%s contact: film %s on %s nodes in %.2g s, residual %.1e",
-        geometry,
-        film.status,
-        " x ".join(str(axis.size) for axis in film.axes),
-        films.seconds,
-        film.residual,
-    )
-    if require_convergence and not film.converged:
-        raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
-    roughness = heights_of(rough, *film.axes)
-    # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
-    field_solvers = solvers if film.converged else OWN
-    started = time.perf_counter()
-    field = field_solvers.field[geometry](kind.field_problem(contact.case, conditions, film, roughness))
-    own, smooth = field_solvers.name == OWN.name, None
-    if rough and beside_smooth:
-        smooth = _smooth(contact, films, field.axes, solvers)
-    coarser = _coarser(contact, films, solvers) if film.converged and np.any(film.contact) else None
-    return RESULTS[geometry](
-        case=case,
-        conditions=conditions,  # type: ignore[arg-type]  # their type follows from the geometry
-        film=film,
-        roughness=roughness,
-        rough=tuple(surface.describe() for surface in rough),
-        smooth=smooth,
-        coarser=coarser,
-        field=field,
-        warnings=(
-            *case_warnings(case, conditions),
-            *contact.surface_warnings(films.setup),
-            *films.warnings,
-            *film_warnings(contact.case, film),
-            *starvation_warnings(films.setup, film),
-            *heat_warnings(contact.case, contact.conditions, film, contact.physics),
-            *spot_warnings(case, conditions, film, coarser),
-            *kind.result_warnings(contact.case, film, field),
-            *meter_warnings(case, film),
-            # Where surfaces touch, the largest field is that of the boundary film.
-            *(
-                ()
-                if film.contact_pressure is not None
-                else _field_warnings(contact, films, field, estimated=own)
-            ),
-        ),
-        film_solver=solvers.name,
-        field_solver=field_solvers.name,
-        film_seconds=films.seconds,
-        field_seconds=time.perf_counter() - started,
-        version=__version__,
-        date=now(),
-    )
-
-
 def _on_large_domain(
     contact: PreparedContact, solvers: Solvers, progress: Progress | None, on_grid: OnGrid | None
-) -> tuple[PreparedContact, Refined]:
-    """Contact on the domain that its film needs, and its films on all grids."""
-    geometry = contact.conditions.geometry
-    solved = partial(solvers.film[geometry], progress=_logged(progress))
-    films = refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
-    if solvers.name != OWN.name or not contact.case.grid.default_domain:
-        return contact, films
-    seconds = films.seconds
-    default = contact
-    for _ in range(MOST_STEPS):
+) -> tuple[PreparedContact, Refined, float]:
+    """Contact on the domain that its film needs, its films on all grids, and the time they took [s]."""
+    started, geometry = time.perf_counter(), contact.conditions.geometry
+    solve_film, progress = solvers.film[geometry], _logged(progress)
+    refinement, default = contact.refinement, contact
+    film = solve_film(replace(refinement.problem, on_grid=on_grid), progress=progress)
+    films = refinement.refined(film)
+    enlarged = solvers.name == OWN.name and contact.case.grid.default_domain
+    for _ in range(MOST_STEPS if enlarged else 0):
         wider = widened(contact, films.film)
         if wider is None:
             break
-        larger = refined(Setup.of(wider.case), geometry, partial(_posed, wider, default), solved, on_grid)
-        seconds += larger.seconds
-        if films.film.converged and not larger.film.converged:
+        refinement = Refinement.of(Setup.of(wider.case), geometry, partial(_posed, wider, default))
+        film = solve_film(replace(refinement.problem, on_grid=on_grid), progress=progress)
+        if films.film.converged and not film.converged:
             break
-        contact, films = wider, larger
-    return contact, replace(films, seconds=seconds)
+        contact, films = wider, refinement.refined(film)
+    return contact, films, time.perf_counter() - started
 
 
 def _posed(contact: PreparedContact, default: PreparedContact, setup: Setup) -> FilmProblem:
@@ -279,8 +260,13 @@ def _posed(contact: PreparedContact, default: PreparedContact, setup: Setup) -> 
 def _field_warnings(
     contact: PreparedContact, films: Refined, field: Field | PointField, *, estimated: bool
 ) -> Iterator[ResultWarning]:
-    """Warnings about the largest field of a film, its breakdown, and its error, if it was ``estimated``."""
+    """Warnings about the largest field of a film, its breakdown, and its error, if it was ``estimated``.
+
+    There are none where surfaces touch: the largest field is that of the boundary film.
+    """
     discharge, film = contact.case.discharge, films.film
+    if film.contact_pressure is not None:
+        return
     yield from discharge_warnings(discharge, film)
     yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
     yield from raised(field_flags(field.max_strength, "the potentials"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -138,7 +139,7 @@ def _begin(
     """
     contact, started = solver.contact, time.perf_counter()
     at_rest = contact.case.replace(motion=None)
-    still = solve(at_rest, prepared=prepared, beside_smooth=False)
+    still = solve(replace(prepared, case=at_rest), beside_smooth=False)
     history, coarse = solver.start(), companion.start()
     first = solver.snapshot(history.now)
     maps, numbers = _stationary(contact, still)

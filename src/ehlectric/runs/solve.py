@@ -253,18 +253,16 @@ def solve(
         takes = "solve_motion(case), run_motion(case, folder), or a case without it"
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
     chosen = solvers_of(solvers)
-    accepted = chosen.accept(found)
-    prepared = check_case(accepted)
+    prepared = check_case(chosen.accept(found))
     if prepared.reach is not None:
         log_warnings(found.title, prepared.reach.warnings())
     told = _Percent(prepared, progress or silent)
     result = solve_stationary(
-        accepted,
+        prepared,
         progress=told,
         require_convergence=require_convergence,
         solvers=chosen,
         beside_smooth=beside_smooth,
-        prepared=prepared,
         on_grid=told.on_grid,
     )
     if progress is not None:
