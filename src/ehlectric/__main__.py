@@ -26,7 +26,7 @@ def main() -> None:
         sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
     gc.set_threshold(_NEW_OBJECTS)
     try:
-        from ehlectric.commands.command_line import main as run
+        from ehlectric.commands.command_line import exit_status, process
     except KeyboardInterrupt:
         # As the commands end, which have not been loaded yet.
         sys.exit(_INTERRUPTED)
@@ -34,7 +34,9 @@ def main() -> None:
         if not is_out_of_memory(error):
             raise
         sys.exit(_end(out_of_memory(error)))
-    run()
+    with process():
+        status = exit_status()
+    sys.exit(status)
 
 
 def _end(text: str) -> int:

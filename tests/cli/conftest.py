@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from ehlectric.commands.command_line import _status
+from ehlectric.commands.command_line import exit_status
 from tests.helpers.commands import run_command
 
 CASE = """\
@@ -38,7 +38,7 @@ def typed(tmp_path, monkeypatch, capsys):
         with monkeypatch.context() as patch:
             patch.setattr(sys, "argv", ["ehlectric", *words])
             try:
-                status = _status()
+                status = exit_status()
             except SystemExit as stopped:
                 status = stopped.code
         output, errors = capsys.readouterr()

@@ -47,3 +47,17 @@ def test_a_line_contact_with_figures_loads_no_modules_of_other_kinds(counts):
     assert ["ehlectric", "figures", "line_figures"] in modules
     assert [name for name in modules if OTHERS.intersection(name)] == []
     assert len(modules) <= 220
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_newtons_method_is_twelve_functions_below_the_command(counts):
+    assert counts["chain"][0] == "__main__.main"
+    assert counts["chain"][-1] == "film.newton.newton"
+    assert counts["frames"] <= 12
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+def test_a_contact_is_prepared_once(counts):
+    assert counts["prepared"] == 1

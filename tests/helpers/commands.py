@@ -28,7 +28,7 @@ _server.set_forkserver_preload([__name__, *NAMES])
 
 def _command(arguments, folder, output, errors, group):
     """Run the command in this process, with output and errors in files."""
-    from ehlectric.commands.command_line import main
+    from ehlectric.__main__ import main
 
     if group:
         os.setsid()

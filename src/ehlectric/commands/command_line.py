@@ -7,6 +7,8 @@ import os
 import signal
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -71,8 +73,8 @@ def _stop(number: int, _: object) -> None:
     sys.exit(SIGNALLED + number)
 
 
-def _status() -> int:
-    """Run the command and return its exit status; wrong arguments are told in one line."""
+def exit_status() -> int:
+    """Run the command and return its exit status; wrong arguments are one line on stderr."""
     try:
         status = app(prog_name="ehlectric", standalone_mode=False)
         sys.stdout.flush()
@@ -153,8 +155,9 @@ def _open_closed_streams() -> None:
 _STDERR = 2
 
 
-def main() -> None:
-    """Entry point of the ``ehlectric`` command."""
+@contextmanager
+def process() -> Iterator[None]:
+    """Context of the process of a command: its streams, signals, warnings and notes."""
     _open_closed_streams()
     _free_of_the_display()
     for number in not_ignored():
@@ -166,9 +169,8 @@ def main() -> None:
     warnings.showwarning = _show  # type: ignore[assignment]
     handler = _OneLine(logging.WARNING)
     MACHINE.addHandler(handler)
-    status = _status()
+    yield
     MACHINE.removeHandler(handler)
     for number in not_ignored():
         # From here on Python would answer a signal, such as that of an impatient user, by a traceback.
         signal.signal(number, signal.SIG_DFL)
-    sys.exit(status)

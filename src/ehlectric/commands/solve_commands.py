@@ -7,9 +7,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -66,31 +65,31 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
 
 
 @contextmanager
-def _tell_where_it_stops(folder: Path, show: Progress) -> Iterator[Progress]:
-    """Context of a transient run; where it is stopped, one line tells how many steps are saved.
-
-    Yields the progress for the run, which calls ``show``.
+def _saved_steps(folder: Path, *, shown: bool) -> Iterator[Progress]:
+    """Context of a transient run with a bar of its steps; where it is stopped, one line contains the number
+    of saved steps.
     """
     steps = 0
+    with progress_bar(shown=shown) as bar:
 
-    def progress(done: int, of: int, text: str) -> None:
-        nonlocal steps
-        steps = of or steps
-        show(done, of, text)
+        def progress(done: int, of: int, text: str) -> None:
+            nonlocal steps
+            steps = of or steps
+            bar(done, of, text)
 
-    try:
-        yield progress
-    except (KeyboardInterrupt, SystemExit):
-        if steps:
-            from ehlectric.motion.stored_run import saved_steps
-            from ehlectric.runtime.result_names import MOTION
+        try:
+            yield progress
+        except (KeyboardInterrupt, SystemExit):
+            if steps:
+                from ehlectric.motion.stored_run import saved_steps
+                from ehlectric.runtime.result_names import MOTION
 
-            # Read from the file: the progress may not have been called for the last instant yet.
-            saved = saved_steps(folder / MOTION)
-            rest = "resumes the run" if saved < steps else "sums them up"
-            text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
-            say(f"interrupted; {text}", err=True)
-        raise
+                # Read from the file: the progress may not have been called for the last instant yet.
+                saved = saved_steps(folder / MOTION)
+                rest = "resumes the run" if saved < steps else "sums them up"
+                text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
+                say(f"interrupted; {text}", err=True)
+            raise
 
 
 @command("run")
@@ -126,21 +125,24 @@ def run(
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runs.measured_film_factors import MeasuredFile
+        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
         kind = expect(case_file, "contact", "motion")
-        case = by_kind.read_case(case_file)
+        case: Any = by_kind.read_case(case_file)
         data = MeasuredFile.of(measured, None, uncertainty)
-        solve = partial(
-            by_kind.run_and_draw, kind, case, output, draw=plots, solver=solver, measured=data, **look
-        )
         if kind == "contact":
+            from ehlectric.contact.check import check_case
+
+            case = check_case(case)
             if not quiet:
-                warn(by_kind.expected_warnings(case))
-            with progress_line(shown=not quiet) as progress:
-                outcome = solve(progress)
+                warn(case.reach_warnings())
+            shown = progress_line(shown=not quiet)
         else:
-            with progress_bar(shown=not quiet) as bar, _tell_where_it_stops(output, bar) as progress:
-                outcome = solve(progress)
+            shown = _saved_steps(output, shown=not quiet)
+        with shown as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
+            outcome = by_kind.RUNS[kind].run(case, folder, progress, solver=solver, measured=data)
+            if plots:
+                outcome = by_kind.with_figures(outcome, folder, progress, **look)
     tables = _tables if kind == "contact" else _transient_tables
     report(outcome, tables, quiet=quiet, as_json=as_json)
 
@@ -265,14 +267,15 @@ def bearing(
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runs.measured_film_factors import MeasuredFile
+        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
         expect(bearing_file, "bearing")
         case = by_kind.read_bearing(bearing_file)
         data = MeasuredFile.of(measured, background, uncertainty)
-        with progress_bar(shown=not quiet) as progress:
-            outcome = by_kind.run_and_draw(
-                "bearing", case, output, progress, draw=plots, contacts=contacts, measured=data, **look
-            )
+        with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
+            outcome = by_kind.run_bearing(case, folder, progress, contacts=contacts, measured=data)
+            if plots:
+                outcome = by_kind.with_figures(outcome, folder, progress, **look)
     report(outcome, _bearing_tables, quiet=quiet, as_json=as_json)
 
 
@@ -318,13 +321,14 @@ def drive(
 
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
+        from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
         expect(drive_file, "drive")
         case = by_kind.read_drive(drive_file)
-        with progress_bar(shown=not quiet) as progress:
-            outcome = by_kind.run_and_draw(
-                "drive", case, output, progress, draw=plots, contacts=contacts, **look
-            )
+        with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
+            outcome = by_kind.run_drive(case, folder, progress, contacts=contacts)
+            if plots:
+                outcome = by_kind.with_figures(outcome, folder, progress, **look)
     report(outcome, _drive_tables, quiet=quiet, as_json=as_json)
 
 

@@ -90,8 +90,11 @@ class PreparedContact:
         """Warnings before the solution: about the operating conditions, rough surfaces and the refinement."""
         yield from case_warnings(self.case, self.conditions)
         yield from self.surface_warnings(self.case)
-        if self.reach is not None:
-            yield from self.reach.warnings()
+        yield from self.reach_warnings()
+
+    def reach_warnings(self) -> Iterator[ResultWarning]:
+        """Warning about the error that the grids of the refinement will probably reach."""
+        yield from () if self.reach is None else self.reach.warnings()
 
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
         """Warnings about the rough surfaces on the grid of a setup."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.check import PreparedContact, check_case
+from ehlectric.contact.check import PreparedContact
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.problems import scales_of
@@ -87,7 +87,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
 
 
 def run(
-    case: Case | PreparedContact,
+    contact: PreparedContact,
     folder: str | Path,
     progress: Progress = silent,
     *,
@@ -95,25 +95,25 @@ def run(
     others: Sequence[str] = (),
     further: Mapping[str, Content] | None = None,
 ) -> RunOutcome[Result | PointResult]:
-    """Solve a contact, and write summary.json, result.nc and film.csv.
+    """Solve a prepared contact, and write summary.json, result.nc and film.csv.
 
-    The case may be prepared already. The folder is made if it does not exist. A film that did not converge
-    is written too, and is the ``failure`` of the outcome. Raises an InputError where the case or the folder
-    cannot be used, or another command writes into the folder.
+    The folder is made if it does not exist. A film that did not converge is written too, and is the
+    ``failure`` of the outcome. Raises an InputError where the folder cannot be used, or another command
+    writes into the folder.
 
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric.contact.check import check_case
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
     >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
     >>> with TemporaryDirectory() as folder:
-    ...     outcome = run(case, folder)
+    ...     outcome = run(check_case(case), folder)
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'result.nc', 'film.csv'])
     """
     load_library()
-    contact = case if isinstance(case, PreparedContact) else check_case(case)
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
         told = FilmProgress(contact.reach)

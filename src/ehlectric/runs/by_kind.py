@@ -5,15 +5,13 @@ The command line and the pages of the app both start here; nothing here prints.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ehlectric.errors import InputError, shown
-from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.runs.file_kinds import FileKind, kind_of_file
 from ehlectric.runs.result_folders import files_of_results, protect
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
@@ -28,6 +26,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
+    from ehlectric.contact.check import PreparedContact
     from ehlectric.contact.result import PointResult, Result
     from ehlectric.drive.result import DriveResult
     from ehlectric.runs.measured_film_factors import MeasuredFile
@@ -60,37 +59,27 @@ def run(path: str | Path, folder: str | Path, progress: Progress = silent, **opt
     return kind.run(kind.read(path), folder, progress, **options)
 
 
-def run_and_draw(
-    kind: FileKind,
-    case: Any,
+def with_figures(
+    outcome: RunOutcome[R],
     folder: str | Path,
     progress: Progress = silent,
     *,
-    draw: bool = True,
     formats: Sequence[str] = ("png",),
     style: str = "screen",
-    **options: Any,
-) -> RunOutcome[Any]:
-    """Solve a case of a kind, write its results, and draw its figures.
+) -> RunOutcome[R]:
+    """Draw the figures of a run into its folder, and return its outcome with the figures among the files, and
+    their warnings among the warnings.
 
     A figure that fails does not end the run: it is among ``undrawn`` of the outcome.
-
-    ``folder``, folder of the results; it is made if it does not exist; ``progress``, called with the number
-    of parts done, the number of all parts (0 where it is not known), and a text. Returns with the figures
-    among the files, and their warnings among the warnings. Raises InputError, ConvergenceError, LostError as
-    ``run`` raises them.
     """
-    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
-        outcome = RUNS[kind].run(case, folder, progress, **options)
-        if not draw:
-            return outcome
-        progress(0, 0, "drawing figures")
-        drawn: list[Drawn] = []
-        with kept_going() as undrawn, alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
-            from ehlectric.figures.result_figures import draw_figures
+    progress(0, 0, "drawing figures")
+    results: tuple[Any, ...] = (outcome.result, *outcome.beside)
+    drawn: list[Drawn] = []
+    with kept_going() as undrawn, alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
+        from ehlectric.figures.result_figures import draw_figures
 
-            for result in (outcome.result, *outcome.beside):
-                drawn.append(draw_figures(result, folder, formats=formats, style=style))
+        for result in results:
+            drawn.append(draw_figures(result, folder, formats=formats, style=style))
     files = (*outcome.files, *(file for one in drawn for file in one.files))
     warnings = (*outcome.warnings, *(warning for one in drawn for warning in one.warnings))
     return replace(outcome, files=files, warnings=warnings, undrawn=tuple(undrawn))
@@ -124,20 +113,8 @@ def read_sweep_file(path: str | Path) -> Sweep:
     return Sweep.from_toml(path)
 
 
-def expected_warnings(case: Case) -> Iterator[ResultWarning]:
-    """Warnings before a stationary contact is solved about the error that its grids will probably reach."""
-    from ehlectric.contact.check import check_case
-
-    if case.roughness:
-        # Its surfaces are read once, by the run, and no error is expected of its film.
-        return
-    reach = check_case(case).reach
-    if reach is not None:
-        yield from reach.warnings()
-
-
 def run_contact(
-    case: Case,
+    case: Case | PreparedContact,
     folder: str | Path,
     progress: Progress = silent,
     *,
@@ -146,8 +123,11 @@ def run_contact(
 ) -> RunOutcome[Result | PointResult]:
     """Solve a stationary contact by a solver of a name, "ehlectric" or "paper", and write its results.
 
-    With a measurement, its film factors are written together with them.
+    The case may be prepared already. With a measurement, its film factors are written together with the
+    results.
     """
+    from ehlectric.cases.case import Case
+    from ehlectric.contact.check import PreparedContact, check_case
     from ehlectric.contact.run import run
     from ehlectric.contact.solver import OWN
 
@@ -157,10 +137,20 @@ def run_contact(
 
         _check_solver(solver, tuple(SOLVERS))
         solvers = SOLVERS[solver]
+    contact = case if isinstance(case, PreparedContact) else check_case(case)
+    assert isinstance(contact.case, Case)
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
-        factors = None if measured is None else measured.factors(case, progress)
-        return _with_factors(partial(run, case, folder, progress, solvers=solvers), folder, factors)
+        factors = None if measured is None else measured.factors(contact.case, progress)
+        outcome = run(
+            contact,
+            folder,
+            progress,
+            solvers=solvers,
+            others=files_of_results(folder),
+            further=None if factors is None else factors.contents(),
+        )
+    return _with_factors(outcome, factors)
 
 
 def run_motion(
@@ -210,7 +200,15 @@ def run_bearing(
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(case, progress, workers)
-        return _with_factors(partial(run, case, folder, progress, workers=workers), folder, factors)
+        outcome = run(
+            case,
+            folder,
+            progress,
+            workers=workers,
+            others=files_of_results(folder),
+            further=None if factors is None else factors.contents(),
+        )
+    return _with_factors(outcome, factors)
 
 
 def run_drive(
@@ -230,12 +228,8 @@ def run_drive(
         return run(case, folder, progress, workers=workers, others=files_of_results(folder))
 
 
-def _with_factors(
-    run: Callable[..., RunOutcome[R]], folder: Path, factors: FilmFactors | None
-) -> RunOutcome[R]:
+def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
     """Outcome of a run, with the film factors of a measurement next to its result if there are any."""
-    further = None if factors is None else factors.contents()
-    outcome = run(others=files_of_results(folder), further=further)
     if factors is None:
         return outcome
     return replace(

@@ -254,8 +254,7 @@ def solve(
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
     chosen = solvers_of(solvers)
     prepared = check_case(chosen.accept(found))
-    if prepared.reach is not None:
-        log_warnings(found.title, prepared.reach.warnings())
+    log_warnings(found.title, prepared.reach_warnings())
     told = _Percent(prepared, progress or silent)
     result = solve_stationary(
         prepared,

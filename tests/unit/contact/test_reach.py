@@ -104,7 +104,7 @@ def test_a_run_tells_its_grids(tmp_path):
     grid = {"nodes": 101, "refine": 0.01, "most_nodes": 801}
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": grid})
     texts = []
-    outcome = run(case, tmp_path, lambda _done, _of, text: texts.append(text))
+    outcome = run(check_case(case), tmp_path, lambda _done, _of, text: texts.append(text))
     grids = [int(found[1]) for text in texts if (found := re.search(r"grid (\d+)", text))]
     assert grids == sorted(grids)
     assert grids[0] == 1

@@ -9,7 +9,7 @@ import pytest
 import ehlectric
 from ehlectric import InputError, read_sweep
 from ehlectric.commands.draw_commands import load_and_draw
-from ehlectric.runs.by_kind import RUNS, run, run_and_draw
+from ehlectric.runs.by_kind import RUNS, run, run_contact, with_figures
 from ehlectric.runs.file_kinds import kind_of_file
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import RunOutcome
@@ -200,10 +200,15 @@ def test_a_folder_holds_one_result(files, tmp_path):
 def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
     case = RUNS["contact"].read(files["contact"])
     told = []
-    outcome = run_and_draw("contact", case, tmp_path, lambda _done, _of, text: told.append(text))
+
+    def progress(_done, _of, text):
+        told.append(text)
+
+    plain = run_contact(case, tmp_path, progress)
+    outcome = with_figures(plain, tmp_path, progress)
     assert [file.name for file in outcome.files][:4] == [*WRITTEN["contact"], "film.png"]
     assert told[-2:] == ["writing results", "drawing figures"]
-    assert run_and_draw("contact", case, tmp_path, draw=False).files == outcome.files[:3]
+    assert plain.files == outcome.files[:3]
 
 
 @pytest.mark.slow
