@@ -18,7 +18,7 @@ import numpy as np
 import tomli_w
 
 from ehlectric import Case
-from ehlectric.runs.file_kinds import kind_of_file
+from ehlectric.runs.file_kinds import read_input
 from tests.attack.mutations import hostile, mutated_bytes, mutated_table, mutated_text, near, places
 from tests.attack.stock import BEARINGS, CASES, SWEEPS, Stock
 
@@ -74,7 +74,7 @@ def case(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
 
 def _small(path: Path) -> bool:
     """Whether a valid file is a contact at rest that is solved in a few seconds."""
-    if kind_of_file(path) != "contact":
+    if read_input(path).kind != "contact":
         return False
     case = Case.from_toml(path)
     most = 600 if case.contact.geometry == "line" else 65

@@ -59,5 +59,5 @@ def test_newtons_method_is_twelve_functions_below_the_command(counts):
 
 @pytest.mark.slow
 @pytest.mark.gate
-def test_a_contact_is_prepared_once(counts):
-    assert counts["prepared"] == 1
+def test_a_file_is_read_and_its_contact_prepared_once(counts):
+    assert (counts["opened"], counts["parsed"], counts["prepared"]) == (1, 1, 1)

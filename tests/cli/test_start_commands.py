@@ -12,7 +12,7 @@ from ehlectric.commands.command_line import app
 from ehlectric.commands.options import files_ending
 from ehlectric.commands.start_commands import TEMPLATES, template
 from ehlectric.runs.by_kind import RUNS
-from ehlectric.runs.file_kinds import kind_of_file
+from ehlectric.runs.file_kinds import read_input
 from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
@@ -35,7 +35,7 @@ def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectri
     """In a folder of its own: it needs no other file."""
     done = ehlectric("init", "new.toml", "--kind", kind)
     assert done.returncode == 0, done.stderr
-    found = kind_of_file(tmp_path / "new.toml")
+    found = read_input(tmp_path / "new.toml").kind
     assert found == KINDS.get(kind, "contact")
     command = COMMANDS.get(found, "run")
     schema = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"

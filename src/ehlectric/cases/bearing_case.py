@@ -47,7 +47,6 @@ from ehlectric.cases.table import (
     nearest_key,
     number_of,
     parser_of,
-    read_toml,
     table_of,
     with_name_keys,
 )
@@ -477,14 +476,13 @@ class BearingCase(CaseFile, book="bearing_file"):
         return BearingCase.from_dict({"bearing": bearing, **tables})
 
     @classmethod
-    def from_toml(cls, path: str | Path) -> Self:
-        """Read a bearing case from a TOML file; files that it names are looked for beside it."""
-        table = read_toml(path)
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a bearing case from the tables of the file at a path."""
         if "contact" in table and "bearing" not in table:
             raise InputError(
                 path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
             )
-        find_files(table, Path(path).parent)
+        find_files(table, path.parent)
         return cls.from_written(table)
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:

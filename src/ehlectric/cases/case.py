@@ -25,7 +25,7 @@ from ehlectric.cases.keywords import Fields, Keys, keys_of, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.replaced_keys import BASE, refuse_another_oil, refuse_replaced
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files, unused_of_surfaces
-from ehlectric.cases.table import CaseFile, Title, as_mapping, read_toml, with_name_keys
+from ehlectric.cases.table import CaseFile, Title, as_mapping, with_name_keys
 from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
@@ -299,14 +299,13 @@ class Case(CaseFile, book="case_file"):
         return _of_keys(PointCase, "point", keys)
 
     @classmethod
-    def from_toml(cls, path: str | Path) -> Self:
-        """Read a case from a TOML file; files that it names are looked for beside it."""
-        table = read_toml(path)
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a case from the tables of the file at a path."""
         if "bearing" in table and "contact" not in table:
             raise InputError(
                 path, "is the file of a bearing", takes="that of a contact; ehlectric bearing solves it"
             )
-        find_files(table, Path(path).parent)
+        find_files(table, path.parent)
         return cls.from_written(table)
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:

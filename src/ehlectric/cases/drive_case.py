@@ -151,9 +151,9 @@ class DriveCase(CaseFile, book="drive_file"):
         )
 
     @classmethod
-    def from_toml(cls, path: str | Path) -> Self:
-        """Read a drive case from a TOML file; files that it names are looked for beside it."""
-        return cls.from_written(with_files(read_toml(path), Path(path).parent))
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a drive case from the tables of the file at a path."""
+        return cls.from_written(with_files(table, path.parent))
 
     def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
         yield from ((table[end]["bearing"], "inner_speed") for end in ENDS)
@@ -256,15 +256,6 @@ def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
     """
     model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
     return model.from_written(table) if written else model.from_dict(table)
-
-
-def case_of_file(path: str | Path) -> AnyCase:
-    """Read a case of a contact or of a bearing from a TOML file. Raises InputError if the file cannot be
-    read, is not TOML, or is not a valid case of a contact or of a bearing.
-    """
-    table = read_toml(path)
-    find_files(table, Path(path).parent)
-    return case_of_dict(table, written=True)
 
 
 SweptCase = AnyCase | DriveCase

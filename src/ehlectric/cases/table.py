@@ -50,6 +50,7 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "from_written",
     "known_keys",
     "law_values",
+    "of_file",
     "of_name",
     "user_laws",
     "plain_tables",
@@ -304,6 +305,16 @@ def as_mapping(table: Any) -> Mapping[str, Any]:
 
 class CaseFile(Tabled, Table):
     """Table of a whole file: a case of a contact, a bearing or a drive."""
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a case from a TOML file; files that it names are relative to its folder."""
+        return cls.of_file(read_toml(path), Path(path))
+
+    @classmethod
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a case from the tables of the file at a path."""
+        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return the given values as nested tables in SI units; InputError for many points or own laws."""

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ehlectric.drive.netlist import Arc, Subcircuit
     from ehlectric.drive.netlist_files import Netlist
     from ehlectric.quantities.rows import Row
+    from ehlectric.runs.file_kinds import InputFile
     from ehlectric.runtime.progress import Progress
 
 # Options by the names of their inputs.
@@ -58,17 +59,17 @@ def spice(
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
-        kind = expect(input_file, "bearing", "drive")
+        file = expect(input_file, "bearing", "drive")
         given = {"--arc-resistance": arc_resistance, "--extinction-voltage": extinction_voltage}
-        if kind == "drive":
+        if file.kind == "drive":
             _refuse_with_drive({**given, "--speeds": speeds})
         arc = arc_of(arc_resistance, extinction_voltage)
         check_targets(output, bench)
         with progress_bar(shown=not quiet) as progress:
-            if kind == "drive":
-                netlist = _drive(input_file, contacts, progress)
+            if file.kind == "drive":
+                netlist = _drive(file, contacts, progress)
             else:
-                netlist = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
+                netlist = _bearing(file, contacts, arc, speeds, progress, motor=bench is not None)
         clear_left_behind(output.parent)
         files = write_files(netlist, output, bench)
     found = netlist.subcircuits
@@ -77,7 +78,7 @@ def spice(
             print_rows(_rows(one), one.case.title)
         echo_files(files)
         warn(dict.fromkeys(warning for one in found for warning in one.warnings()))
-        if kind == "drive" and bench is None:
+        if file.kind == "drive" and bench is None:
             say("note: the bearings alone; --bench FILE.cir also writes the inverter and the motor", err=True)
         for note in dict.fromkeys(note for one in found for note in one.notes):
             say(f"note: {note}", err=True)
@@ -94,13 +95,13 @@ def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
 
 
 def _bearing(
-    path: Path, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
+    file: InputFile, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
 ) -> Netlist:
     """Netlist of a bearing file."""
     from ehlectric.drive.netlist import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
     from ehlectric.runs import by_kind
 
-    case = by_kind.read_bearing(path)
+    case = by_kind.read_bearing(file)
     case = case.replace({"contacts": contacts}) if contacts else case
     if arc is not None:
         check_strength(case)
@@ -110,12 +111,12 @@ def _bearing(
     return subcircuit_of(solve_at_speeds(case, others, progress), arc)
 
 
-def _drive(path: Path, contacts: str, progress: Progress) -> Netlist:
+def _drive(file: InputFile, contacts: str, progress: Progress) -> Netlist:
     """Netlist of a drive file."""
     from ehlectric.drive.drive_netlist_files import drive_netlist
     from ehlectric.runs import by_kind
 
-    case = by_kind.read_drive(path)
+    case = by_kind.read_drive(file)
     case = case.replace({"drive.contacts": contacts}) if contacts else case
     return drive_netlist(case, progress)
 

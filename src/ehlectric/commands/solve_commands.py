@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -53,8 +53,8 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runs.meaning import check as check_meaning
 
-        kind = expect(file, "contact", "motion", "bearing", "drive", "sweep")
-        meaning = check_meaning(by_kind.RUNS[kind].read(file))
+        checked = expect(file, "contact", "motion", "bearing", "drive", "sweep")
+        meaning = check_meaning(by_kind.RUNS[checked.kind].read(checked))
     if as_json:
         typer.echo(json.dumps(meaning.summary, indent=2))
     elif not quiet:
@@ -127,8 +127,8 @@ def run(
         from ehlectric.runs.measured_film_factors import MeasuredFile
         from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        kind = expect(case_file, "contact", "motion")
-        case: Any = by_kind.read_case(case_file)
+        file = expect(case_file, "contact", "motion")
+        kind, case = file.kind, by_kind.RUNS[file.kind].read(file)
         data = MeasuredFile.of(measured, None, uncertainty)
         if kind == "contact":
             from ehlectric.contact.check import check_case
@@ -269,8 +269,7 @@ def bearing(
         from ehlectric.runs.measured_film_factors import MeasuredFile
         from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        expect(bearing_file, "bearing")
-        case = by_kind.read_bearing(bearing_file)
+        case = by_kind.read_bearing(expect(bearing_file, "bearing"))
         data = MeasuredFile.of(measured, background, uncertainty)
         with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
             outcome = by_kind.run_bearing(case, folder, progress, contacts=contacts, measured=data)
@@ -323,8 +322,7 @@ def drive(
         from ehlectric.runs.file_kinds import expect
         from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 
-        expect(drive_file, "drive")
-        case = by_kind.read_drive(drive_file)
+        case = by_kind.read_drive(expect(drive_file, "drive"))
         with progress_bar(shown=not quiet) as progress, alone_in(output, locks=[RESULT_LOCK]) as folder:
             outcome = by_kind.run_drive(case, folder, progress, contacts=contacts)
             if plots:

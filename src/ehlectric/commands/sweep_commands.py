@@ -77,8 +77,7 @@ def sweep(
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
 
-        expect(sweep_file, "sweep")
-        asked = by_kind.read_sweep_file(sweep_file)
+        asked = by_kind.read_sweep(expect(sweep_file, "sweep"))
         if not quiet:
             _tell_what_lacks(asked)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ehlectric.errors import InputError, shown
-from ehlectric.runs.file_kinds import FileKind, kind_of_file
+from ehlectric.runs.file_kinds import FileKind, InputFile, read_input
 from ehlectric.runs.result_folders import files_of_results, protect
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.film_factors import FilmFactors
     from ehlectric.contact.check import PreparedContact
     from ehlectric.contact.result import PointResult, Result
+    from ehlectric.contact.solver import Solvers
     from ehlectric.drive.result import DriveResult
     from ehlectric.runs.measured_film_factors import MeasuredFile
     from ehlectric.sweep.result import SweepResults
@@ -41,7 +42,7 @@ R = TypeVar("R")
 class Kind:
     """Functions for one kind of file."""
 
-    read: Callable[[str | Path], Any]  # case, bearing case or sweep of a TOML file
+    read: Callable[[InputFile], Any]  # case, bearing case, drive case or sweep of a file
     # ``run(case, folder, progress, **options)`` solves it and returns a ``RunOutcome``
     run: Callable[..., RunOutcome[Any]]
 
@@ -55,8 +56,9 @@ def run(path: str | Path, folder: str | Path, progress: Progress = silent, **opt
     options or the folder cannot be used; ConvergenceError where the film before a motion is not converged;
     LostError where the processes or the cluster of a sweep no longer work.
     """
-    kind = RUNS[kind_of_file(path)]
-    return kind.run(kind.read(path), folder, progress, **options)
+    file = read_input(path)
+    kind = RUNS[file.kind]
+    return kind.run(kind.read(file), folder, progress, **options)
 
 
 def with_figures(
@@ -85,32 +87,32 @@ def with_figures(
     return replace(outcome, files=files, warnings=warnings, undrawn=tuple(undrawn))
 
 
-def read_case(path: str | Path) -> Case:
+def read_case(file: InputFile) -> Case:
     """Case of a contact, with or without motion."""
     from ehlectric.cases.case import Case
 
-    return Case.from_toml(path)
+    return Case.of_file(file.table, file.path)
 
 
-def read_bearing(path: str | Path) -> BearingCase:
+def read_bearing(file: InputFile) -> BearingCase:
     """Case of a bearing."""
     from ehlectric.cases.bearing_case import BearingCase
 
-    return BearingCase.from_toml(path)
+    return BearingCase.of_file(file.table, file.path)
 
 
-def read_drive(path: str | Path) -> DriveCase:
+def read_drive(file: InputFile) -> DriveCase:
     """Case of a drive."""
     from ehlectric.cases.drive_case import DriveCase
 
-    return DriveCase.from_toml(path)
+    return DriveCase.of_file(file.table, file.path)
 
 
-def read_sweep_file(path: str | Path) -> Sweep:
+def read_sweep(file: InputFile) -> Sweep:
     """Sweep of a sweep file."""
     from ehlectric.sweep.sweep_inputs import Sweep
 
-    return Sweep.from_toml(path)
+    return Sweep.of_file(file.table, file.path)
 
 
 def run_contact(
@@ -129,14 +131,8 @@ def run_contact(
     from ehlectric.cases.case import Case
     from ehlectric.contact.check import PreparedContact, check_case
     from ehlectric.contact.run import run
-    from ehlectric.contact.solver import OWN
 
-    solvers = OWN
-    if solver != OWN.name:
-        from ehlectric.paper.paper_contacts import SOLVERS
-
-        _check_solver(solver, tuple(SOLVERS))
-        solvers = SOLVERS[solver]
+    solvers = solvers_of(solver, "--solver")
     contact = case if isinstance(case, PreparedContact) else check_case(case)
     assert isinstance(contact.case, Case)
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
@@ -163,10 +159,9 @@ def run_motion(
 ) -> RunOutcome[xr.Dataset]:
     """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
     from ehlectric.motion.run import run
-    from ehlectric.paper.paper_contacts import SOLVERS
     from ehlectric.runtime.result_names import OF_MOTION
 
-    _check_solver(solver, tuple(SOLVERS))
+    solvers_of(solver, "--solver")
     if measured is not None:
         raise InputError.worded("--measured", "is for stationary contacts, and this case has [motion]")
     if solver != "ehlectric":
@@ -176,9 +171,21 @@ def run_motion(
         return run(case, folder, progress, others=files_of_results(folder, keep=OF_MOTION))
 
 
-def _check_solver(solver: str, known: tuple[str, ...]) -> None:
-    if solver not in known:
-        raise InputError("--solver", got=shown(solver), takes=f"one of {', '.join(known)}")
+def solvers_of(given: str | Solvers, key: str = "solvers") -> Solvers:
+    """Solvers by their name, "ehlectric" or "paper". Raises InputError, which names the ``key``, for another
+    name.
+    """
+    from ehlectric.contact.solver import OWN, Solvers
+
+    if isinstance(given, Solvers):
+        return given
+    if given == OWN.name:
+        return OWN
+    from ehlectric.paper.paper_contacts import SOLVERS
+
+    if given not in SOLVERS:
+        raise InputError(key, got=shown(given), takes=f"one of {', '.join(SOLVERS)}")
+    return SOLVERS[given]
 
 
 def run_bearing(
@@ -267,6 +274,6 @@ RUNS: Mapping[FileKind, Kind] = MappingProxyType(
         "motion": Kind(read_case, run_motion),
         "bearing": Kind(read_bearing, run_bearing),
         "drive": Kind(read_drive, run_drive),
-        "sweep": Kind(read_sweep_file, run_sweep),
+        "sweep": Kind(read_sweep, run_sweep),
     }
 )

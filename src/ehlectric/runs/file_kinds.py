@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
-from ehlectric.cases.table import read_toml
+from ehlectric.cases.table import read_toml, tables_of_text
 from ehlectric.errors import InputError
-from ehlectric.runtime.reading import regular
+from ehlectric.runtime.reading import read_text
 
 FileKind = Literal["contact", "motion", "bearing", "drive", "sweep"]
 
@@ -44,33 +46,43 @@ _RESULTS = (
 _SUMMARY = "summary.json"
 
 
-def kind_of_file(path: str | Path) -> FileKind:
-    """Kind of a TOML file: "contact", "motion", "bearing", "drive" or "sweep", by its tables. Raises
-    InputError if the file cannot be read or is not TOML.
-    """
-    return kind_of_tables(read_toml(path)) or "contact"
+@dataclass(frozen=True)
+class InputFile:
+    """TOML file of a user with its tables, which are read once."""
+
+    path: Path
+    table: dict[str, Any]
+    kind: FileKind
 
 
-def expect(path: Path, *kinds: FileKind) -> FileKind:
-    """Kind of a TOML file that a command is given; a file of another kind is told the right command. Raises
-    InputError if the file cannot be read, is a result, is not TOML, or is of another kind.
+def read_input(path: str | Path) -> InputFile:
+    """Read a TOML file of any kind, which follows from its tables. Raises InputError if the file cannot be
+    read or is not TOML.
     """
-    _refuse_result(path)
-    kind = kind_of_tables(read_toml(path))
-    if kind is None:
-        return kinds[0]
+    table = read_toml(path)
+    return InputFile(Path(path), table, kind_of_tables(table) or "contact")
+
+
+def expect(path: Path, *kinds: FileKind) -> InputFile:
+    """Read the TOML file of a command, which solves some kinds; the error of another kind names the right
+    command. Raises InputError if the file cannot be read, is a result, is not TOML, or is of another kind.
+    """
+    if path.is_dir():
+        raise InputError(path, "is a folder", takes=f"a TOML file; draw results with: {_typed('plot', path)}")
+    table = tables_of_text(read_text(path, refuse=partial(_refuse_result, path)), path)
+    kind = kind_of_tables(table) or kinds[0]
     if kind not in kinds:
         name, command = _NAMES[kind]
         wanted = _NAMES[kinds[0]][0]
         raise InputError(path, f"is {name}", takes=f"{wanted}; solve it with: {_typed(command, path)}")
-    return kind
+    return InputFile(path, table, kind)
 
 
 def command_of_file(path: str | Path) -> str:
     """Command that solves a TOML file: "run", "bearing", "drive" or "sweep". Raises InputError if the file
     cannot be read or is not TOML.
     """
-    return _NAMES[kind_of_file(path)][1]
+    return _NAMES[read_input(path).kind][1]
 
 
 def refuse_input(path: Path) -> None:
@@ -78,7 +90,7 @@ def refuse_input(path: Path) -> None:
     if the file has the suffix of TOML files.
     """
     if path.suffix.lower() == ".toml" and path.is_file():
-        name, command = _NAMES[kind_of_file(path)]
+        name, command = _NAMES[read_input(path).kind]
         raise InputError(path, f"is {name}", takes=f"a result; solve it with: {_typed(command, path)}")
 
 
@@ -100,12 +112,10 @@ def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
     return None if bearing_key(table) is None else "bearing"
 
 
-def _refuse_result(path: Path) -> None:
-    """Refuse a result where a TOML file is expected, and name the command that draws it."""
-    if path.is_dir():
-        raise InputError(path, "is a folder", takes=f"a TOML file; draw results with: {_typed('plot', path)}")
-    with regular(path) as file:
-        start = file.read(16)
+def _refuse_result(path: Path, start: bytes) -> None:
+    """Refuse a result where a TOML file is expected, by its first bytes, and name the command that draws
+    it.
+    """
     for first, name, command in _RESULTS:
         if start.startswith(first):
             draw = "ehlectric " + command.format(file=_quoted(path), folder=_quoted(path.parent))

@@ -58,15 +58,17 @@ def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str
     >>> round(meaning.summary["hertz"]["half_width"] * 1e6, 1)
     249.6
     """
-    from ehlectric.runs.file_kinds import kind_of_file, kind_of_tables
+    from ehlectric.runs.by_kind import RUNS
+    from ehlectric.runs.file_kinds import kind_of_tables, read_input
     from ehlectric.runs.meaning import check as meaning_of
     from ehlectric.runs.solve import case_of
     from ehlectric.sweep.sweep_inputs import Sweep
 
     if isinstance(case, Sweep):
         return meaning_of(case)
-    if isinstance(case, str | Path) and kind_of_file(case) == "sweep":
-        return meaning_of(Sweep.from_toml(case))
+    if isinstance(case, str | Path):
+        file = read_input(case)
+        return meaning_of(RUNS[file.kind].read(file))
     if isinstance(case, Mapping) and kind_of_tables(case) == "sweep":
         return meaning_of(Sweep.from_dict(case))
     return meaning_of(case_of(case))

@@ -16,8 +16,7 @@ from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.stored import SCHEMA as BEARING
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
-from ehlectric.cases.drive_case import DriveCase, case_of_dict, case_of_file
-from ehlectric.cases.table import read_toml
+from ehlectric.cases.drive_case import DriveCase, case_of_dict
 from ehlectric.contact import run as of_contacts
 from ehlectric.contact.check import PreparedContact, case_with_laws, check_case, portable
 from ehlectric.contact.contact_refinement import FilmProgress
@@ -35,7 +34,8 @@ from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored import SCHEMA as MOVING
 from ehlectric.motion.stored_run import checked_motion, read_motion
-from ehlectric.runs.file_kinds import kind_of_tables
+from ehlectric.runs.by_kind import RUNS, solvers_of
+from ehlectric.runs.file_kinds import FileKind, kind_of_tables, read_input
 from ehlectric.runs.result_folders import stored_result
 from ehlectric.runtime.file_rules import format_of
 from ehlectric.runtime.memory import is_out_of_memory
@@ -299,36 +299,22 @@ def case_of(given: object) -> Case | BearingCase | DriveCase:
     if isinstance(given, Case | BearingCase | DriveCase):
         return given
     if isinstance(given, Mapping):
-        drive = _is_drive("case", given)
-        return DriveCase.from_dict(given) if drive else case_of_dict(given)
+        kind = kind_of_tables(given)
+        _refuse_sweep("case", kind)
+        return DriveCase.from_dict(given) if kind == "drive" else case_of_dict(given)
     if isinstance(given, str | PathLike):
-        path = Path(given)
-        drive = _is_drive(path, read_toml(path))
-        return DriveCase.from_toml(path) if drive else case_of_file(path)
+        file = read_input(Path(given))
+        _refuse_sweep(file.path, file.kind)
+        case: Case | BearingCase | DriveCase = RUNS[file.kind].read(file)
+        return case
     takes = "a Case, a BearingCase, a DriveCase, a dict, or the path of a TOML file"
     sweep = "; run_sweep solves a Sweep" if type(given).__name__ == "Sweep" else ""
     raise InputError("case", got=shown(type(given).__name__), takes=takes + sweep)
 
 
-def _is_drive(name: object, table: Mapping[str, Any]) -> bool:
-    """Whether tables are those of a drive; those of a sweep are refused."""
-    kind = kind_of_tables(table)
+def _refuse_sweep(name: object, kind: FileKind | None) -> None:
     if kind == "sweep":
         raise InputError(name, "is a sweep;", takes="run_sweep(Sweep.from_toml(path), folder)")
-    return kind == "drive"
-
-
-def solvers_of(given: str | Solvers) -> Solvers:
-    """Solvers by their name, "ehlectric" or "paper"; InputError for another name."""
-    if isinstance(given, Solvers):
-        return given
-    if given == OWN.name:
-        return OWN
-    from ehlectric.paper.paper_contacts import SOLVERS
-
-    if given not in SOLVERS:
-        raise InputError("solvers", got=shown(given), takes=f"one of {', '.join(SOLVERS)}")
-    return SOLVERS[given]
 
 
 class _Percent:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from io import BufferedReader
 from pathlib import Path
@@ -15,6 +15,9 @@ from ehlectric.runtime.sizes import check_size
 
 # Largest size of a file that a person writes: of a case, a bearing or a sweep [bytes].
 MOST_TEXT = 1_000_000
+
+# Number of first bytes by which a file of another kind is refused.
+_FIRST = 16
 
 # Kinds of files that are not regular, as messages name them.
 _SPECIAL = (
@@ -72,13 +75,17 @@ def refuse_unreadable(path: Path) -> None:
         pass
 
 
-def read_bytes(path: str | Path, *, most: int, copies: float = 1.0) -> bytes:
+def read_bytes(
+    path: str | Path, *, most: int, copies: float = 1.0, refuse: Callable[[bytes], None] | None = None
+) -> bytes:
     """Content of a regular file of at most ``most`` bytes; a larger one is refused before it is read.
 
-    ``copies`` is the ratio of the memory that its reader needs to the size of the file, which must fit.
-    Raises an InputError.
+    ``copies`` is the ratio of the memory that its reader needs to the size of the file, which must fit;
+    ``refuse`` is called with the first bytes of the file, before its size is checked. Raises an InputError.
     """
     with regular(path) as file:
+        if refuse is not None:
+            refuse(file.peek(_FIRST)[:_FIRST])
         size = os.fstat(file.fileno()).st_size
         check_size(Path(path), size, most, copies=copies)
         content = file.read(size + 1)
@@ -102,13 +109,16 @@ def blocks(path: str | Path, *, most: int, size: int = 8_000_000) -> Iterator[by
             yield block
 
 
-def read_text(path: str | Path, *, most: int = MOST_TEXT) -> str:
+def read_text(
+    path: str | Path, *, most: int = MOST_TEXT, refuse: Callable[[bytes], None] | None = None
+) -> str:
     """Text of a regular file in UTF-8 of at most ``most`` bytes, without a byte order mark.
 
-    Line ends are line feeds, as Python reads a text file. Raises an InputError.
+    Line ends are line feeds, as Python reads a text file; ``refuse`` as in ``read_bytes``. Raises an
+    InputError.
     """
     try:
-        text = read_bytes(path, most=most).decode("utf-8-sig")
+        text = read_bytes(path, most=most, refuse=refuse).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(path, "is not a text file in UTF-8") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -390,7 +390,12 @@ class Sweep(Tabled, Table):
         InputError
             If the file or its case file cannot be read or is not TOML, or if the sweep is not valid.
         """
-        table, folder = read_toml(path), Path(path).parent
+        return cls.of_file(read_toml(path), Path(path))
+
+    @classmethod
+    def of_file(cls, table: dict[str, Any], path: Path) -> Self:
+        """Make a sweep from the tables of the file at a path."""
+        folder = path.parent
         match table.get("case"):
             case str(name):
                 table["case"] = str(folder / name)

@@ -26,7 +26,7 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.units import to_si
-from ehlectric.runs.by_kind import read_case, run_contact
+from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import silent
@@ -113,7 +113,7 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
     view = solve_contact(
         table_of(name, grid=grid), str(tmp_path), str(tmp_path / "app"), lambda *it: told.append(it)
     )
-    case = read_case(EXAMPLES / f"{name}.toml")
+    case = Case.from_toml(EXAMPLES / f"{name}.toml")
     outcome = run_contact(case.replace({"grid.nodes": 65}) if grid else case, tmp_path / "command")
     expected = [(row.name, row.text) for row in result_rows(outcome.result) if row.name != "computing time"]
     assert [(row.name, row.text) for row in view.lines if row.name != "computing time"] == expected

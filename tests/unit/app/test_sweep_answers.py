@@ -18,9 +18,10 @@ from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import CODES
-from ehlectric.runs.by_kind import read_sweep_file, run_sweep
+from ehlectric.runs.by_kind import run_sweep
 from ehlectric.sweep.engine import case_key, solve_point
 from ehlectric.sweep.store import read_sweep
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 CASE = SWEEP.value("case")
@@ -64,7 +65,7 @@ def without_time(summary):
 def test_the_downloaded_file_gives_the_command_the_same_database(folder, tmp_path):
     file = tmp_path / "sweep.toml"
     file.write_text(Inputs(TABLE).toml(), encoding="utf-8")
-    run_sweep(read_sweep_file(file), tmp_path / "command", workers=1)
+    run_sweep(Sweep.from_toml(file), tmp_path / "command", workers=1)
     assert stored(tmp_path / "command") == stored(folder)
     assert {p.name for p in (tmp_path / "command").iterdir()} == {p.name for p in folder.iterdir()}
 

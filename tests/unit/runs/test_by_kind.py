@@ -3,16 +3,19 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 import ehlectric
 from ehlectric import InputError, read_sweep
 from ehlectric.commands.draw_commands import load_and_draw
+from ehlectric.commands.solve_commands import check as typed_check
 from ehlectric.runs.by_kind import RUNS, run, run_contact, with_figures
-from ehlectric.runs.file_kinds import kind_of_file
+from ehlectric.runs.file_kinds import read_input
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import RunOutcome
+from ehlectric.runtime.reading import regular
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -122,12 +125,12 @@ def test_a_file_of_each_kind_is_run_the_same_way(kind, files, tmp_path):
 
 @each("kind", FILES)
 def test_a_kind_is_recognised_by_its_tables(kind, files):
-    assert kind_of_file(files[kind]) == kind
+    assert read_input(files[kind]).kind == kind
     assert set(RUNS) == set(FILES)
 
 
 def test_kinds_of_the_examples():
-    kinds = {path.stem: kind_of_file(path) for path in EXAMPLES.glob("*.toml")}
+    kinds = {path.stem: read_input(path).kind for path in EXAMPLES.glob("*.toml")}
     expected = {
         "line_contact": "contact",
         "bearing_6208": "bearing",
@@ -149,9 +152,35 @@ def test_kinds_of_the_examples():
     assert {name: kinds[name] for name in expected} == expected
 
 
+@pytest.fixture
+def reads(monkeypatch):
+    """Names of the files that are opened."""
+    names = []
+
+    def counted(path):
+        names.append(Path(path).name)
+        return regular(path)
+
+    monkeypatch.setattr("ehlectric.runtime.reading.regular", counted)
+    return names
+
+
+@pytest.mark.slow
+@pytest.mark.gate
+@pytest.mark.parametrize("kind", FILES)
+def test_a_file_is_read_once(kind, files, reads):
+    """By the command and by Python; files that it names are read once each, too."""
+    further = {"drive": ["bearing.toml"], "sweep": ["contact.toml"]}.get(kind, [])
+    typed_check(files[kind], quiet=True)
+    assert reads == [f"{kind}.toml", *further]
+    reads.clear()
+    ehlectric.check(files[kind])
+    assert reads == [f"{kind}.toml", *further]
+
+
 def test_files_of_no_kind_are_refused(tmp_path):
     with pytest.raises(InputError, match=r"no\.toml: cannot be read, no such file or directory$"):
-        kind_of_file(tmp_path / "no.toml")
+        read_input(tmp_path / "no.toml")
     (tmp_path / "text.toml").write_text("a text")
     with pytest.raises(InputError, match=r"text\.toml: is not TOML, "):
         run(tmp_path / "text.toml", tmp_path / "out")
@@ -198,7 +227,7 @@ def test_a_folder_holds_one_result(files, tmp_path):
 
 @pytest.mark.slow
 def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
-    case = RUNS["contact"].read(files["contact"])
+    case = RUNS["contact"].read(read_input(files["contact"]))
     told = []
 
     def progress(_done, _of, text):

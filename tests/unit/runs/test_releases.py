@@ -9,7 +9,7 @@ import pytest
 
 from ehlectric import Sweep, load
 from ehlectric.errors import InputError
-from ehlectric.runs.file_kinds import kind_of_file
+from ehlectric.runs.file_kinds import read_input
 from ehlectric.runs.solve import case_of
 from ehlectric.runtime.hdf5_soundness import seal
 from ehlectric.sweep.store import read_sweep
@@ -46,7 +46,7 @@ def numbers(value, path=()):
 @each("file", CASES, ids=lambda path: f"{path.parents[1].name}-{path.name}")
 def test_a_case_file_is_taken(file):
     """Files of the examples as the release had them; their surfaces are not read here."""
-    if kind_of_file(file) == "sweep":
+    if read_input(file).kind == "sweep":
         Sweep.from_toml(file)
     else:
         case_of(file)

@@ -9,10 +9,10 @@ import pytest
 
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drive_case import case_of_file
 from ehlectric.drive.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.runs.file_kinds import expect
+from ehlectric.runs.solve import case_of
 from ehlectric.runtime.reading import MOST_TEXT, blocks, read_bytes, read_text, refuse_unreadable
 from ehlectric.surfaces.surface_files import read_surface
 from ehlectric.sweep.engine import plan
@@ -32,7 +32,7 @@ base = "paper"
 # Every function that reads a file of the user.
 READERS = {
     "case": Case.from_toml,
-    "any case": case_of_file,
+    "any case": case_of,
     "bearing": BearingCase.from_toml,
     "sweep": Sweep.from_toml,
     "base case": lambda path: Sweep.from_dict({"case": path, "vary": {"grid.nodes": [401, 801]}}),
