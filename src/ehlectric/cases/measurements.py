@@ -4,8 +4,6 @@ pandas, in SI units.
 
 from __future__ import annotations
 
-import codecs
-import csv
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,18 +19,19 @@ from ehlectric.arrays import Array
 from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.quantities import units
-from ehlectric.quantities.grouped_digits import (
-    doubt_of_column,
-    has_thousands,
-    proven_mark,
-    readings,
-    value_of,
-)
+from ehlectric.quantities.grouped_digits import doubt_of_column, readings
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.quantities.unit_spelling import typed
-from ehlectric.runtime.delimited import fields, is_void, record_at, records, separator_of
 from ehlectric.runtime.reading import read_bytes
+from ehlectric.runtime.text_table import (
+    Dialect,
+    decimal_mark,
+    decoded,
+    is_void,
+    name_and_unit,
+    record_at,
+    uncommented,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -154,10 +153,10 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     >>> column_of("remark") is None
     True
     """
-    text = " ".join(typed(head[: _LONGEST + 1]).strip().strip("\"'").split())
+    text = " ".join(head[: _LONGEST + 1].strip().strip("\"'").split())
     if len(text) > _LONGEST:
         return None
-    name, unit = _parts(text)
+    name, unit = name_and_unit(text)
     bare = " ".join(name.lower().replace("_", " ").split())
     uncertain = _UNCERTAINTY in bare
     words = bare.replace(_UNCERTAINTY + " of", "").replace(_UNCERTAINTY, "").strip()
@@ -172,15 +171,6 @@ def column_of(head: str, book: ColumnBook = MEASURED) -> Column | None:
     if uncertain:
         return Column(known, text, unit, uncertainty=True, book=book)
     return _checked(known, text, unit, book)
-
-
-def _parts(text: str) -> tuple[str, str | None]:
-    """Name and unit of a head: the unit stands in the last brackets."""
-    for opening, closing in (("[", "]"), ("(", ")")):
-        start = text.rfind(opening)
-        if start >= 0 and text.endswith(closing):
-            return text[:start].strip(), text[start + 1 : -1].strip()
-    return text, None
 
 
 def _checked(name: str, head: str, unit: str, book: ColumnBook) -> Column:
@@ -289,11 +279,6 @@ def _stated(value: Array, stated: Array | None, relative: float | None) -> Array
 # Largest size of a file [bytes], and largest numbers of lines above the heads, and of columns.
 _MOST_BYTES, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 500, 200
 
-# Letters of a number, and its largest length [characters].
-_OF_NUMBERS, _LONGEST_TEXT = frozenset("0123456789+-.,eE"), 40
-
-_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -323,7 +308,7 @@ class _Rows:
     heads: Sequence[str]
     cells: Sequence[Sequence[str]]
     lines: tuple[int, ...]
-    decimal: str
+    dialect: Dialect
 
 
 def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEASURED) -> Measurement:
@@ -382,63 +367,39 @@ def void_rows(measured: Measurement) -> Iterator[ResultWarning]:
         )
 
 
-def decoded(path: Path, content: bytes) -> str:
-    """Text of a file in UTF-8, UTF-16 or Windows-1252, as instruments write them. Raises InputError if the
-    file is no text.
-    """
-    if b"\0" in content[:4096] and content[:2] not in _UTF_16:
-        raise InputError(path, "is not a text file")
-    for code in ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252"):
-        try:
-            return content.decode(code)
-        except UnicodeDecodeError:
-            continue
-    raise InputError(path, "is not text in UTF-8, UTF-16 or Windows-1252")
-
-
 def _of_table(table: pd.DataFrame) -> _Rows:
     heads = [str(name) for name in table.columns]
     cells = [[str(cell) for cell in row] for row in table.itertuples(index=False, name=None)]
-    return _Rows(heads, cells, tuple(range(1, len(cells) + 1)), ".")
+    return _Rows(heads, cells, tuple(range(1, len(cells) + 1)), Dialect(None))
 
 
 def _of_text(path: Path, text: str, book: ColumnBook) -> _Rows:
-    """Heads and rows of a text; the heads may stand in a line of comment above the numbers."""
-    lines = text.splitlines()
-    heads, first, separator = _heads(path, lines, book)
-    cells: list[list[str]] = []
-    numbers: list[int] = []
-    below = records(lines[first:], separator)
-    while len(cells) <= book.most_rows:
-        last = numbers[-1] if numbers else first
-        try:
-            number, row = next(below)
-        except StopIteration:
-            break
-        except csv.Error as error:
-            got = f"got {shown(lines[last])} ({error})"
-            takes = "fields whose quotes are closed"
-            raise InputError(path, f"line {last + 1}: {got}", takes=takes) from None
+    """Heads and rows of a text; the heads may be in a line of comment above the numbers."""
+    lines = text.removesuffix("\n").split("\n")
+    heads, first, dialect = _heads(path, lines, book)
+    rows: list[tuple[int, list[str]]] = []
+    for number, row in dialect.records(path, lines, first):
         if not any(row) or row[0].startswith("#"):
             continue
-        number += first
         if len(row) != len(heads):
             raise InputError(
                 path, f"line {number} has {len(row)} columns", takes=f"{len(heads)} as in its heads"
             )
-        cells.append(row)
-        numbers.append(number)
-    return _Rows(heads, cells, tuple(numbers), _decimal(path, cells, separator))
+        rows.append((number, row))
+        if len(rows) > book.most_rows:
+            break
+    dialect = replace(dialect, decimal=decimal_mark(path, rows, dialect.separator))
+    return _Rows(heads, [row for _, row in rows], tuple(number for number, _ in rows), dialect)
 
 
-def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, str | None]:
-    """Heads in the first line with a known quantity, the place of the line below, and the separator."""
+def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], int, Dialect]:
+    """Heads in the first line with a known quantity, the place of the line below, and their dialect."""
     wrong: InputError | None = None
     for place in range(min(len(lines), _MOST_ABOVE)):
         record, below = record_at(lines, place)
-        text = record.lstrip("# ")
-        separator = separator_of(text)
-        heads = fields(text, separator)
+        text = uncommented(record)
+        dialect = Dialect.of_heads(text)
+        heads = dialect.fields(text)
         known = 0
         for head in heads[:_MOST_COLUMNS]:
             try:
@@ -449,36 +410,10 @@ def _heads(path: Path, lines: list[str], book: ColumnBook) -> tuple[list[str], i
         if known:
             if len(heads) > _MOST_COLUMNS:
                 raise InputError(path, f"has {len(heads)} columns", takes=f"at most {_MOST_COLUMNS}")
-            return heads, below, separator
+            return heads, below, dialect
     if wrong is not None:
         raise InputError(path, str(wrong))
     raise InputError(path, "has no heads of known columns", takes=f"heads such as {book.examples}")
-
-
-def _decimal(path: Path, cells: Sequence[Sequence[str]], separator: str | None) -> str:
-    """Decimal mark of all numbers of a file. Raises InputError if the numbers have different marks, or may
-    all be read with both.
-    """
-    numbers = [cell for row in cells for cell in row if _OF_NUMBERS.issuperset(cell)]
-    marked = {mark: cell for mark in ".," for cell in reversed(numbers) if mark in cell}
-    proofs = {mark: cell for cell in reversed(numbers) if (mark := proven_mark(cell)) is not None}
-    # A comma in quotes between commas separates thousands if a point is proven to be the decimal mark.
-    certain = marked.keys() <= proofs.keys() or (separator == "," and "." in proofs)
-    if len(proofs) == 1 and (certain or any(map(has_thousands, numbers))):
-        return next(iter(proofs))
-    if len(marked) > 1:
-        point, comma = ({**marked, **proofs}[mark] for mark in ".,")
-        raise InputError(
-            path, f"mixes decimal points and decimal commas, {shown(point)} and {shown(comma)}", takes="one"
-        )
-    if "," in marked and separator == ",":
-        whole, part = marked[","].split(",")
-        decimal, thousands = readings(whole, part, "")
-        takes = "numbers without separators of thousands"
-        raise InputError(
-            path, f"has the number {shown(marked[','])}, which may be {decimal} or {thousands}", takes=takes
-        )
-    return next(iter(marked), ".")
 
 
 def _columns(
@@ -514,12 +449,12 @@ def _key(column: Column) -> tuple[str, bool]:
 
 def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
     """Values of a column in SI units, shape (n,)."""
-    _refuse_grouped(source, [row[place] for row in rows.cells if rows.decimal in row[place]], column)
+    _refuse_grouped(source, [row[place] for row in rows.cells if rows.dialect.decimal in row[place]], column)
     values = np.empty(len(rows.cells))
     for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
         cell = row[place]
         try:
-            number = _number(cell, rows.decimal)
+            number = rows.dialect.value(cell)
             # A relative uncertainty has no quantity of its own; others are converted with that of the value.
             later = column.uncertainty and column.unit != "%"
             values[k] = number if later else column.value(number)
@@ -545,18 +480,6 @@ def _refuse_grouped(source: str, cells: Sequence[str], column: Column) -> None:
             f"{decimal} or {thousands}",
             takes="numbers without separators of thousands, or with another number of decimals",
         )
-
-
-def _number(cell: str, decimal: str) -> float:
-    if not cell or len(cell) > _LONGEST_TEXT or not _OF_NUMBERS.issuperset(cell):
-        raise ValueError("a number")
-    try:
-        number = value_of(cell, decimal)
-    except ValueError:
-        raise ValueError("a number") from None
-    if not np.isfinite(number):
-        raise ValueError("a finite number")
-    return number
 
 
 def _uncertainties(

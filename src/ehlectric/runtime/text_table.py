@@ -269,7 +269,7 @@ def decimal_mark(path: object, rows: Iterable[tuple[int, Sequence[str]]], separa
         decimal, thousands = readings(whole, part, "")
         raise InputError(
             path,
-            f"has the number {shown(cell)} in line {line}, which may be {decimal} or {thousands}",
+            f"line {line} has the number {shown(cell)}, which may be {decimal} or {thousands}",
             takes="numbers without separators of thousands",
         )
     return next(iter(marked), ".")

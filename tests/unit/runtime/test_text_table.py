@@ -231,7 +231,7 @@ def test_the_decimal_mark_of_all_numbers(rows, separator, mark):
     "rows, separator, message",
     [
         (["0.5", "0,5"], ";", "'0.5' in line 0 and '0,5' in line 1"),
-        (["1,500"], ",", "'1,500' in line 0, which may be 1.5 or 1500"),
+        (["1,500"], ",", "line 0 has the number '1,500', which may be 1.5 or 1500"),
     ],
 )
 def test_decimal_marks_in_doubt(rows, separator, message):
