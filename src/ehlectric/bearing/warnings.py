@@ -283,9 +283,9 @@ def _seal_flags(bearing: Bearing) -> Iterator[Flag]:
 
 def _index_of(oil: OilTemperature) -> str:
     """Viscosity index of a grade with a given viscosity at 100 degC, in words; empty without one."""
-    at_40, at_100 = float(oil.at_40()), float(oil.at_100())
-    if oil.kinematic_viscosity_100 is None or 1e6 * at_100 < LEAST_AT_100:
+    if oil.kinematic_viscosity_100 is None or 1e6 * oil.at_100() < LEAST_AT_100:
         return ""
+    at_40, at_100 = float(oil.at_40()), float(oil.at_100())
     given = f"{readable(1e6 * oil.kinematic_viscosity_100, 4)} mm²/s at 100 °C"
     return f"; with {given} its viscosity index is {viscosity_index(at_40, at_100):.0f}"
 

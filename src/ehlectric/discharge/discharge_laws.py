@@ -258,15 +258,15 @@ def discharge_costs(
 class Leakage:
     """Leakage of charge through the oil at ambient pressure; None if the conductivity is unknown."""
 
-    relaxation_time: float | None = None  # charge relaxation time eps0 eps_r/sigma [s]
+    relaxation_time: Numbers | None = None  # charge relaxation time eps0 eps_r/sigma [s]
     # Frequency above which the film is a capacitor, 1/(2 pi ``relaxation_time``) [Hz].
-    corner_frequency: float | None = None
+    corner_frequency: Numbers | None = None
 
 
-def conductivity_of(discharge: Discharge | None, oil: Oil) -> float | None:
+def conductivity_of(discharge: Discharge | None, oil: Oil) -> Numbers | None:
     """Electrical conductivity [S/m] of the table ``discharge``, or else of the oil; None without one."""
     given = None if discharge is None else discharge.conductivity
-    return known(float, oil.conductivity) if given is None else given
+    return oil.conductivity if given is None else given
 
 
 def leakage(
@@ -286,7 +286,7 @@ def leakage(
     if over is not None and film is not None and film.temperature is not None:
         conductivity = mean_conductivity(film, over(film.temperature), semi_axes)
     time = relaxation_time(oil.relative_permittivity, conductivity)
-    return Leakage(relaxation_time=float(time), corner_frequency=float(1.0 / (2.0 * np.pi * time)))
+    return Leakage(relaxation_time=time, corner_frequency=1.0 / (2.0 * np.pi * time))
 
 
 def mean_conductivity(film: Film | PointFilm, conductivity: Array, semi_axes: tuple[float, ...]) -> float:
