@@ -32,10 +32,25 @@ def formula_film(formula, groups, moes_l):
     """Central and minimum film by a formula in Moes' unit, with L of its coefficient; NaN for none."""
     speed, coefficient = 0.5 * SPEED, moes_l / SPEED**0.25
     if groups.ratio is None:
-        contact = film_line.LineContact(1.0, 1.0, groups.moes_m * SPEED**0.5, speed, 1.0, coefficient)
+        contact = film_line.LineContact(
+            reduced_radius=1.0,
+            reduced_modulus=1.0,
+            load_per_length=groups.moes_m * SPEED**0.5,
+            entrainment_speed=speed,
+            viscosity=1.0,
+            pressure_viscosity_coefficient=coefficient,
+        )
     else:
         load = groups.moes_m * SPEED**0.75
-        contact = film_point.PointContact(1.0, groups.radius_ratio, 1.0, load, speed, 1.0, coefficient)
+        contact = film_point.PointContact(
+            radius_x=1.0,
+            radius_y=groups.radius_ratio,
+            reduced_modulus=1.0,
+            load=load,
+            entrainment_speed=speed,
+            viscosity=1.0,
+            pressure_viscosity_coefficient=coefficient,
+        )
     film = formula(contact)
     found = (film.central_thickness, film.minimum_thickness)
     return [np.nan if thickness is None else thickness / SPEED**0.5 for thickness in found]

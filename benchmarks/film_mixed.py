@@ -81,7 +81,10 @@ def masjedi_khonsari_line(contact: LineContact, bodies: RoughBodies) -> MixedFil
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 400e3, 0.5, 0.01, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=400e3, entrainment_speed=0.5,
+    ...     viscosity=0.01, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> found = masjedi_khonsari_line(contact, RoughBodies(roughness=100e-9, hardness=7e9))
     >>> round(found.central_thickness * 1e9, 1), round(found.asperity_share, 3)
     (82.3, 0.292)
@@ -133,7 +136,10 @@ def masjedi_khonsari_point(contact: PointContact, bodies: RoughBodies) -> MixedF
 
     Examples
     --------
-    >>> contact = PointContact(10e-3, 10e-3, 226e9, 50.0, 0.2, 0.02, 22e-9)
+    >>> contact = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=50.0, entrainment_speed=0.2,
+    ...     viscosity=0.02, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> found = masjedi_khonsari_point(contact, RoughBodies(roughness=50e-9, hardness=7e9))
     >>> round(found.central_thickness * 1e9, 1), round(found.asperity_share, 3)
     (63.1, 0.156)

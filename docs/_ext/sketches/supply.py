@@ -67,7 +67,10 @@ def _half_times(ax: Axes) -> None:
             conditions = resolve_bearing(case)
             bearing = conditions.bearing
             rolling = rolling_speeds(
-                bearing.element_diameter, bearing.pitch_diameter, speed, contact_angle=_ANGLE
+                element_diameter=bearing.element_diameter,
+                pitch_diameter=bearing.pitch_diameter,
+                inner_speed=speed,
+                contact_angle=_ANGLE,
             )
             contact = BallContact(RingContacts(conditions, inner, _ANGLE, rolling.inner_entrainment), _LOAD)
             at = contact.conditions

@@ -330,9 +330,9 @@ def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: N
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(
-        bearing.element_diameter,
-        bearing.pitch_diameter,
-        bearing.inner_speed,
+        element_diameter=bearing.element_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        inner_speed=bearing.inner_speed,
         contact_angle=geometry.free_angle,
     )
     slope = temperature_coefficient(case.lubricant, temperature)

@@ -331,15 +331,15 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
     At the first position an element is on the load line. The second half mirrors the first.
     """
     bearing, geometry, kind = conditions.bearing, conditions.geometry, KINDS[conditions.bearing.kind]
-    duty = bearing.radial_load, bearing.axial_load, bearing.inner_speed
+    duty = {name: getattr(bearing, name) for name in ("radial_load", "axial_load", "inner_speed")}
     solid = conditions.modulus, conditions.element.density
-    shape = np.broadcast_shapes(*map(np.shape, (*duty, *solid, *geometry.dimensions)))
+    shape = np.broadcast_shapes(*map(np.shape, (*duty.values(), *solid, *geometry.dimensions)))
     angles = 2.0 * math.pi / bearing.elements * np.arange(positions) / positions
     solved = positions // 2 + 1
     with _keys_of_bearing():
         # All positions are solved at once, along the first axis.
         cage = angles[:solved].reshape(-1, *(1 for _ in shape))
-        operation = Operation(*duty, cage_angle=cage)
+        operation = Operation(**duty, cage_angle=cage)
         if not shape:
             kind.check(geometry, operation)
         at = kind.equilibrium(geometry, operation, *solid)
@@ -348,7 +348,7 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
             check_balance(equilibrium)
 
     def turned(k: int) -> Equilibrium:
-        angle = Operation(*duty, cage_angle=angles[k]).positions(bearing.elements, geometry.groups)
+        angle = Operation(**duty, cage_angle=angles[k]).positions(bearing.elements, geometry.groups)
         return mirrored(equilibria[positions - k], angle, geometry.groups)
 
     return (*equilibria, *map(turned, range(solved, positions)))

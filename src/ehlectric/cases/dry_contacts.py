@@ -92,6 +92,10 @@ def hertz_pressure(contact: Contact) -> float:
     """
     modulus, _ = modulus_of(contact)
     if contact.geometry == "line":
-        return float(hertz.line_max_pressure(line_load(contact), line_radius(contact)[0], modulus))
+        return float(
+            hertz.line_max_pressure(
+                load_per_length=line_load(contact), radius=line_radius(contact)[0], modulus=modulus
+            )
+        )
     radii = point_radius(contact, "radius_x"), point_radius(contact, "radius_y")
     return float(hertz.dry_contact(point_load(contact), *radii, modulus).max_pressure)

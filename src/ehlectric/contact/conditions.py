@@ -115,14 +115,14 @@ class SharedConditions(ABC, Generic[V]):
     film_factor: V = 1.0
 
     @property
-    def _speed_and_oil(self) -> tuple[V, V, V]:
-        """Speed at which a flooded film is thinner by the film factor [m/s], viscosity [Pa s], alpha* [1/Pa].
+    def _film_speed(self) -> V:
+        """Entrainment speed at which a flooded film is thinner by the film factor [m/s].
 
         An isothermal, fully flooded film is thinner by ``film_factor`` at the entrainment speed
         u film_factor^(1/exponent).
         """
-        speed = self.entrainment_speed * self.film_factor ** (1.0 / self.film_exponent)
-        return speed, self.viscosity, self.pressure_viscosity_coefficient
+        speed: V = self.entrainment_speed * self.film_factor ** (1.0 / self.film_exponent)
+        return speed
 
     @property
     @abstractmethod
@@ -144,7 +144,7 @@ class SharedConditions(ABC, Generic[V]):
         """Dimensionless velocity parameter Lambda = 6 eta0 u_s R^2/(b^3 p_h), where u_s = u1 + u2."""
         return velocity_parameter(
             viscosity=self.viscosity,
-            entrainment_speed=self._speed_and_oil[0],
+            entrainment_speed=self._film_speed,
             radius=self.radius_along,
             half_width=self.semi_axes[0],
             max_pressure=self.max_pressure,
@@ -176,7 +176,12 @@ class Conditions(SharedConditions[V]):
         ``film_factor`` acts only here, as a lower entrainment speed.
         """
         return LineContact(
-            self.reduced_radius, self.reduced_modulus, self.load_per_length, *self._speed_and_oil
+            reduced_radius=self.reduced_radius,
+            reduced_modulus=self.reduced_modulus,
+            load_per_length=self.load_per_length,
+            entrainment_speed=self._film_speed,
+            viscosity=self.viscosity,
+            pressure_viscosity_coefficient=self.pressure_viscosity_coefficient,
         )
 
     @property
@@ -218,7 +223,13 @@ class PointConditions(SharedConditions[V]):
         ``film_factor`` acts only here, as a lower entrainment speed.
         """
         return PointContact(
-            self.radius_x, self.radius_y, self.reduced_modulus, self.load, *self._speed_and_oil
+            radius_x=self.radius_x,
+            radius_y=self.radius_y,
+            reduced_modulus=self.reduced_modulus,
+            load=self.load,
+            entrainment_speed=self._film_speed,
+            viscosity=self.viscosity,
+            pressure_viscosity_coefficient=self.pressure_viscosity_coefficient,
         )
 
     @property
@@ -263,8 +274,9 @@ def line_conditions(oil: Oil, *, bodies: Sequence[float] = (), **inputs: Any) ->
     >>> round(conditions.max_pressure / 1e9, 3)
     1.039
     """
-    dry = inputs["load_per_length"], inputs["reduced_radius"], inputs["reduced_modulus"]
-    half_width, max_pressure = float(hertz.line_half_width(*dry)), float(hertz.line_max_pressure(*dry))
+    load, radius, modulus = inputs["load_per_length"], inputs["reduced_radius"], inputs["reduced_modulus"]
+    dry = {"load_per_length": load, "radius": radius, "modulus": modulus}
+    half_width, max_pressure = float(hertz.line_half_width(**dry)), float(hertz.line_max_pressure(**dry))
     check_width(half_width, min([inputs["reduced_radius"], *bodies]))
     check_pressure(max_pressure, oil)
     return Conditions(

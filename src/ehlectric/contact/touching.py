@@ -460,7 +460,7 @@ def behaviour_of(
     return "mixed"
 
 
-def strip_resistance(width: float, length: float, resistivity: float) -> float:
+def strip_resistance(*, width: float, length: float, resistivity: float) -> float:
     """Constriction resistance of a strip between two half-spaces, as that of an ellipse with its axes.
 
     R = rho K(1 - b^2/a^2)/(pi a) with the semi-axes a and b and the complete elliptic integral K of a
@@ -472,7 +472,7 @@ def strip_resistance(width: float, length: float, resistivity: float) -> float:
 
     Examples
     --------
-    >>> round(strip_resistance(2e-6, 2e-6, 2.2e-7), 6)
+    >>> round(strip_resistance(width=2e-6, length=2e-6, resistivity=2.2e-7), 6)
     0.11
     """
     minor, major = sorted((0.5 * width, 0.5 * length))
@@ -489,7 +489,11 @@ def constriction(spots: Spots, electric: Electric, length: float | None) -> floa
     if rho is None or not spots.number:
         return None
     if spots.positions.shape[1] == 1:
-        return None if length is None else strip_resistance(float(np.max(spots.areas)), length, rho)
+        return (
+            None
+            if length is None
+            else strip_resistance(width=float(np.max(spots.areas)), length=length, resistivity=rho)
+        )
     if spots.number > _MOST_SOLVED:
         return greenwood_cluster(spots.positions, spots.radii, rho)
     return cluster_resistance(spots.positions, spots.radii, rho, electric.mean_free_path or 0.0)

@@ -58,7 +58,10 @@ class Formula(Generic[_Contact]):
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 0.0)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=0.0,
+    ... )
     >>> Formula("Pan-Hamrock", pan_hamrock, piezoviscous=True)(contact)
     Thickness(minimum_thickness=None, central_thickness=None)
     """
@@ -84,7 +87,10 @@ class Formula(Generic[_Contact]):
 
         Examples
         --------
-        >>> light = LineContact(14.1e-3, 226e9, 1e3, 4.0, 0.04, 22e-9)
+        >>> light = LineContact(
+        ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1e3, entrainment_speed=4.0,
+        ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+        ... )
         >>> FORMULAS["pan_hamrock"].ranges(light)["central_thickness"]
         'isoviscous-rigid regime'
         """
@@ -95,7 +101,7 @@ class Formula(Generic[_Contact]):
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LineContact:
     """Line contact with the inputs of the film-thickness formulas, in SI units.
 
@@ -157,7 +163,10 @@ def dowson_higginson(contact: LineContact) -> Thickness:
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(dowson_higginson(contact).minimum_thickness * 1e6, 3)
     0.615
     """
@@ -178,7 +187,10 @@ def dowson_toyoda(contact: LineContact) -> CentralThickness:
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(dowson_toyoda(contact).central_thickness * 1e6, 3)
     0.85
     """
@@ -200,7 +212,10 @@ def pan_hamrock(contact: LineContact) -> BothThicknesses:
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(pan_hamrock(contact).minimum_thickness * 1e6, 3)
     0.574
     """
@@ -236,7 +251,10 @@ def martin(contact: LineContact) -> Thickness:
     --------
     A roller of 11 mm under 3.72 N, 338 N/m:
 
-    >>> contact = LineContact(6.5e-3, 226e9, 338.0, 4.0, 0.0125, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=6.5e-3, reduced_modulus=226e9, load_per_length=338.0, entrainment_speed=4.0,
+    ...     viscosity=0.0125, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(martin(contact).minimum_thickness * 1e6, 2)
     4.71
     """
@@ -264,7 +282,10 @@ def moes(contact: LineContact) -> CentralThickness:
 
     Examples
     --------
-    >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
+    >>> contact = LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(moes(contact).central_thickness * 1e6, 3)
     0.876
     """
@@ -300,9 +321,15 @@ def regime(contact: LineContact) -> str:
 
     Examples
     --------
-    >>> regime(LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9))
+    >>> regime(LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1.57e6, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... ))
     'piezoviscous-elastic'
-    >>> regime(LineContact(14.1e-3, 226e9, 1e3, 4.0, 0.04, 0.0))
+    >>> regime(LineContact(
+    ...     reduced_radius=14.1e-3, reduced_modulus=226e9, load_per_length=1e3, entrainment_speed=4.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=0.0,
+    ... ))
     'isoviscous-rigid'
     """
     return dominant({name: float(film) for name, film in _moes_asymptotes(contact).items()})

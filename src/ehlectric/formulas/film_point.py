@@ -23,7 +23,7 @@ from ehlectric.formulas.film_line import (
 from ehlectric.formulas.hertz import axis_ratio
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PointContact:
     """Point contact with the inputs of the film-thickness formulas, in SI units.
 
@@ -87,7 +87,10 @@ def hamrock_dowson(contact: PointContact) -> BothThicknesses:
 
     Examples
     --------
-    >>> contact = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, 0.04, 22e-9)
+    >>> contact = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=20.0, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> film = hamrock_dowson(contact)
     >>> round(film.minimum_thickness * 1e6, 3), round(film.central_thickness * 1e6, 3)
     (0.251, 0.438)
@@ -120,7 +123,10 @@ def chittenden(contact: PointContact) -> BothThicknesses:
 
     Examples
     --------
-    >>> contact = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, 0.04, 22e-9)
+    >>> contact = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=20.0, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> film = chittenden(contact)
     >>> round(film.minimum_thickness * 1e6, 3), round(film.central_thickness * 1e6, 3)
     (0.252, 0.427)
@@ -171,7 +177,10 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
 
     Examples
     --------
-    >>> contact = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, 0.04, 22e-9)
+    >>> contact = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=20.0, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(nijenbanning_venner_moes(contact).central_thickness * 1e6, 3)
     0.45
     """
@@ -197,7 +206,10 @@ def brewe_hamrock_taylor(contact: PointContact) -> Thickness:
 
     Examples
     --------
-    >>> contact = PointContact(10e-3, 10e-3, 226e9, 1.0, 2.0, 0.04, 22e-9)
+    >>> contact = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=1.0, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... )
     >>> round(brewe_hamrock_taylor(contact).minimum_thickness * 1e6, 2)
     0.9
     """
@@ -218,7 +230,10 @@ def load_exponent(contact: PointContact) -> Numbers:
 
     Examples
     --------
-    >>> light = PointContact(10e-3, 10e-3, 226e9, 1e-6, 2.0, 0.04, 0.0)
+    >>> light = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=1e-6, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=0.0,
+    ... )
     >>> round(load_exponent(light), 2), round(load_exponent(replace(light, load=1e3)), 2)
     (2.0, 0.13)
     """
@@ -238,9 +253,15 @@ def regime(contact: PointContact) -> str:
 
     Examples
     --------
-    >>> regime(PointContact(10e-3, 10e-3, 226e9, 2e3, 2.0, 0.04, 22e-9))
+    >>> regime(PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=2e3, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=22e-9,
+    ... ))
     'piezoviscous-elastic'
-    >>> regime(PointContact(10e-3, 10e-3, 226e9, 1e-3, 2.0, 0.04, 0.0))
+    >>> regime(PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=1e-3, entrainment_speed=2.0,
+    ...     viscosity=0.04, pressure_viscosity_coefficient=0.0,
+    ... ))
     'isoviscous-rigid'
     """
     return dominant({name: float(film) for name, film in _asymptotes(contact).items()})

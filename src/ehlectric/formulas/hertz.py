@@ -146,7 +146,7 @@ def reduced_modulus(compliance_1: N, compliance_2: N) -> N:
     return 2.0 / (compliance_1 + compliance_2)
 
 
-def line_half_width(load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
+def line_half_width(*, load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
     """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')). ``load_per_length`` [N/m]; ``radius``,
     reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     Returns b [m].
@@ -155,23 +155,23 @@ def line_half_width(load_per_length: Numbers, radius: Numbers, modulus: Numbers)
 
     Examples
     --------
-    >>> round(line_half_width(1.57e6, 14.1e-3, 226e9) * 1e6, 1)
+    >>> round(line_half_width(load_per_length=1.57e6, radius=14.1e-3, modulus=226e9) * 1e6, 1)
     499.4
     """
     return as_float(np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus)))
 
 
-def line_max_pressure(load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
+def line_max_pressure(*, load_per_length: Numbers, radius: Numbers, modulus: Numbers) -> Numbers:
     """Largest Hertz pressure of a line contact, p_h = 2 w/(pi b). ``load_per_length`` [N/m]; ``radius``,
     reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     Returns p_h [Pa].
 
     Examples
     --------
-    >>> round(line_max_pressure(1.57e6, 14.1e-3, 226e9) / 1e9, 3)
+    >>> round(line_max_pressure(load_per_length=1.57e6, radius=14.1e-3, modulus=226e9) / 1e9, 3)
     2.001
     """
-    half_width = line_half_width(load_per_length, radius, modulus)
+    half_width = line_half_width(load_per_length=load_per_length, radius=radius, modulus=modulus)
     return 2.0 * load_per_length / (np.pi * half_width)
 
 

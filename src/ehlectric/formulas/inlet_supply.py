@@ -186,7 +186,10 @@ def line_rolling_force(contact: LineContact, load_per_length: ArrayLike) -> Arra
 
     Examples
     --------
-    >>> contact = LineContact(4.5e-3, 226e9, 0.0, 4.5, 0.0125, 0.0)
+    >>> contact = LineContact(
+    ...     reduced_radius=4.5e-3, reduced_modulus=226e9, load_per_length=0.0, entrainment_speed=4.5,
+    ...     viscosity=0.0125, pressure_viscosity_coefficient=0.0,
+    ... )
     >>> line_rolling_force(contact, [1e3, 1e5, 2e5]).round(1).tolist()
     [15.1, 51.1, 51.1]
     """
@@ -216,7 +219,10 @@ def point_rolling_force(contact: PointContact, load: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> contact = PointContact(4.7e-3, 0.15, 226e9, 900.0, 4.5, 0.0125, 0.0)
+    >>> contact = PointContact(
+    ...     radius_x=4.7e-3, radius_y=0.15, reduced_modulus=226e9, load=900.0, entrainment_speed=4.5,
+    ...     viscosity=0.0125, pressure_viscosity_coefficient=0.0,
+    ... )
     >>> point_rolling_force(contact, [1.0, 100.0, 800.0]).round(4).tolist()
     [0.0368, 0.0911, 0.1676]
     """

@@ -254,11 +254,17 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
     contact: PointContact | LineContact
     with _of_geometry(point=point, options=options):
         force = _number("load", given, "N" if point else "N/m", options=options)
-        common = (values["modulus"], force, values["speed"], at.viscosity, at.alpha_star)
+        common = {
+            "reduced_modulus": values["modulus"],
+            "entrainment_speed": values["speed"],
+            "viscosity": at.viscosity,
+            "pressure_viscosity_coefficient": at.alpha_star,
+        }
         if point:
-            contact = PointContact(values["radius"], values["radius_across"], *common)
+            radii = {"radius_x": values["radius"], "radius_y": values["radius_across"]}
+            contact = PointContact(**radii, **common, load=force)
         else:
-            contact = LineContact(values["radius"], *common)
+            contact = LineContact(**common, reduced_radius=values["radius"], load_per_length=force)
         found = contact_film(contact, at)
     rq = _rq(given, options=options)
     ratio = None if rq is None else float(found.minimum_thickness) / rq

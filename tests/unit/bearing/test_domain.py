@@ -33,7 +33,16 @@ def roller(load, *, inner):
     """Half-width and the length sqrt(2 R h) of a roller's contact [m]."""
     sign = 1.0 if inner else -1.0
     radius = 1.0 / (2.0 / ROLLER + sign * 2.0 / (PITCH - sign * ROLLER))
-    film = moes(LineContact(radius, MODULUS, load / LENGTH, SPEED, VISCOSITY, ALPHA)).central_thickness
+    film = moes(
+        LineContact(
+            reduced_radius=radius,
+            reduced_modulus=MODULUS,
+            load_per_length=load / LENGTH,
+            entrainment_speed=SPEED,
+            viscosity=VISCOSITY,
+            pressure_viscosity_coefficient=ALPHA,
+        )
+    ).central_thickness
     return math.sqrt(8.0 * load / LENGTH * radius / (math.pi * MODULUS)), math.sqrt(2.0 * radius * film)
 
 
@@ -42,7 +51,15 @@ def ball(load, *, inner):
     sign, groove = (1.0, 0.52) if inner else (-1.0, 0.53)
     rx = 1.0 / (2.0 / D + sign * 2.0 / (PITCH - sign * D))
     ry = 1.0 / (2.0 / D - 1.0 / (groove * D))
-    contact = PointContact(rx, ry, MODULUS, load, SPEED, VISCOSITY, ALPHA)
+    contact = PointContact(
+        radius_x=rx,
+        radius_y=ry,
+        reduced_modulus=MODULUS,
+        load=load,
+        entrainment_speed=SPEED,
+        viscosity=VISCOSITY,
+        pressure_viscosity_coefficient=ALPHA,
+    )
     film = nijenbanning_venner_moes(contact).central_thickness
     dry = dry_contact(load, rx, ry, MODULUS)
     return dry.semi_axis_x, dry.semi_axis_y, math.sqrt(2.0 * rx * film), math.sqrt(2.0 * ry * film)

@@ -75,7 +75,9 @@ def test_a_load_of_next_to_nothing_has_no_balance():
     """From Python, where nothing is refused before: no error of division."""
     geometry = resolve_bearing(bearing_case(BALLS)).geometry
     try:
-        state = ball_equilibrium(geometry, Operation(1e-30, 0.0, 314.0), 226e9, 7800.0)
+        state = ball_equilibrium(
+            geometry, Operation(radial_load=1e-30, axial_load=0.0, inner_speed=314.0), 226e9, 7800.0
+        )
     except ConvergenceError:
         return
     assert state.residual < 1e-9

@@ -45,7 +45,11 @@ def of_balls(load):
 
 def of_rollers(load):
     width = load / 10e-3
-    return line_half_width(width, 5e-3, 226e9), 5e-3, line_max_pressure(width, 5e-3, 226e9)
+    return (
+        line_half_width(load_per_length=width, radius=5e-3, modulus=226e9),
+        5e-3,
+        line_max_pressure(load_per_length=width, radius=5e-3, modulus=226e9),
+    )
 
 
 # Film of the largest load. An element that touches without a load has the film of twice this film.

@@ -219,8 +219,9 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
         for contact in curve.solutions:
             film = chittenden(
                 PointContact(
-                    radii.radius_x, radii.radius_y, solution.conditions.modulus, contact.load, race.speed,
-                    oil.viscosity, oil.alpha_star,
+                    radius_x=radii.radius_x, radius_y=radii.radius_y, load=contact.load,
+                    reduced_modulus=solution.conditions.modulus, entrainment_speed=race.speed,
+                    viscosity=oil.viscosity, pressure_viscosity_coefficient=oil.alpha_star,
                 )
             )  # fmt: skip
             if contact.moes_m > 100.0:

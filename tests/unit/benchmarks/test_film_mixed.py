@@ -20,12 +20,25 @@ RADIUS, MODULUS, G = 10e-3, 226e9, 4500.0
 
 
 def line(w, u, g=G):
-    return LineContact(RADIUS, MODULUS, w * MODULUS * RADIUS, 1.0, u * MODULUS * RADIUS, g / MODULUS)
+    return LineContact(
+        reduced_radius=RADIUS,
+        reduced_modulus=MODULUS,
+        load_per_length=w * MODULUS * RADIUS,
+        entrainment_speed=1.0,
+        viscosity=u * MODULUS * RADIUS,
+        pressure_viscosity_coefficient=g / MODULUS,
+    )
 
 
 def point(w, u, ratio=1.0, g=G):
     return PointContact(
-        RADIUS, ratio * RADIUS, MODULUS, w * MODULUS * RADIUS**2, 1.0, u * MODULUS * RADIUS, g / MODULUS
+        radius_x=RADIUS,
+        radius_y=ratio * RADIUS,
+        reduced_modulus=MODULUS,
+        load=w * MODULUS * RADIUS**2,
+        entrainment_speed=1.0,
+        viscosity=u * MODULUS * RADIUS,
+        pressure_viscosity_coefficient=g / MODULUS,
     )
 
 

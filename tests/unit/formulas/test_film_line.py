@@ -9,7 +9,14 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas.film_line import LineContact
 from tests.helpers.each import each
 
-PAPER = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
+PAPER = LineContact(
+    reduced_radius=14.1e-3,
+    reduced_modulus=226e9,
+    load_per_length=1.57e6,
+    entrainment_speed=4.0,
+    viscosity=0.04,
+    pressure_viscosity_coefficient=22e-9,
+)
 
 
 def test_moes_groups_of_the_paper():
@@ -33,7 +40,14 @@ def contact_of(moes_m, moes_l):
     """A contact with E' = R = 1 and the groups asked for."""
     u_s = 1e-10
     alpha = moes_l / u_s**0.25
-    return LineContact(1.0, 1.0, moes_m * u_s**0.5, 0.5 * u_s, 1.0, alpha)
+    return LineContact(
+        reduced_radius=1.0,
+        reduced_modulus=1.0,
+        load_per_length=moes_m * u_s**0.5,
+        entrainment_speed=0.5 * u_s,
+        viscosity=1.0,
+        pressure_viscosity_coefficient=alpha,
+    )
 
 
 # The four limits of the formula; 3/M is exact, the film of zero pressure gradient of Martin's contact.
@@ -61,7 +75,14 @@ def test_formulas_are_within_thirty_percent_of_the_solved_film(paper_result):
 
 
 # U = 1e-11, G = 1e4, W = 1e-4: powers of ten, so that the formulas can be done by hand.
-ROUND = LineContact(1.0, 1e11, 1e7, 1.0, 1.0, 1e-7)
+ROUND = LineContact(
+    reduced_radius=1.0,
+    reduced_modulus=1e11,
+    load_per_length=1e7,
+    entrainment_speed=1.0,
+    viscosity=1.0,
+    pressure_viscosity_coefficient=1e-7,
+)
 
 
 @pytest.mark.parametrize(

@@ -13,16 +13,40 @@ from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.each import each
 from tests.reference.rigid_point import rigid_load
 
-BALL = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, 0.04, 22e-9)
+BALL = PointContact(
+    radius_x=10e-3,
+    radius_y=10e-3,
+    reduced_modulus=226e9,
+    load=20.0,
+    entrainment_speed=2.0,
+    viscosity=0.04,
+    pressure_viscosity_coefficient=22e-9,
+)
 
 # U = 1e-11, G = 1e4, W = 1e-6: powers of ten, so that the formulas can be done by hand.
-ROUND = PointContact(1.0, 1.0, 1e11, 1e5, 1.0, 1.0, 1e-7)
+ROUND = PointContact(
+    radius_x=1.0,
+    radius_y=1.0,
+    reduced_modulus=1e11,
+    load=1e5,
+    entrainment_speed=1.0,
+    viscosity=1.0,
+    pressure_viscosity_coefficient=1e-7,
+)
 
 
 def contact_of(moes_m, moes_l, d=1.0):
     """A contact with E' = Rx = 1 and the groups asked for."""
     u_s = 1e-12
-    return PointContact(1.0, 1.0 / d, 1.0, moes_m * u_s**0.75, 0.5 * u_s, 1.0, moes_l / u_s**0.25)
+    return PointContact(
+        radius_x=1.0,
+        radius_y=1.0 / d,
+        reduced_modulus=1.0,
+        load=moes_m * u_s**0.75,
+        entrainment_speed=0.5 * u_s,
+        viscosity=1.0,
+        pressure_viscosity_coefficient=moes_l / u_s**0.25,
+    )
 
 
 def dimensionless(film, contact):
@@ -86,8 +110,9 @@ def test_long_ellipses_have_the_limits_of_the_line(ratio):
     c = contact
     a = dry_contact(c.load, c.radius_x, c.radius_y, c.reduced_modulus).semi_axis_y
     line = LineContact(
-        c.radius_x, c.reduced_modulus, 0.75 * c.load / a, c.entrainment_speed, c.viscosity,
-        c.pressure_viscosity_coefficient,
+        reduced_radius=c.radius_x, reduced_modulus=c.reduced_modulus, load_per_length=0.75 * c.load / a,
+        entrainment_speed=c.entrainment_speed, viscosity=c.viscosity,
+        pressure_viscosity_coefficient=c.pressure_viscosity_coefficient,
     )  # fmt: skip
     of_line, of_point = film_formulas._moes_asymptotes(line), point_formulas._asymptotes(contact)
     for limit in ("isoviscous-elastic", "piezoviscous-elastic", "piezoviscous-rigid"):

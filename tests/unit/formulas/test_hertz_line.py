@@ -27,14 +27,20 @@ def test_steel_on_steel():
 
 # b = sqrt(8*1.57e6*14.1e-3/(pi*226e9)) = 499.4 um, p_h = 2 w/(pi b) = 2.001 GPa, by hand.
 def test_paper_contact():
-    assert hertz.line_half_width(1.57e6, 14.1e-3, 226e9) == pytest.approx(499.4e-6, rel=1e-4, abs=0.0)
-    assert hertz.line_max_pressure(1.57e6, 14.1e-3, 226e9) == pytest.approx(2.001e9, rel=5e-4, abs=0.0)
+    assert hertz.line_half_width(load_per_length=1.57e6, radius=14.1e-3, modulus=226e9) == pytest.approx(
+        499.4e-6, rel=1e-4, abs=0.0
+    )
+    assert hertz.line_max_pressure(load_per_length=1.57e6, radius=14.1e-3, modulus=226e9) == pytest.approx(
+        2.001e9, rel=5e-4, abs=0.0
+    )
 
 
 @given(pressure=st.floats(1e6, 1e10), radius=positive, modulus=st.floats(1e6, 1e12))
 def test_load_and_pressure_are_inverse(pressure, radius, modulus):
     load = hertz.line_load(pressure, radius, modulus)
-    assert hertz.line_max_pressure(load, radius, modulus) == pytest.approx(pressure, rel=1e-12, abs=0.0)
+    assert hertz.line_max_pressure(load_per_length=load, radius=radius, modulus=modulus) == pytest.approx(
+        pressure, rel=1e-12, abs=0.0
+    )
 
 
 def test_pressure_carries_the_load():

@@ -89,8 +89,10 @@ def test_long_ellipses_tend_to_the_line():
     for radii_ratio in (1e2, 1e4):
         contact = dry_contact(20.0, 0.01, 0.01 * radii_ratio, E)
         w = 0.75 * 20.0 / contact.semi_axis_y
-        errors.append(abs(hertz.line_half_width(w, 0.01, E) / contact.semi_axis_x - 1.0))
-        assert hertz.line_max_pressure(w, 0.01, E) == pytest.approx(
+        errors.append(
+            abs(hertz.line_half_width(load_per_length=w, radius=0.01, modulus=E) / contact.semi_axis_x - 1.0)
+        )
+        assert hertz.line_max_pressure(load_per_length=w, radius=0.01, modulus=E) == pytest.approx(
             contact.max_pressure, rel=2 * errors[-1], abs=0.0
         )
     assert errors[0] < 0.02

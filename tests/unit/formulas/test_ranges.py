@@ -109,10 +109,16 @@ def drawn(rng, kind, oil):
         return math.exp(rng.uniform(math.log(low), math.log(high)))
 
     modulus, speed, radius = between(20e9, 300e9), between(0.01, 30.0), between(2e-3, 5e-2)
-    of_oil = (speed, oil.viscosity, oil.alpha_star)
+    common = {
+        "reduced_modulus": modulus,
+        "entrainment_speed": speed,
+        "viscosity": oil.viscosity,
+        "pressure_viscosity_coefficient": oil.alpha_star,
+    }
     if kind == "line":
-        return LineContact(radius, modulus, between(1e2, 3e6), *of_oil)
-    return PointContact(radius, radius * between(0.3, 30.0), modulus, between(1e-2, 3e3), *of_oil)
+        return LineContact(reduced_radius=radius, load_per_length=between(1e2, 3e6), **common)
+    radii = {"radius_x": radius, "radius_y": radius * between(0.3, 30.0)}
+    return PointContact(**radii, load=between(1e-2, 3e3), **common)
 
 
 @pytest.mark.slow

@@ -23,13 +23,28 @@ def speed_of(parameter):
 
 
 def line(parameter):
-    return LineContact(RADIUS, MODULUS, 1.0, speed_of(parameter), VISCOSITY, 0.0)
+    return LineContact(
+        reduced_radius=RADIUS,
+        reduced_modulus=MODULUS,
+        load_per_length=1.0,
+        entrainment_speed=speed_of(parameter),
+        viscosity=VISCOSITY,
+        pressure_viscosity_coefficient=0.0,
+    )
 
 
 def point(parameter, across):
     """Point contact whose ellipse is ``across`` times as wide as it is long."""
     radius_y = RADIUS * brentq(lambda ratio: axis_ratio(1.0, ratio) - across, 1.0, 1e5)
-    return PointContact(RADIUS, radius_y, MODULUS, 1.0, speed_of(parameter), VISCOSITY, 0.0)
+    return PointContact(
+        radius_x=RADIUS,
+        radius_y=radius_y,
+        reduced_modulus=MODULUS,
+        load=1.0,
+        entrainment_speed=speed_of(parameter),
+        viscosity=VISCOSITY,
+        pressure_viscosity_coefficient=0.0,
+    )
 
 
 @each("parameter", [1e-12, 1e-11, 1e-10])

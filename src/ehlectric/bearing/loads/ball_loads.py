@@ -109,8 +109,13 @@ class BallEquilibrium(BearingEquilibrium):
         """
         bearing, operation, spread = batch.bearing, batch.operation, batch.spread
         diameter = bearing.ball_diameter
-        sizes = (diameter, bearing.pitch_diameter, operation.inner_speed, operation.outer_speed)
-        rolling = rolling_speeds(*sizes, rolling_angle)
+        rolling = rolling_speeds(
+            element_diameter=diameter,
+            pitch_diameter=bearing.pitch_diameter,
+            inner_speed=operation.inner_speed,
+            outer_speed=operation.outer_speed,
+            contact_angle=rolling_angle,
+        )
         turning = gyroscopic_moment(bearing.element_mass(batch.density), diameter, rolling, rolling_angle)
         touching, gaps = np.maximum(0.0, depths), np.maximum(0.0, -depths)
 
@@ -179,7 +184,13 @@ class BallPoints:
             "inner_speed": row(operation.inner_speed),
             "outer_speed": row(operation.outer_speed),
             "ratio": row(bearing.ball_diameter / bearing.pitch_diameter),
-            "swing": row(centrifugal_force(bearing.element_mass(batch.density), bearing.pitch_diameter, 1.0)),
+            "swing": row(
+                centrifugal_force(
+                    mass=bearing.element_mass(batch.density),
+                    pitch_diameter=bearing.pitch_diameter,
+                    cage_speed=1.0,
+                )
+            ),
             "distance": row(bearing.radial_distance),
             "free_cosine": np.cos(row(bearing.free_angle)),
             "offsets": np.stack(np.broadcast_arrays(*map(row, bearing.offsets)))[:, np.newaxis],
@@ -766,14 +777,16 @@ def ball_equilibrium(
     An axial load of 900 N on nine balls:
 
     >>> bearing = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
-    >>> state = ball_equilibrium(bearing, Operation(0.0, 900.0), 226e9, 7800.0)
+    >>> state = ball_equilibrium(bearing, Operation(radial_load=0.0, axial_load=900.0), 226e9, 7800.0)
     >>> angle = state.inner_angle[0]
     >>> bool(np.allclose(state.inner_load * np.sin(angle), 100.0, rtol=1e-9))
     True
 
     Two loads at once:
 
-    >>> both = ball_equilibrium(bearing, Operation(0.0, np.array([900.0, 1800.0])), 226e9, 7800.0)
+    >>> both = ball_equilibrium(bearing, Operation(
+    ...     radial_load=0.0, axial_load=np.array([900.0, 1800.0]),
+    ... ), 226e9, 7800.0)
     >>> both.inner_load.shape, bool(np.allclose(both.inner_load[0], state.inner_load, rtol=1e-9))
     ((2, 9), True)
     """

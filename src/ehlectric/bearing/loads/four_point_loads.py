@@ -509,10 +509,12 @@ def four_point_equilibrium(
     Under an axial load only one diagonal carries; a light radial load is shared by both:
 
     >>> bearing = FourPointBearing(12, 12.7e-3, 60e-3, 0.52, 0.52, 0.0, np.radians(35.0))
-    >>> state = four_point_equilibrium(bearing, Operation(0.0, np.array([1200.0, -1200.0])), 226e9, 7800.0)
+    >>> state = four_point_equilibrium(bearing, Operation(
+    ...     radial_load=0.0, axial_load=np.array([1200.0, -1200.0]),
+    ... ), 226e9, 7800.0)
     >>> np.round(state.inner_load[:, [0, 12]] * np.abs(np.sin(state.inner_angle[:, [0, 12]])), 6).tolist()
     [[100.0, 0.0], [0.0, 100.0]]
-    >>> state = four_point_equilibrium(bearing, Operation(1000.0), 226e9, 7800.0)
+    >>> state = four_point_equilibrium(bearing, Operation(radial_load=1000.0), 226e9, 7800.0)
     >>> [round(float(state.inner_load[ball]), 1) for ball in (0, 1, 12, 13)]
     [220.8, 177.9, 220.8, 177.9]
     """

@@ -32,7 +32,7 @@ PROFILES = ("none", "logarithmic")
 _SHORT = 2.5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactRadii:
     """Radii of a rolling element and a ring at their contact, positive if convex, infinite if straight."""
 
@@ -331,7 +331,7 @@ class BallBearing(_Bearing):
         groove = self.inner_groove if inner else self.outer_groove
         ball, pitch = self.ball_diameter, self.pitch_diameter
         rolling = _rolling_radius(ball, pitch, angle, inner=inner)
-        return ContactRadii(ball / 2.0, ball / 2.0, rolling, -groove * ball)
+        return ContactRadii(element_x=ball / 2.0, element_y=ball / 2.0, ring_x=rolling, ring_y=-groove * ball)
 
     def element_mass(self, density: Numbers) -> Numbers:
         """Mass of a ball, rho pi D^3/6 [kg], from its density rho [kg/m^3]."""
@@ -594,10 +594,15 @@ class RollerBearing(_Bearing):
     def radii(self, _angle: Numbers = 0.0, *, inner: bool) -> ContactRadii:
         """Radii of roller and ring at the inner or outer contact, a line contact at the contact angle."""
         if self.thrust:
-            return ContactRadii(self.roller_diameter / 2.0, math.inf, math.inf, math.inf)
+            return ContactRadii(
+                element_x=self.roller_diameter / 2.0, element_y=math.inf, ring_x=math.inf, ring_y=math.inf
+            )
         sizes = self.roller_diameter, self.pitch_diameter, self.contact_angle
         return ContactRadii(
-            self.roller_diameter / 2.0, math.inf, _rolling_radius(*sizes, inner=inner), math.inf
+            element_x=self.roller_diameter / 2.0,
+            element_y=math.inf,
+            ring_x=_rolling_radius(*sizes, inner=inner),
+            ring_y=math.inf,
         )
 
     def element_mass(self, density: Numbers) -> Numbers:
@@ -621,6 +626,7 @@ class Speeds:
 
 
 def rolling_speeds(
+    *,
     element_diameter: Numbers,
     pitch_diameter: Numbers,
     inner_speed: Numbers,
@@ -645,7 +651,9 @@ def rolling_speeds(
     --------
     Speed of the cage in rpm and entrainment speed in m/s of a 6208 at 3000 rpm:
 
-    >>> speeds = rolling_speeds(11.906e-3, 60e-3, 3000 * 2 * np.pi / 60)
+    >>> speeds = rolling_speeds(
+    ...     element_diameter=11.906e-3, pitch_diameter=60e-3, inner_speed=3000 * 2 * np.pi / 60,
+    ... )
     >>> round(speeds.cage * 60 / (2 * np.pi)), round(float(speeds.inner_entrainment), 3)
     (1202, 4.527)
     """
@@ -657,14 +665,14 @@ def rolling_speeds(
     return Speeds(cage, 2.0 * inner / element_diameter, inner, outer)
 
 
-def centrifugal_force(mass: Numbers, pitch_diameter: Numbers, cage_speed: Numbers) -> Numbers:
+def centrifugal_force(*, mass: Numbers, pitch_diameter: Numbers, cage_speed: Numbers) -> Numbers:
     """Centrifugal force of an element, m (d_m/2) w_c^2. ``mass``, mass m of the element [kg];
     ``pitch_diameter``, pitch diameter d_m [m]; ``cage_speed``, angular speed w_c of the cage [rad/s]; all of
     shape (...). Returns centrifugal force [N], shape (...).
 
     Examples
     --------
-    >>> centrifugal_force(0.007, 0.06, 100.0)
+    >>> centrifugal_force(mass=0.007, pitch_diameter=0.06, cage_speed=100.0)
     2.1
     """
     return mass * 0.5 * pitch_diameter * cage_speed**2
@@ -684,7 +692,9 @@ def gyroscopic_moment(mass: Numbers, diameter: Numbers, speeds: Speeds, contact_
 
     Examples
     --------
-    >>> speeds = rolling_speeds(11.906e-3, 60e-3, 1000.0, contact_angle=0.5)
+    >>> speeds = rolling_speeds(
+    ...     element_diameter=11.906e-3, pitch_diameter=60e-3, inner_speed=1000.0, contact_angle=0.5,
+    ... )
     >>> round(float(gyroscopic_moment(0.007, 11.906e-3, speeds, 0.5)), 4)
     0.048
     """

@@ -122,7 +122,7 @@ def refuse_unbalanced(residual: Numbers, elements: str) -> None:
         raise ConvergenceError(f"forces on ring and {elements}, balanced only to {residual:.1e} of the load")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Operation:
     """Loads on a bearing, speeds of its rings, and the position of its cage.
 

@@ -344,14 +344,19 @@ class _Rollers:
 def _rolling(batch: Batch[RollerBearing]) -> Speeds:
     """Speeds of cage, rollers and contacts; floats, or arrays of shape (n,)."""
     bearing, operation = batch.bearing, batch.operation
-    sizes = bearing.roller_diameter, bearing.pitch_diameter
-    return rolling_speeds(*sizes, operation.inner_speed, operation.outer_speed, bearing.contact_angle)
+    return rolling_speeds(
+        element_diameter=bearing.roller_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        inner_speed=operation.inner_speed,
+        outer_speed=operation.outer_speed,
+        contact_angle=bearing.contact_angle,
+    )
 
 
 def _centrifugal_force(batch: Batch[RollerBearing]) -> Array:
     """Centrifugal force on each roller [N], shape (n,)."""
     mass, cage = batch.bearing.element_mass(batch.density), _rolling(batch).cage
-    force = centrifugal_force(mass, batch.bearing.pitch_diameter, cage)
+    force = centrifugal_force(mass=mass, pitch_diameter=batch.bearing.pitch_diameter, cage_speed=cage)
     return np.array(np.broadcast_to(force, (batch.number,)))
 
 
@@ -481,13 +486,13 @@ def roller_equilibrium(
     Load of the most loaded of 14 straight rollers, over their mean load:
 
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
-    >>> state = roller_equilibrium(bearing, Operation(5000.0), 226e9, 7800.0)
+    >>> state = roller_equilibrium(bearing, Operation(radial_load=5000.0), 226e9, 7800.0)
     >>> round(float(state.inner_load[0]) * 14 / 5000.0, 2)
     4.09
 
     At two loads:
 
-    >>> both = roller_equilibrium(bearing, Operation(np.array([5000.0, 8000.0])), 226e9, 7800.0)
+    >>> both = roller_equilibrium(bearing, Operation(radial_load=np.array([5000.0, 8000.0])), 226e9, 7800.0)
     >>> both.inner_load.shape, both.inner_line_load.shape
     ((2, 14), (2, 14, 41))
     """

@@ -103,7 +103,7 @@ def thrust_ball_equilibrium(
     16 balls that carry 1600 N at rest have 100 N each, at an angle of 90 degrees:
 
     >>> bearing = ThrustBallBearing(16, 9.525e-3, 54e-3, 0.54, 0.54)
-    >>> state = thrust_ball_equilibrium(bearing, Operation(0.0, 1600.0), 226e9, 7800.0)
+    >>> state = thrust_ball_equilibrium(bearing, Operation(radial_load=0.0, axial_load=1600.0), 226e9, 7800.0)
     >>> float(state.inner_load[0]), round(float(np.degrees(state.inner_angle[0])), 9)
     (100.0, 90.0)
     """
@@ -113,9 +113,18 @@ def thrust_ball_equilibrium(
         check_thrust_loads(bearing, operation)
     of_batch, duty, rows = batch.bearing, batch.operation, (bearing.elements, batch.number)
     square = bearing.bottom_angle
-    sizes = of_batch.ball_diameter, of_batch.pitch_diameter
-    speeds = rolling_speeds(*sizes, duty.inner_speed, duty.outer_speed, square)
-    outward = centrifugal_force(of_batch.element_mass(batch.density), of_batch.pitch_diameter, speeds.cage)
+    speeds = rolling_speeds(
+        element_diameter=of_batch.ball_diameter,
+        pitch_diameter=of_batch.pitch_diameter,
+        inner_speed=duty.inner_speed,
+        outer_speed=duty.outer_speed,
+        contact_angle=square,
+    )
+    outward = centrifugal_force(
+        mass=of_batch.element_mass(batch.density),
+        pitch_diameter=of_batch.pitch_diameter,
+        cage_speed=speeds.cage,
+    )
     along = duty.axial_load / bearing.elements
     slopes = _slopes(of_batch, batch.modulus, along, outward)
     loads = [along * np.hypot(1.0, slope) for slope in slopes]

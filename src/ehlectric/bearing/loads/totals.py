@@ -81,7 +81,7 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
     >>> from ehlectric.bearing.loads.ring import Operation
     >>> from ehlectric.bearing.loads.roller_loads import roller_equilibrium
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
-    >>> state = roller_equilibrium(bearing, Operation(5000.0, inner_speed=100.0), 226e9, 7800.0)
+    >>> state = roller_equilibrium(bearing, Operation(radial_load=5000.0, inner_speed=100.0), 226e9, 7800.0)
     >>> mechanics = mechanics_of(state)
     >>> round(mechanics["cage_speed"], 3), round(mechanics["element_speed"], 3)
     (40.833, 263.561)

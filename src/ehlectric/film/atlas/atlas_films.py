@@ -452,7 +452,10 @@ def contact_film(
     --------
     >>> from ehlectric.cases.case_oil import Lubricant
     >>> oil = Lubricant.from_dict({"base": "paper"}).at(None)
-    >>> ball = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, oil.viscosity, 0.0)
+    >>> ball = PointContact(
+    ...     radius_x=10e-3, radius_y=10e-3, reduced_modulus=226e9, load=20.0, entrainment_speed=2.0,
+    ...     viscosity=oil.viscosity, pressure_viscosity_coefficient=0.0,
+    ... )
     >>> film = contact_film(ball, oil)
     >>> round(film.central_thickness * 1e6, 2)
     0.42

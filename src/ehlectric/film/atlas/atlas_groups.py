@@ -141,7 +141,14 @@ class Groups:
     def formula(self) -> Numbers:
         """Central film in Moes' unit by the formula of Moes, or of Nijenbanning, Venner and Moes."""
         if self.ratio is None:
-            line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, 0.5 * _U, 1.0, self.moes_l / _U**0.25)
+            line = LineContact(
+                reduced_radius=1.0,
+                reduced_modulus=1.0,
+                load_per_length=self.moes_m * _U**0.5,
+                entrainment_speed=0.5 * _U,
+                viscosity=1.0,
+                pressure_viscosity_coefficient=self.moes_l / _U**0.25,
+            )
             return as_float(moes(line).central_thickness / _U**0.5)
         return as_float(nijenbanning_venner_moes(self._point).central_thickness / _U**0.5)
 
@@ -149,7 +156,15 @@ class Groups:
     def _point(self) -> PointContact:
         """Point contact of radius and modulus 1 with these groups."""
         load, coefficient = self.moes_m * _U**0.75, self.moes_l / _U**0.25
-        return PointContact(1.0, self.radius_ratio, 1.0, load, 0.5 * _U, 1.0, coefficient)
+        return PointContact(
+            radius_x=1.0,
+            radius_y=self.radius_ratio,
+            reduced_modulus=1.0,
+            load=load,
+            entrainment_speed=0.5 * _U,
+            viscosity=1.0,
+            pressure_viscosity_coefficient=coefficient,
+        )
 
     @property
     def load_exponent(self) -> Numbers:

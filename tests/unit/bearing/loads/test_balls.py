@@ -17,6 +17,7 @@ from ehlectric.bearing.loads.geometry import BallBearing, rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.film_point import PointContact
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 E, DENSITY = 226e9, 7800.0
 RPM = 2.0 * np.pi / 60.0
@@ -26,7 +27,7 @@ ANGULAR = BallBearing(12, 11.906e-3, 60e-3, 0.52, 0.53, contact_angle=math.radia
 
 
 def solve(bearing, *duty):
-    return ball_equilibrium(bearing, Operation(*duty), E, DENSITY)
+    return ball_equilibrium(bearing, operation_in_order(*duty), E, DENSITY)
 
 
 def many(elements, clearance=0.0):
@@ -286,7 +287,9 @@ def test_unloaded_balls_at_speed_sit_at_the_outer_ring():
     play = 15e-6 + state.radial_displacement + state.outer_approach[6]
     assert state.inner_gap[6] == pytest.approx(play, rel=1e-9, abs=0.0)
     assert not state.inner_gap[~free].any()
-    cage = rolling_speeds(bearing.ball_diameter, 60e-3, 9000 * RPM).cage
+    cage = rolling_speeds(
+        element_diameter=bearing.ball_diameter, pitch_diameter=60e-3, inner_speed=9000 * RPM
+    ).cage
     force = bearing.element_mass(DENSITY) * 30e-3 * cage**2
     assert state.centrifugal_force == pytest.approx(force, rel=1e-9, abs=0.0)
 
@@ -319,7 +322,9 @@ def test_turning_rings_the_same_way_is_the_cage_that_counts():
 
 def test_ceramic_balls_are_lighter_and_stiffer():
     steel = solve(B6208, 1800.0, 0.0, 20_000 * RPM)
-    ceramic = ball_equilibrium(B6208, Operation(1800.0, 0.0, 20_000 * RPM), 267e9, 3200.0)
+    ceramic = ball_equilibrium(
+        B6208, Operation(radial_load=1800.0, axial_load=0.0, inner_speed=20_000 * RPM), 267e9, 3200.0
+    )
     assert ceramic.centrifugal_force / steel.centrifugal_force == pytest.approx(3200 / 7800, rel=1e-9)
     assert ceramic.radial_displacement < steel.radial_displacement
 
@@ -332,7 +337,15 @@ def test_contacts_of_a_6208_are_hard_ones(viscosity):
     assert load == pytest.approx(870.0, rel=0.05, abs=0.0)
     radii = B6208.radii(float(state.inner_angle[0]), inner=True)
     speed = float(state.speeds.inner_entrainment[0])
-    contact = PointContact(radii.radius_x, radii.radius_y, E, load, speed, viscosity, 20e-9)
+    contact = PointContact(
+        radius_x=radii.radius_x,
+        radius_y=radii.radius_y,
+        reduced_modulus=E,
+        load=load,
+        entrainment_speed=speed,
+        viscosity=viscosity,
+        pressure_viscosity_coefficient=20e-9,
+    )
     assert 1300.0 < contact.moes_m < 10_000.0
     assert 11.0 < contact.moes_l < 23.0
 

@@ -20,6 +20,7 @@ from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.errors import ConvergenceError
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 E, DENSITY = 226e9, 7800.0
 DEEP = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
@@ -43,7 +44,9 @@ radial_duties = st.tuples(
 
 def operation_of(rows):
     radial, axial, speed, angle = np.array(rows).T
-    return Operation(radial, axial, speed, 0.0, angle)
+    return Operation(
+        radial_load=radial, axial_load=axial, inner_speed=speed, outer_speed=0.0, cage_angle=angle
+    )
 
 
 def assert_same(many, index, single):
@@ -70,7 +73,9 @@ def test_balls(bearing, rows):
     many = ball_equilibrium(bearing, operation_of(rows), E, DENSITY)
     assert np.all(many.balanced)
     for k, (radial, axial, speed, angle) in enumerate(rows):
-        operation = Operation(radial, axial, speed, 0.0, angle)
+        operation = Operation(
+            radial_load=radial, axial_load=axial, inner_speed=speed, outer_speed=0.0, cage_angle=angle
+        )
         assert_same(many, k, ball_equilibrium(bearing, operation, E, DENSITY))
 
 
@@ -83,7 +88,9 @@ def test_balls_under_radial_loads(bearing, rows):
     assert np.all(many.balanced)
     assert not many.inner_angle.any()
     for k, (radial, axial, speed, angle) in enumerate(rows):
-        operation = Operation(radial, axial, speed, 0.0, angle)
+        operation = Operation(
+            radial_load=radial, axial_load=axial, inner_speed=speed, outer_speed=0.0, cage_angle=angle
+        )
         assert_same(many, k, ball_equilibrium(bearing, operation, E, DENSITY))
 
 
@@ -95,7 +102,14 @@ def test_rollers(bearing, rows):
     many = roller_equilibrium(bearing, operation_of(rows), E, DENSITY)
     assert np.all(many.balanced)
     for k, (radial, axial, speed, angle) in enumerate(rows):
-        single = roller_equilibrium(bearing, Operation(radial, axial, speed, 0.0, angle), E, DENSITY)
+        single = roller_equilibrium(
+            bearing,
+            Operation(
+                radial_load=radial, axial_load=axial, inner_speed=speed, outer_speed=0.0, cage_angle=angle
+            ),
+            E,
+            DENSITY,
+        )
         assert_same(many, k, single)
         most = np.max(single.outer_line_load)
         np.testing.assert_allclose(
@@ -149,10 +163,10 @@ def test_every_quantity_may_vary():
         random.uniform(-100.0, 100.0, number),
         random.uniform(0.0, 0.5, number),
     )
-    many = ball_equilibrium(BallBearing(9, **dimensions), Operation(*duty), modulus, density)
+    many = ball_equilibrium(BallBearing(9, **dimensions), operation_in_order(*duty), modulus, density)
     for k in range(number):
         bearing = BallBearing(9, **{name: float(values[k]) for name, values in dimensions.items()})
-        operation = Operation(*(float(values[k]) for values in duty))
+        operation = operation_in_order(*(float(values[k]) for values in duty))
         assert_same(many, k, ball_equilibrium(bearing, operation, float(modulus[k]), float(density[k])))
     rollers = {
         "roller_diameter": random.uniform(10e-3, 11e-3, number),
@@ -161,30 +175,54 @@ def test_every_quantity_may_vary():
         "roller_length": np.linspace(10e-3, 40e-3, number),
         "radial_clearance": random.uniform(-5e-6, 20e-6, number),
     }
-    load = dataclasses.replace(Operation(*duty), axial_load=0.0)
+    load = dataclasses.replace(operation_in_order(*duty), axial_load=0.0)
     many = roller_equilibrium(RollerBearing(12, **rollers), load, modulus, density)
     for k in range(number):
         bearing = RollerBearing(12, **{name: float(values[k]) for name, values in rollers.items()})
-        operation = Operation(*(0.0 if j == 1 else float(values[k]) for j, values in enumerate(duty)))
+        operation = operation_in_order(
+            *(0.0 if j == 1 else float(values[k]) for j, values in enumerate(duty))
+        )
         assert_same(many, k, roller_equilibrium(bearing, operation, float(modulus[k]), float(density[k])))
 
 
 def test_leading_axes_broadcast():
     """Cage positions along the first axis, loads along the second one."""
     angles, loads = np.array([0.1, 0.2, 0.3]), np.array([500.0, 2000.0])
-    many = ball_equilibrium(DEEP, Operation(loads, 100.0, 300.0, 0.0, angles[:, None]), E, DENSITY)
+    many = ball_equilibrium(
+        DEEP,
+        Operation(
+            radial_load=loads,
+            axial_load=100.0,
+            inner_speed=300.0,
+            outer_speed=0.0,
+            cage_angle=angles[:, None],
+        ),
+        E,
+        DENSITY,
+    )
     assert many.inner_load.shape == many.speeds.spin.shape == (3, 2, 9)
     assert many.residual.shape == many.iterations.shape == many.moment.shape == (3, 2)
     for j, angle in enumerate(angles):
         for k, load in enumerate(loads):
-            single = ball_equilibrium(DEEP, Operation(load, 100.0, 300.0, 0.0, angle), E, DENSITY)
+            single = ball_equilibrium(
+                DEEP,
+                Operation(
+                    radial_load=load, axial_load=100.0, inner_speed=300.0, outer_speed=0.0, cage_angle=angle
+                ),
+                E,
+                DENSITY,
+            )
             assert_same(many, (j, k), single)
 
 
 def test_a_single_bearing_has_plain_numbers():
     for state in (
-        ball_equilibrium(DEEP, Operation(1000.0, 100.0, 300.0), E, DENSITY),
-        roller_equilibrium(ROLLERS, Operation(1000.0, 0.0, 300.0), E, DENSITY),
+        ball_equilibrium(
+            DEEP, Operation(radial_load=1000.0, axial_load=100.0, inner_speed=300.0), E, DENSITY
+        ),
+        roller_equilibrium(
+            ROLLERS, Operation(radial_load=1000.0, axial_load=0.0, inner_speed=300.0), E, DENSITY
+        ),
     ):
         assert type(state.iterations) is int
         for name in ("residual", "radial_displacement", "centrifugal_force", "cage_speed"):
@@ -197,27 +235,43 @@ def test_refused_balls_do_not_disturb_their_neighbours():
     """Without axial load, without a load, with a negative radial one, and with a number that is none."""
     radial = np.array([500.0, 500.0, 500.0, 500.0, -1.0])
     axial = np.array([300.0, 0.0, np.nan, 100.0, 10.0])
-    many = ball_equilibrium(ANGULAR, Operation(radial, axial, 300.0), E, DENSITY)
+    many = ball_equilibrium(
+        ANGULAR, Operation(radial_load=radial, axial_load=axial, inner_speed=300.0), E, DENSITY
+    )
     assert many.balanced.tolist() == [True, False, False, True, False]
     for name in ("inner_load", "outer_angle", "residual", "moment", "cage_speed"):
         values = getattr(many, name)
         assert np.isnan(values[[1, 2, 4]]).all(), name
         assert np.isfinite(values[[0, 3]]).all(), name
-    alone = ball_equilibrium(ANGULAR, Operation(radial[[0, 3]], axial[[0, 3]], 300.0), E, DENSITY)
+    alone = ball_equilibrium(
+        ANGULAR,
+        Operation(radial_load=radial[[0, 3]], axial_load=axial[[0, 3]], inner_speed=300.0),
+        E,
+        DENSITY,
+    )
     np.testing.assert_array_equal(many.inner_load[[0, 3]], alone.inner_load)
-    none = ball_equilibrium(ANGULAR, Operation(500.0, np.zeros(2), 300.0), E, DENSITY)
+    none = ball_equilibrium(
+        ANGULAR, Operation(radial_load=500.0, axial_load=np.zeros(2), inner_speed=300.0), E, DENSITY
+    )
     assert none.inner_load.shape == (2, 12)
     assert not none.balanced.any()
 
 
 def test_refused_rollers_do_not_disturb_their_neighbours():
     axial = np.array([0.0, 10.0, 0.0])
-    many = roller_equilibrium(ROLLERS, Operation(np.array([500.0, 500.0, 0.0]), axial, 300.0), E, DENSITY)
+    many = roller_equilibrium(
+        ROLLERS,
+        Operation(radial_load=np.array([500.0, 500.0, 0.0]), axial_load=axial, inner_speed=300.0),
+        E,
+        DENSITY,
+    )
     assert many.balanced.tolist() == [True, False, False]
     assert np.isnan(many.inner_line_load[1:]).all()
-    alone = roller_equilibrium(ROLLERS, Operation(500.0, 0.0, 300.0), E, DENSITY)
+    alone = roller_equilibrium(
+        ROLLERS, Operation(radial_load=500.0, axial_load=0.0, inner_speed=300.0), E, DENSITY
+    )
     np.testing.assert_allclose(many.inner_load[0], alone.inner_load, rtol=1e-12)
-    none = roller_equilibrium(ROLLERS, Operation(500.0, np.ones(2)), E, DENSITY)
+    none = roller_equilibrium(ROLLERS, Operation(radial_load=500.0, axial_load=np.ones(2)), E, DENSITY)
     assert none.inner_line_load.shape == (2, 14, 41)
 
 
@@ -241,12 +295,12 @@ def test_a_ring_without_balance_does_not_disturb_others():
 def test_single_bearings_are_refused():
     """The checks raise for floats, and leave arrays to the mask ``balanced``."""
     with pytest.raises(InputError, match=r"^axial_load: .* 0 N.* above 0"):
-        check_ball_loads(ANGULAR, Operation(500.0))
+        check_ball_loads(ANGULAR, Operation(radial_load=500.0))
     with pytest.raises(InputError, match=r"^axial_load: .* 10 N.* 0"):
-        check_roller_loads(ROLLERS, Operation(500.0, 10.0))
-    check_ball_loads(ANGULAR, Operation(500.0, np.zeros(2)))
-    check_roller_loads(ROLLERS, Operation(500.0, np.ones(2)))
-    state = ball_equilibrium(DEEP, Operation(500.0), E, DENSITY)
+        check_roller_loads(ROLLERS, Operation(radial_load=500.0, axial_load=10.0))
+    check_ball_loads(ANGULAR, Operation(radial_load=500.0, axial_load=np.zeros(2)))
+    check_roller_loads(ROLLERS, Operation(radial_load=500.0, axial_load=np.ones(2)))
+    state = ball_equilibrium(DEEP, Operation(radial_load=500.0), E, DENSITY)
     check_balance(state)
     with pytest.raises(ConvergenceError, match=r"^forces on ring and balls, balanced only to 1\.0e-08"):
         check_balance(dataclasses.replace(state, residual=1e-8))
@@ -302,10 +356,22 @@ def test_relief_of_many(length):
 
 def test_speeds_of_many():
     angles, speeds = np.array([0.1, 0.5]), np.array([100.0, 900.0])
-    many = rolling_speeds(11.906e-3, 60e-3, speeds, 10.0, angles)
+    many = rolling_speeds(
+        element_diameter=11.906e-3,
+        pitch_diameter=60e-3,
+        inner_speed=speeds,
+        outer_speed=10.0,
+        contact_angle=angles,
+    )
     moments = gyroscopic_moment(0.007, 11.906e-3, many, angles)
     for k in range(2):
-        one = rolling_speeds(11.906e-3, 60e-3, float(speeds[k]), 10.0, float(angles[k]))
+        one = rolling_speeds(
+            element_diameter=11.906e-3,
+            pitch_diameter=60e-3,
+            inner_speed=float(speeds[k]),
+            outer_speed=10.0,
+            contact_angle=float(angles[k]),
+        )
         assert [values[k] for values in vars(many).values()] == pytest.approx(
             list(vars(one).values()), rel=1e-14
         )
@@ -331,11 +397,23 @@ def test_stiffness_laws_of_distinct_geometries():
 @each("solve, bearing, axial", [(ball_equilibrium, DEEP, 100.0), (roller_equilibrium, ROLLERS, 0.0)])
 def test_mirrors_and_mechanics_of_many(solve, bearing, axial):
     loads = np.array([500.0, 2000.0])
-    many = solve(bearing, Operation(loads, axial, 300.0, 0.0, 0.1), E, DENSITY)
-    position = Operation(1.0, cage_angle=2.0 * np.pi / bearing.elements - 0.1).positions(bearing.elements)
+    many = solve(
+        bearing,
+        Operation(radial_load=loads, axial_load=axial, inner_speed=300.0, outer_speed=0.0, cage_angle=0.1),
+        E,
+        DENSITY,
+    )
+    position = Operation(radial_load=1.0, cage_angle=2.0 * np.pi / bearing.elements - 0.1).positions(
+        bearing.elements
+    )
     turned, mechanics = mirrored(many, position), mechanics_of(many)
     for k, load in enumerate(loads):
-        single = solve(bearing, Operation(load, axial, 300.0, 0.0, 0.1), E, DENSITY)
+        single = solve(
+            bearing,
+            Operation(radial_load=load, axial_load=axial, inner_speed=300.0, outer_speed=0.0, cage_angle=0.1),
+            E,
+            DENSITY,
+        )
         other, own = mirrored(single, position), turned.at(k)
         for name in ("position", "inner_load", "outer_gap", "lateral_displacement"):
             np.testing.assert_allclose(getattr(own, name), getattr(other, name), rtol=1e-8, atol=1e-15)

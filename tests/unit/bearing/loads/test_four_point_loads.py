@@ -15,6 +15,7 @@ from ehlectric.bearing.loads.geometry import BallBearing, FourPointBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 E, DENSITY = 226e9, 7800.0
 A35 = math.radians(35.0)
@@ -24,7 +25,7 @@ PRELOADED = dataclasses.replace(QJ, radial_clearance=-4e-6)
 
 
 def solve(bearing, *duty, modulus=E):
-    return four_point_equilibrium(bearing, Operation(*duty), modulus, DENSITY)
+    return four_point_equilibrium(bearing, operation_in_order(*duty), modulus, DENSITY)
 
 
 def halves(values):
@@ -211,7 +212,13 @@ def random_point(seed):
     )
     radial, axial = 10.0 ** draw.uniform(1.5, 4.0, 2) * [[0.0, 1.0], [1.0, 0.0], [1.0, 1.0]][draw.integers(3)]
     speed = draw.choice([0.0, 1.0, 1.0]) * 10.0 ** draw.uniform(1.5, 3.2)
-    return bearing, Operation(radial, axial * draw.choice([-1.0, 1.0]), speed, 0.0, draw.uniform(0.0, 0.5))
+    return bearing, Operation(
+        radial_load=radial,
+        axial_load=axial * draw.choice([-1.0, 1.0]),
+        inner_speed=speed,
+        outer_speed=0.0,
+        cage_angle=draw.uniform(0.0, 0.5),
+    )
 
 
 def check_by_search(seed):
@@ -308,7 +315,7 @@ def test_many_points_equal_single_ones():
     values = {key: np.array([vars(point)[key] for point in points]).reshape(4, 3) for key in vars(points[0])}
     clearance = np.resize([0.0, 20e-6, -2e-6], 3)
     bearing = dataclasses.replace(QJ, radial_clearance=clearance)
-    many = four_point_equilibrium(bearing, Operation(**values), E, DENSITY)
+    many = four_point_equilibrium(bearing, operation_in_order(**values), E, DENSITY)
     assert many.inner_load.shape == many.position.shape == (4, 3, 24)
     assert np.all(many.balanced)
     for index in np.ndindex(4, 3):
@@ -334,7 +341,7 @@ def test_one_diagonal_is_an_angular_contact_bearing(axial):
     radial = 0.1 * axial
     state = solve(QJ, radial, axial)
     angular = BallBearing(12, 12.7e-3, 60e-3, 0.515, 0.525, contact_angle=A35)
-    same = ball_equilibrium(angular, Operation(radial, axial), E, DENSITY)
+    same = ball_equilibrium(angular, Operation(radial_load=radial, axial_load=axial), E, DENSITY)
     assert isinstance(state, BallEquilibrium)
     for name in ("inner_load", "outer_load", "inner_angle", "outer_angle", "gyroscopic_moment"):
         np.testing.assert_allclose(

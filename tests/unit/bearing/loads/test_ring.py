@@ -58,9 +58,9 @@ def test_no_balance_is_said():
 
 
 def test_duties():
-    positions = Operation(1.0, cage_angle=0.1).positions(4)
+    positions = Operation(radial_load=1.0, cage_angle=0.1).positions(4)
     np.testing.assert_allclose(positions, 0.1 + np.array([0.0, 0.5, 1.0, 1.5]) * np.pi, rtol=1e-15)
     with pytest.raises(InputError, match=r"^radial_load, axial_load: "):
-        Operation(0.0)
+        Operation(radial_load=0.0)
     with pytest.raises(InputError, match=r"^radial_load: .* -1 N"):
-        Operation(-1.0)
+        Operation(radial_load=-1.0)

@@ -15,6 +15,7 @@ from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.roller_loads import line_stiffness, roller_equilibrium
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 STEEL = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
 DENSITY = 7800.0
@@ -23,7 +24,7 @@ NU208 = RollerBearing(14, 11e-3, 60e-3, 11e-3, 20e-6)
 
 
 def solve(bearing, *duty, **other):
-    return roller_equilibrium(bearing, Operation(*duty), STEEL, DENSITY, **other)
+    return roller_equilibrium(bearing, operation_in_order(*duty), STEEL, DENSITY, **other)
 
 
 def many(elements, clearance=0.0, profile="none"):
@@ -67,7 +68,7 @@ def test_stiffness_of_the_standard():
 
 
 def test_approach_goes_with_modulus_to_the_power_nine_tenths():
-    soft = roller_equilibrium(many(14), Operation(5000.0), 0.5 * STEEL, DENSITY)
+    soft = roller_equilibrium(many(14), Operation(radial_load=5000.0), 0.5 * STEEL, DENSITY)
     ratio = soft.radial_displacement / solve(many(14), 5000.0).radial_displacement
     assert ratio == pytest.approx(2.0**0.9, rel=1e-9, abs=0.0)
 

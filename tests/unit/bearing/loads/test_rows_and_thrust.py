@@ -13,6 +13,7 @@ from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.roller_loads import roller_equilibrium
 from ehlectric.bearing.loads.thrust_balls import thrust_ball_equilibrium
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 E, DENSITY, ANGLE = 226e9, 7800.0, math.radians(14.0)
 SIZES = 17, 11e-3, 60e-3, 15e-3, 0.0
@@ -25,7 +26,7 @@ def tapered(profile="none", **rows):
 
 def solve(bearing, *duty):
     kind = roller_equilibrium if isinstance(bearing, RollerBearing) else ball_equilibrium
-    return kind(bearing, Operation(*duty), E, DENSITY)
+    return kind(bearing, operation_in_order(*duty), E, DENSITY)
 
 
 def test_tapered_rollers_share_an_axial_load():
@@ -126,7 +127,9 @@ def test_play_of_a_pair(pair):
 def test_balls_between_washers():
     """tan(b) = F_c Z/(2 F_a) with equal grooves, F_c = m (d_m/2) (w/2)^2."""
     bearing = ThrustBallBearing(15, 10.319e-3, 54e-3, 0.54, 0.54)
-    state = thrust_ball_equilibrium(bearing, Operation(0.0, 1500.0, 600.0), E, DENSITY)
+    state = thrust_ball_equilibrium(
+        bearing, Operation(radial_load=0.0, axial_load=1500.0, inner_speed=600.0), E, DENSITY
+    )
     force = DENSITY * math.pi / 6.0 * 10.319e-3**3 * 0.027 * 300.0**2
     aside = math.atan(0.5 * force * 15 / 1500.0)
     np.testing.assert_allclose(state.inner_load, math.hypot(100.0, 0.5 * force), rtol=1e-6)
@@ -138,7 +141,7 @@ def test_balls_between_washers():
 def test_balls_between_washers_with_other_grooves():
     """The ball is as far from the middle of both grooves, and forces on it balance."""
     bearing = ThrustBallBearing(12, 9e-3, 50e-3, 0.512, 0.534)
-    duty = Operation(0.0, 1200.0, np.array([0.0, 900.0, 1500.0]))
+    duty = Operation(radial_load=0.0, axial_load=1200.0, inner_speed=np.array([0.0, 900.0, 1500.0]))
     state = thrust_ball_equilibrium(bearing, duty, E, DENSITY)
     inner, outer = state.inner_angle[:, 0] - 0.5 * math.pi, 0.5 * math.pi - state.outer_angle[:, 0]
     spans = [
@@ -179,6 +182,8 @@ def test_loads_that_needles_between_washers_do_not_carry(bearing, duty, text):
 def test_loads_that_balls_between_washers_do_not_carry(duty):
     bearing = ThrustBallBearing(15, 10.319e-3, 54e-3, 0.54, 0.54)
     with pytest.raises(InputError, match=r"^(radial|axial)_load: "):
-        thrust_ball_equilibrium(bearing, Operation(*duty), E, DENSITY)
-    many = thrust_ball_equilibrium(bearing, Operation(duty[0], np.array([duty[1], 50.0])), E, DENSITY)
+        thrust_ball_equilibrium(bearing, operation_in_order(*duty), E, DENSITY)
+    many = thrust_ball_equilibrium(
+        bearing, Operation(radial_load=duty[0], axial_load=np.array([duty[1], 50.0])), E, DENSITY
+    )
     assert not many.balanced[0]

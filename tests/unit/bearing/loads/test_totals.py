@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from ehlectric.bearing.loads.ball_loads import ball_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
-from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.roller_loads import roller_equilibrium
 from ehlectric.bearing.loads.totals import mirrored
 from tests.helpers.each import each
+from tests.helpers.operations import operation_in_order
 
 SOLID = 226e9, 7800.0
 BALLS = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
@@ -22,9 +22,9 @@ ROLLERS = RollerBearing(31, 5e-3, 60e-3, 5e-3, 8e-6, "none")
 
 def assert_mirrored(solve, bearing, angle, load):
     pitch = 2.0 * math.pi / bearing.elements
-    there = Operation(*load, cage_angle=pitch - angle)
+    there = operation_in_order(*load, cage_angle=pitch - angle)
     solved = solve(there)
-    found = mirrored(solve(Operation(*load, cage_angle=angle)), there.positions(bearing.elements))
+    found = mirrored(solve(operation_in_order(*load, cage_angle=angle)), there.positions(bearing.elements))
     for field in dataclasses.fields(solved):
         mine, own = getattr(found, field.name), getattr(solved, field.name)
         if field.name == "speeds":

@@ -64,7 +64,15 @@ def test_films_of_the_atlas_are_those_of_its_contacts(case):
     assert slow == pytest.approx(formula(case, 0.001))
     oil = case.lubricant.at(None)
     for speed, film in zip(speeds[1:].tolist(), others, strict=True):
-        ball = PointContact(10e-3, 10e-3, 226e9, 20.0, speed, oil.viscosity, 0.0)
+        ball = PointContact(
+            radius_x=10e-3,
+            radius_y=10e-3,
+            reduced_modulus=226e9,
+            load=20.0,
+            entrainment_speed=speed,
+            viscosity=oil.viscosity,
+            pressure_viscosity_coefficient=0.0,
+        )
         assert film == pytest.approx(contact_film(ball, oil).central_thickness)
     assert found.formula_error == 0.4
     inside = ehlectric.film_factors(case, frame[1:], contacts="atlas", uncertainty="4 %")

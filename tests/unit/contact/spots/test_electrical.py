@@ -48,8 +48,12 @@ def test_spots_of_any_shape_against_sources_over_all_nodes():
 
 def test_a_long_strip_has_the_logarithm_of_its_slenderness():
     """K(1 - k^2) tends to ln(4/k) for a small ratio k of the axes."""
-    assert strip_resistance(1e-6, 1e-2, RHO) == pytest.approx(RHO * np.log(4e4) / (np.pi * 0.5e-2), rel=1e-6)
-    assert strip_resistance(1e-2, 1e-6, RHO) == strip_resistance(1e-6, 1e-2, RHO)
+    assert strip_resistance(width=1e-6, length=1e-2, resistivity=RHO) == pytest.approx(
+        RHO * np.log(4e4) / (np.pi * 0.5e-2), rel=1e-6
+    )
+    assert strip_resistance(width=1e-2, length=1e-6, resistivity=RHO) == strip_resistance(
+        width=1e-6, length=1e-2, resistivity=RHO
+    )
 
 
 def test_a_line_contact_needs_a_length_for_its_resistance():
@@ -59,7 +63,7 @@ def test_a_line_contact_needs_a_length_for_its_resistance():
     assert constriction(spots, Electric(resistivity=RHO), None) is None
     assert constriction(spots, Electric(), 0.01) is None
     found = constriction(spots, Electric(resistivity=RHO), 0.01)
-    assert found == strip_resistance(float(spots.areas[0]), 0.01, RHO)
+    assert found == strip_resistance(width=float(spots.areas[0]), length=0.01, resistivity=RHO)
 
 
 def test_time_share_is_that_of_sites_that_touch_at_random():
