@@ -81,11 +81,10 @@ def _saved_steps(folder: Path, *, shown: bool) -> Iterator[Progress]:
             yield progress
         except (KeyboardInterrupt, SystemExit):
             if steps:
-                from ehlectric.motion.stored_run import saved_steps
-                from ehlectric.runtime.result_names import MOTION
+                from ehlectric.motion.stored_run import saved_run
 
                 # Read from the file: the progress may not have been called for the last instant yet.
-                saved = saved_steps(folder / MOTION)
+                saved, _ = saved_run(folder)
                 rest = "resumes the run" if saved < steps else "sums them up"
                 text = f"{saved} of {steps} steps are saved in {folder}; the same command {rest}"
                 say(f"interrupted; {text}", err=True)

@@ -13,12 +13,20 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ConvergenceError
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.film.unsteady import History
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
-from ehlectric.motion.storage import MotionFile, Record, described, time_step
+from ehlectric.motion.storage import (
+    MotionJournal,
+    Record,
+    described,
+    is_hot,
+    is_run_of,
+    stored_attributes,
+    time_step,
+)
 from ehlectric.motion.stored import SCHEMA, Maps, TimeStep
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
@@ -26,9 +34,8 @@ from ehlectric.motion.warnings import motion_warnings
 from ehlectric.quantities.result_warnings import warnings_of
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
-from ehlectric.runtime.hdf5_soundness import seal
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
-from ehlectric.runtime.result_names import MOTION, SUMMARY
+from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL, SUMMARY
 from ehlectric.runtime.result_names import OF_CONTACTS as FILES
 from ehlectric.runtime.stored import warnings_as_attributes
 from ehlectric.version import __version__
@@ -55,7 +62,7 @@ def run(
         with alone_in(folder, locks=[FIGURE_LOCK]):
             clear(folder, (*FILES, *others))
         try:
-            _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
+            _solve(contact, prepared, folder, again=again, progress=progress)
         except ConvergenceError as error:
             if not (folder / MOTION).is_file():
                 raise
@@ -67,15 +74,18 @@ def run(
 
 
 def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: Progress = silent) -> Path:
-    """Solve a contact with moving roughness, and write each recorded instant to motion.nc.
+    """Solve a contact with moving roughness, and write motion.nc.
+
+    Each recorded instant is saved in motion.sqlite. When the run ends or is stopped, motion.nc is written;
+    motion.sqlite remains until the run is complete.
 
     Parameters
     ----------
     case : Case
         A case with ``motion``.
     folder : str or Path
-        Folder of motion.nc; made if it is not there. An unfinished run of the same case there is resumed from
-        the last recorded instant; any other file of this name is replaced.
+        Folder of the files; made if it is not there. An unfinished run of the same case there is resumed from
+        the last recorded instant; any other run is replaced.
     again : bool
         True to solve a complete run of the same case again.
     progress : callable, optional
@@ -89,49 +99,76 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     Raises
     ------
     InputError
-        If the case or the folder cannot be used, or another command writes into the folder.
+        If the case or the folder cannot be used, another command writes into the folder, or it contains a
+        stopped run without motion.sqlite.
     ConvergenceError
-        If a time step does not converge; the file has the recorded instants before this step.
+        If a time step does not converge; motion.nc contains the recorded instants before this step.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)
     with alone_in(folder, (MOTION,), locks=[RESULT_LOCK]) as folder:
-        _solve(contact, prepared, folder / MOTION, again=again, progress=progress)
+        _solve(contact, prepared, folder, again=again, progress=progress)
     return folder / MOTION
 
 
 def _solve(
-    contact: TransientContact, prepared: PreparedContact, path: Path, *, again: bool, progress: Progress
+    contact: TransientContact, prepared: PreparedContact, folder: Path, *, again: bool, progress: Progress
 ) -> None:
-    """Solve the time steps that a file does not have yet, and write the recorded instants into it."""
+    """Solve the time steps that are not saved yet, and write motion.nc when the run ends or stops."""
+    path, journal_path = folder / MOTION, folder / MOTION_JOURNAL
+    stored = stored_attributes(path)
+    if stored is not None and stored["complete"]:
+        journal_path.unlink(missing_ok=True)  # a kill came after motion.nc was written
+        if not again and is_run_of(contact, stored):
+            return
+    with MotionJournal(folder, contact) as journal:
+        if stored is not None and not stored["complete"] and journal.empty and not is_hot(contact):
+            raise InputError(
+                path,
+                f"contains a stopped run without {MOTION_JOURNAL}, which cannot be resumed",
+                takes="another folder, as with -o; or remove it to solve the case from its start",
+            )
+        resumed = journal.resumed()
+        clear(folder, (MOTION, MOTION_CHANGES))
+        complete = _steps(journal, resumed, contact, prepared, progress)
+    if complete:
+        journal_path.unlink()
+
+
+def _steps(
+    journal: MotionJournal,
+    resumed: tuple[int, History, History | None] | None,
+    contact: TransientContact,
+    prepared: PreparedContact,
+    progress: Progress,
+) -> bool:
+    """Solve the time steps after those of a journal; whether the run is complete."""
     solver, companion = TransientSolver(contact), Companion(contact)
-    file = MotionFile(path, contact)
-    if not again and file.whole():
-        return
-    resumed = file.resumed()
     if resumed is None:
-        path.unlink(missing_ok=True)
         progress(0, contact.schedule.steps, "film before the motion")
-        resumed = 0, *_begin(file, solver, companion, prepared)
+        resumed = 0, *_begin(journal, solver, companion, prepared)
     done, history, coarse = resumed
     coarse = companion.resumed(coarse, done)
-    progress(done, contact.schedule.steps, "time steps")
-    started, rows = time.perf_counter(), list[TimeStep]()
-    recorded = set(contact.schedule.recorded.tolist())
-    for step, latest in solver.run(history, done):
-        coarse = companion.after(step, coarse)
-        rows.append(time_step(solver, latest, companion.films(step, coarse)))
-        if step in recorded:
-            snapshot = solver.snapshot(latest.now)
-            since, started = started, time.perf_counter()
-            file.append(Record(step, rows, snapshot, latest, coarse, started - since))
-            rows = []
-            progress(step, contact.schedule.steps, "time steps")
-    seal(path)
+    try:
+        progress(done, contact.schedule.steps, "time steps")
+        started, rows = time.perf_counter(), list[TimeStep]()
+        recorded = set(contact.schedule.recorded.tolist())
+        for step, latest in solver.run(history, done):
+            coarse = companion.after(step, coarse)
+            rows.append(time_step(solver, latest, companion.films(step, coarse)))
+            if step in recorded:
+                snapshot = solver.snapshot(latest.now)
+                since, started = started, time.perf_counter()
+                journal.append(Record(step, rows, snapshot, latest, coarse, started - since))
+                rows = []
+                progress(step, contact.schedule.steps, "time steps")
+    finally:
+        complete = journal.write()
+    return complete
 
 
 def _begin(
-    file: MotionFile, solver: TransientSolver, companion: Companion, prepared: PreparedContact
+    journal: MotionJournal, solver: TransientSolver, companion: Companion, prepared: PreparedContact
 ) -> tuple[History, History | None]:
     """Write the film before the motion as the first instant, with the film of stationary roughness.
 
@@ -151,12 +188,11 @@ def _begin(
         "date": now(),
         "stationary": json.dumps(plain(numbers)),
         "rough": described(contact),
-        "seconds": 0.0,
     }
     attributes |= warnings_as_attributes(motion_warnings(contact, still))
     rows = [time_step(solver, history, companion.films(0, coarse))]
     record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
-    file.create(record, attributes | contact.schedule.moments(), maps)
+    journal.begin(record, attributes | contact.schedule.moments(), maps)
     return history, coarse
 
 

@@ -1,10 +1,23 @@
-"""Stored form of a transient run, motion.nc: its variables, how they grow, and the checks of its content."""
+"""Stored form of a transient run: its journal, motion.sqlite, its file, motion.nc, and checks of the content.
+
+The journal of a run has three tables. ``run`` contains the attributes of motion.nc as JSON, and the number
+of all ``steps``. ``instants`` has a row for each recorded instant: the number of its time step, its time [s],
+the computing time since the instant before [s], and ``numbers``, a JSON object with the numbers of the
+instant and, as lists, those of the time steps since the instant before, by the names of the variables of
+motion.nc. ``arrays`` contains the raw bytes of arrays with their type of NumPy and their shape, by part, time
+step and name. The parts are "maps" of the instants, "still", the nodes and the maps of stationary roughness,
+and the films from which the run and its companion are resumed, "films" and "coarse films". ``seal`` is the
+CRC-32 of the row.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import json
+import sqlite3
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -26,6 +39,8 @@ from ehlectric.runtime.file_rules import (
     number_of,
     text_of,
 )
+from ehlectric.runtime.journal import JournalForm, seal_of_row
+from ehlectric.runtime.netcdf import Layout
 from ehlectric.runtime.stored import Part, check_parts, warnings_in
 
 if TYPE_CHECKING:
@@ -40,8 +55,31 @@ LOAD_SHARE, AREA_SHARE, SPOTS = "asperity_load_share", "contact_area_share", "sp
 COARSE_SHARE = "coarse_asperity_load_share"
 TOUCHING = (LOAD_SHARE, AREA_SHARE, SPOTS, COARSE_SHARE)
 
-# Steps or instants in a chunk of the file.
-_CHUNK = 1024
+# Storage of maps of recorded instants in motion.nc.
+_COMPRESSED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+
+FORM = JournalForm(
+    "run with moving roughness",
+    application=0x65686C6D,  # the letters "ehlm"
+    version=1,
+    tables="""
+CREATE TABLE IF NOT EXISTS run (name TEXT PRIMARY KEY, value TEXT NOT NULL, seal INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS instants (
+    step INTEGER PRIMARY KEY, time REAL NOT NULL, seconds REAL NOT NULL, numbers TEXT NOT NULL,
+    seal INTEGER NOT NULL
+);
+CREATE TABLE IF NOT EXISTS arrays (
+    part TEXT, step INTEGER, name TEXT, type TEXT NOT NULL, shape TEXT NOT NULL, content BLOB NOT NULL,
+    seal INTEGER NOT NULL, PRIMARY KEY (part, step, name)
+);
+""",
+    columns={
+        "run": ("name", "value", "seal"),
+        "instants": ("step", "time", "seconds", "numbers", "seal"),
+        "arrays": ("part", "step", "name", "type", "shape", "content", "seal"),
+    },
+)
+STILL, MAPS, FILMS, COARSE = "still", "maps", "films", "coarse films"
 
 _SINCE = "time since the roughness began to enter"
 _LEAST, _STRONGEST = "position of the minimum film thickness", "position of the maximum field strength"
@@ -161,77 +199,118 @@ class Parts:
         )
 
 
-def lay_out(
-    file: Any,
-    positions: Mapping[str, Array],
-    stationary: Maps | None,
-    first: tuple[TimeStep, Frame],
-    kind: Kind,
-) -> None:
-    """Create dimensions and variables in a new ``h5netcdf.File``; write the nodes and the stationary maps.
+def check_rows(file: sqlite3.Connection) -> None:
+    """Check the seals of all rows of a journal; raises UnfitError if a row is not as it was written."""
+    for table, columns in FORM.columns.items():
+        for *row, seal in file.execute(f"SELECT {', '.join(columns)} FROM {table}"):
+            if seal_of_row(row) != seal:
+                raise UnfitError(f"a row of the table {table} is not as it was written")
 
-    Variables that the first step and instant lack are left out, as are those of asperities.
+
+def add_rows(file: sqlite3.Connection, table: str, rows: Iterable[Sequence[Any]]) -> None:
+    """Add rows with their seals to a table of a journal, in an open transaction."""
+    places = ", ".join("?" * len(FORM.columns[table]))
+    sealed = ((*row, seal_of_row(row)) for row in rows)
+    file.executemany(f"INSERT OR REPLACE INTO {table} VALUES ({places})", sealed)
+
+
+def add_arrays(file: sqlite3.Connection, part: str, step: int, arrays: Mapping[str, Array]) -> None:
+    """Add arrays by their names to a part of a journal, in an open transaction."""
+    rows = ((name, np.ascontiguousarray(values)) for name, values in arrays.items())
+    add_rows(
+        file,
+        "arrays",
+        ((part, step, name, a.dtype.str, json.dumps(a.shape), a.tobytes()) for name, a in rows),
+    )
+
+
+def arrays_in(file: sqlite3.Connection, part: str, step: int) -> dict[str, Array]:
+    """Arrays of a part of a journal at a time step by their names."""
+    rows = file.execute(
+        "SELECT name, type, shape, content FROM arrays WHERE part = ? AND step = ?", (part, step)
+    )
+    return {name: _array(*row) for name, *row in rows}
+
+
+def _array(dtype: str, shape: str, content: bytes) -> Array:
+    return np.frombuffer(content, dtype).reshape(json.loads(shape))
+
+
+def attributes_in(file: sqlite3.Connection) -> dict[str, Any]:
+    """Attributes of motion.nc in a journal, and the number of all ``steps``."""
+    return {name: json.loads(value) for name, value in file.execute("SELECT name, value FROM run")}
+
+
+def layout_of(file: sqlite3.Connection) -> Layout:
+    """Content of motion.nc from a journal, in an open transaction.
+
+    Raises UnfitError if the journal has no instant, or a row is not as it was written.
     """
-    parts = Parts.of(kind)
-    file.dimensions = {"step": None, "frame": None} | {name: at.size for name, at in positions.items()}
-    for name, nodes in positions.items():
-        _add(file, parts.axes[name], nodes)
-    for part, values in zip((parts.steps, parts.frames), first, strict=True):
-        for name, entry in part.fields.items():
-            if name not in TOUCHING and getattr(values, name) is not None:
-                _add(file, entry)
-    for name, entry in parts.stationary.fields.items() if stationary is not None else ():
-        _add(file, entry, getattr(stationary, name))
+    check_rows(file)
+    attributes = attributes_in(file)
+    rows = file.execute("SELECT step, seconds, numbers FROM instants ORDER BY step").fetchall()
+    if not rows:
+        raise UnfitError("it has no recorded instant")
+    values = arrays_in(file, STILL, 0) | _numbers_of([json.loads(row[2]) for row in rows])
+    for name in arrays_in(file, MAPS, 0):
+        maps = file.execute(
+            "SELECT type, shape, content FROM arrays WHERE part = ? AND name = ? ORDER BY step", (MAPS, name)
+        )
+        values[name] = np.stack([_array(*row) for row in maps])
+    parts = Parts.of(KINDS[case_of(attributes, Case.from_dict).contact.geometry])
+    fields = (parts.axes, parts.steps.fields, parts.frames.fields, parts.stationary.fields)
+    entries = [entry for part in fields for entry in part.values() if entry.name in values]
+    complete = int(rows[-1][0] == attributes.pop("steps"))
+    return Layout(
+        {entry.name: (entry.dims, values[entry.name], entry.attributes) for entry in entries},
+        {"frames": len(rows), "complete": complete, **attributes, "seconds": sum(row[1] for row in rows)},
+        storage={entry.name: {"fillvalue": None, **_storage(values[entry.name], entry)} for entry in entries},
+    )
 
 
-def _add(file: Any, entry: Stored, values: Array | None = None) -> None:
-    """Create a variable; maps of recorded instants have single precision."""
-    storage: dict[str, Any] = {}
-    kind = "f8"
-    if entry.dims[0] == "frame" and len(entry.dims) > 1:
-        kind = "i1" if entry.rule == "0 or 1" else "f4"
-        shape = tuple(file.dimensions[d].size for d in entry.dims[1:])
-        storage = {"chunks": (1, *shape), "compression": "gzip", "compression_opts": 1, "shuffle": True}
-    elif entry.dims[0] in ("step", "frame"):
-        storage = {"chunks": (_CHUNK,)}
-    variable = file.create_variable(entry.name, entry.dims, kind, data=values, **storage)
-    for name, text in entry.attributes.items():
-        variable.attrs[name] = text
+def _numbers_of(instants: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
+    """Values over the recorded instants, and over the time steps, by the names of their variables.
 
-
-def add_touches(file: Any, before: int) -> None:
-    """Create the variables of asperities in an ``h5netcdf.File`` that has none.
-
-    The steps ``before`` have no spots.
+    Those of asperities are left out if surfaces touch at no step of the run or of its companion.
     """
-    if SPOTS in file.variables:
-        return
-    entries = Part(TimeStep, ("step",)).fields
-    for name in TOUCHING:
-        _add(file, entries[name])
-        file.variables[name][:before] = 0.0
-    # The companion had no spots either where it had a film.
-    missing = np.isnan(file.variables["coarse_lowest_thickness"][:before])
-    file.variables[COARSE_SHARE][:before] = np.where(missing, np.nan, 0.0)
+    values: dict[str, Array] = {}
+    for name, first in instants[0].items():
+        items: Iterable[Any] = (instant[name] for instant in instants)
+        items = chain.from_iterable(items) if isinstance(first, list) else items
+        values[name] = np.array(list(items), dtype=float)
+    if not (np.any(values[SPOTS]) or np.any(values[COARSE_SHARE] > 0.0)):
+        values = {name: array for name, array in values.items() if name not in TOUCHING}
+    return values
 
 
-def resized(file: Any, steps: int, frames: int) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Make room in an ``h5py.File`` for numbers of time steps and of recorded instants.
+def _storage(values: Array, entry: Stored) -> Mapping[str, Any]:
+    """Options of the variable of maps over the recorded instants; none of another variable."""
+    return {"chunks": (1, *values.shape[1:]), **_COMPRESSED} if _is_map(entry) else {}
 
-    The variables over the time steps, and those over the recorded instants, by their names.
-    """
-    over_steps: dict[str, Any] = {}
-    over_frames: dict[str, Any] = {}
-    for name, variable in file.items():
-        # Dimensions are stored as variables; groups have no shape.
-        if getattr(variable, "maxshape", (0,))[0] is None:
-            is_step = name in TimeStep.__dataclass_fields__
-            variable.resize(steps if is_step or name == "step" else frames, axis=0)
-            if is_step:
-                over_steps[name] = variable
-            elif name in Frame.__dataclass_fields__:
-                over_frames[name] = variable
-    return over_steps, over_frames
+
+def _is_map(entry: Stored) -> bool:
+    return entry.dims[0] == "frame" and len(entry.dims) > 1
+
+
+def numbers_and_maps(
+    parts: Parts, frame: Frame, steps: Sequence[TimeStep]
+) -> tuple[dict[str, Any], dict[str, Array]]:
+    """Values of an instant and of the steps before it as a journal has them; maps have single precision."""
+    numbers: dict[str, Any] = {}
+    for name in parts.steps.fields:
+        column = [getattr(step, name) for step in steps]
+        if column[0] is not None:
+            numbers[name] = column
+    maps = {}
+    for name, entry in parts.frames.fields.items():
+        value = getattr(frame, name)
+        if value is None:
+            continue
+        if _is_map(entry):
+            maps[name] = np.asarray(value, dtype="<i1" if entry.rule == "0 or 1" else "<f4")
+        else:
+            numbers[name] = value
+    return numbers, maps
 
 
 _is_positive = partial(is_number, values="positive")

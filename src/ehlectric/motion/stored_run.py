@@ -5,6 +5,7 @@ fields.
 from __future__ import annotations
 
 import tomllib
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
@@ -14,12 +15,15 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, WriteError
 from ehlectric.motion.moving_contact import KINDS, Kind, Schedule, schedule_of
-from ehlectric.motion.stored import SCHEMA, solved_part
+from ehlectric.motion.stored import FORM, SCHEMA, attributes_in, layout_of, solved_part
 from ehlectric.runtime.file_rules import check_format, refusing
-from ehlectric.runtime.netcdf import opened, read_dataset
-from ehlectric.runtime.result_names import MOTION
+from ehlectric.runtime.files import write
+from ehlectric.runtime.folders import locked
+from ehlectric.runtime.journal import begun, lock_of, reading
+from ehlectric.runtime.netcdf import content_of, opened, read_dataset
+from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL
 from ehlectric.runtime.values import Values, read_only_property
 
 if TYPE_CHECKING:
@@ -131,12 +135,15 @@ _NEEDED = (
 
 
 def read_motion(path: str | Path) -> xr.Dataset:
-    """Read the file of a transient run, complete or not.
+    """Read a transient run, complete or not.
+
+    A run that goes on, or was killed, is read from its journal, motion.sqlite. If it was killed, motion.nc is
+    written then.
 
     Parameters
     ----------
     path : str or Path
-        File motion.nc, or the folder with this file.
+        File motion.nc, or the folder with this file or the journal.
 
     Returns
     -------
@@ -152,23 +159,61 @@ def read_motion(path: str | Path) -> xr.Dataset:
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
+    journal = path.with_name(MOTION_JOURNAL)
+    if path.name == MOTION and not path.is_file() and begun(journal):
+        try:
+            return _from_journal(journal, path)
+        except InputError:
+            if not path.is_file():  # otherwise the run has ended in the meantime
+                raise
     return checked_motion(read_dataset(path), path)
+
+
+def _from_journal(journal: Path, path: Path) -> xr.Dataset:
+    """Run from its journal; where no process writes to the journal, motion.nc is written too."""
+    with ExitStack() as stack, suppress(WriteError):  # the disk may be full, or not be writable
+        try:
+            stack.enter_context(locked(journal.parent, lock_of(journal)))
+            alone = True
+        except InputError:  # the run goes on, or the folder is not writable
+            alone = False
+        with reading(journal, FORM, checked=True) as file:
+            layout = layout_of(file)
+            dataset = checked_motion(layout.dataset(), journal)
+        if alone:
+            write(path, content_of(layout))
+    return dataset
 
 
 def checked_motion(dataset: xr.Dataset, path: Path) -> xr.Dataset:
     """Check a dataset read from a file, and return its solved part, as ``read_motion`` does."""
     check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness")
+    if path.with_name(MOTION_CHANGES).is_file():
+        text = "has changes that a kill of version 1.0.0 left unfinished"
+        raise InputError(path, text, takes="that version to read it, or the case solved again")
     with refusing(path):
         return solved_part(dataset)
 
 
-def saved_steps(path: Path) -> int:
-    """Number of the last recorded time step in a file; 0 if it has none or cannot be read."""
+def is_stored(folder: Path) -> bool:
+    """Whether a folder has a run with moving roughness, complete or not."""
+    return (folder / MOTION).is_file() or begun(folder / MOTION_JOURNAL)
+
+
+def saved_run(folder: Path) -> tuple[int, str]:
+    """Number of the last recorded time step in a folder, and the case as TOML; 0 and "" if it has none, or
+    the run cannot be read.
+    """
     try:
-        with opened(path) as file:
-            return int(file.variables["frame_step"][: int(file.attrs["frames"])][-1])
+        if begun(journal := folder / MOTION_JOURNAL):
+            with reading(journal, FORM) as rows:
+                (step,) = rows.execute("SELECT max(step) FROM instants").fetchone()
+                return int(step), attributes_in(rows)["case"]
+        with opened(folder / MOTION) as file:
+            step = file.variables["frame_step"][: int(file.attrs["frames"])][-1]
+            return int(step), str(file.attrs["case"])
     except (OSError, LookupError, ValueError, RuntimeError):
-        return 0
+        return 0, ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -24,12 +24,14 @@ from ehlectric.figures.figure_names import (
     SPEED_FIGURE_FILES,
     in_formats,
 )
+from ehlectric.runtime.journal import begun
 from ehlectric.runtime.reading import refuse_unreadable
 from ehlectric.runtime.result_names import (
     BEARING_NETCDF,
     CONTACT_NETCDF,
     DRIVE_NETCDF,
     MOTION,
+    MOTION_JOURNAL,
     OF_BEARINGS,
     OF_CONTACTS,
     OF_DRIVES,
@@ -106,17 +108,16 @@ def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False
             f"has a sweep of {points[1]} points, of which {points[0]} are saved",
             takes=f"another folder, as with -o; or remove {SWEEP} from this one",
         )
-    motion = folder / MOTION
-    steps = 0
-    if motion.is_file():
-        from ehlectric.motion.stored_run import saved_steps
+    if not (names := [name for name in (MOTION, MOTION_JOURNAL) if (folder / name).is_file()]):
+        return
+    from ehlectric.motion.stored_run import saved_run
 
-        steps = saved_steps(motion)
-    if steps and not (case is not None and _case_of(motion) == case.to_toml()):
+    steps, saved_case = saved_run(folder)
+    if steps and not (case is not None and saved_case == case.to_toml()):
         raise InputError(
             folder,
             f"has {steps} saved steps of another case with moving roughness",
-            takes=f"another folder, as with -o; or remove {MOTION} from this one",
+            takes=f"another folder, as with -o; or remove {' and '.join(names)} from this one",
         )
 
 
@@ -134,30 +135,29 @@ def _points(path: Path) -> tuple[int, int] | None:
         return None
 
 
-def _case_of(path: Path) -> str:
-    """Case of a run with moving roughness, as TOML; empty if the file does not have it."""
-    from ehlectric.runtime.netcdf import opened
-
-    with opened(path) as file:
-        return str(file.attrs["case"]) if "case" in file.attrs else ""
-
-
 def stored_result(path: str | Path) -> Path:
     """File from which the figures of a result are drawn, of a file or of a folder of any kind. Returns a
-    NetCDF file, or the database of a sweep. Raises InputError if the file cannot be read, or if the folder
+    NetCDF file, which need not exist where moving roughness has only a journal yet, or the database of a
+    sweep. Raises InputError if the file cannot be read, or if the folder
     has no result or several.
     """
     path, names = Path(path), (CONTACT_NETCDF, BEARING_NETCDF, DRIVE_NETCDF, MOTION, SWEEP)
     if not path.is_dir():
-        refuse_unreadable(path)
+        if not _is_result(path):
+            refuse_unreadable(path)
         beside = path.name in files_of_results(path.parent) and path.name not in names
         if not beside:
             return path
         path = path.parent
-    found = [path / name for name in names if (path / name).is_file()]
+    found = [path / name for name in names if _is_result(path / name)]
     if not found:
         raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
     if len(found) > 1:
         results = " and ".join(file.name for file in found)
         raise InputError(path, f"has {results}", takes="one result; name the file to draw")
     return found[0]
+
+
+def _is_result(path: Path) -> bool:
+    """Whether a file exists, or moving roughness has a journal from which it can be read."""
+    return path.is_file() or (path.name == MOTION and begun(path.with_name(MOTION_JOURNAL)))

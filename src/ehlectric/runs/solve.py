@@ -103,7 +103,7 @@ def load(path: str | Path) -> AnyResult:
     path = stored_result(path)
     if path.name == SWEEP:
         raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
-    dataset = read_dataset(path)
+    dataset = read_dataset(path) if path.is_file() else read_motion(path)
     kind, _ = format_of(dataset.attrs.get("schema"))
     if kind not in _OF_KINDS:
         raise InputError(path, "is not a result of ehlectric")

@@ -1,15 +1,13 @@
-"""Soundness of HDF5 files: seals, classes of the reader, and files on which the library HDF5 crashes or
-never ends.
+"""Soundness of HDF5 files: seals, and files on which the library HDF5 crashes or never ends.
 
-Seals: a checksum at the end of a file, which tells later whether a byte of the file has changed.
-The seal follows the content as a last line of fixed length. Programs that read NetCDF or HDF5 ignore bytes
-after the end that the header of the file states. A program that opens the file to change it cuts the seal
-off, so that a file that was changed on purpose has none.
+A seal is a checksum, which shows whether a byte of the file has changed. It follows the content as a last
+line of fixed length. Programs that read NetCDF or HDF5 ignore bytes after the end that the header of the file
+states. A program that opens the file to change it cuts the seal off, so that a file that was changed on
+purpose has none.
 
-Soundness of HDF5 files: files that the library HDF5 cannot read, or on which it crashes or never ends.
 A single changed byte can keep HDF5 in an endless loop, which no signal ends, or crash it. A file with a seal
-is known to be as it was written, and so is one that this process has written and that has not changed since.
-Any other file is read once by a process of its own, whose end is awaited.
+is known to be as it was written. A file without a seal, as of a run that version 1.0.0 has stopped, is read
+once in a separate process, which is ended after some time.
 """
 
 from __future__ import annotations
@@ -21,7 +19,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 import zlib
 from collections.abc import Iterable
 from contextlib import suppress
@@ -41,42 +38,10 @@ from ehlectric.runtime.sizes import check_netcdf_values
 def file_class() -> Any:
     """Class ``h5netcdf.File``, whose instances say nothing where a file cannot be opened.
 
-    Its variables keep what they are asked for often; the library looks it up in the file each time. Where a
-    later version of the library lacks one of the names, this time is lost, no more.
+    Its variables keep their HDF5 dataset, type and shape; the library looks them up in the file each time,
+    the shape by all variables with the same dimensions. If a later version of the library lacks one of the
+    names, only this time is lost.
     """
-    return _file_class(_variable_class())
-
-
-@cache
-def reading_class() -> Any:
-    """Class of files that are only read, whose variables also keep their shapes.
-
-    For each shape with an unlimited dimension the library asks all variables that have it, which takes most
-    of the time in which a small file is read.
-    """
-
-    class Variable(_variable_class()):  # type: ignore[misc]
-        @cached_property
-        def shape(self) -> tuple[int, ...]:
-            with suppress(AttributeError):
-                known, every = self._root.known_sizes, self._parent._all_dimensions
-                dimensions = [every[name] for name in self.dimensions]
-                for dimension in dimensions:
-                    if dimension not in known:
-                        known[dimension] = dimension.size
-                return tuple(known[dimension] for dimension in dimensions)
-            return tuple(super().shape)
-
-    class File(_file_class(Variable)):  # type: ignore[misc]
-        def __init__(self, *given: Any, **options: Any) -> None:
-            self.known_sizes: dict[Any, int] = {}
-            super().__init__(*given, **options)
-
-    return File
-
-
-def _variable_class() -> Any:
-    """Class ``h5netcdf.Variable``, whose instances keep their HDF5 dataset and their type."""
     import h5netcdf
 
     class Variable(h5netcdf.Variable):  # type: ignore[misc]
@@ -88,27 +53,33 @@ def _variable_class() -> Any:
         def dtype(self) -> Any:
             return super().dtype
 
-    return Variable
-
-
-def _file_class(variable: Any) -> Any:
-    """Class of files whose variables, also those of groups, are of a class.
-
-    Where its initialisation fails halfway, the class of the library writes a traceback to standard error when
-    the instance is deleted, as it lacks the attributes that are set here.
-    """
-    import h5netcdf
+        @cached_property
+        def shape(self) -> tuple[int, ...]:
+            with suppress(AttributeError):
+                known, every = self._root.known_sizes, self._parent._all_dimensions
+                dimensions = [every[name] for name in self.dimensions]
+                for dimension in dimensions:
+                    if dimension not in known:
+                        known[dimension] = dimension.size
+                return tuple(known[dimension] for dimension in dimensions)
+            return tuple(super().shape)
 
     class Group(h5netcdf.Group):  # type: ignore[misc]
-        _variable_cls = variable
+        _variable_cls = Variable
 
         @property
         def _group_cls(self) -> Any:
             return Group
 
     class File(h5netcdf.File):  # type: ignore[misc]
+        # If its initialisation fails halfway, the library writes a traceback to standard error when the
+        # instance is deleted, as it lacks the attributes that are set here.
         _writable, _mode = False, "r"
-        _variable_cls, _group_cls = variable, Group
+        _variable_cls, _group_cls = Variable, Group
+
+        def __init__(self, *given: Any, **options: Any) -> None:
+            self.known_sizes: dict[Any, int] = {}
+            super().__init__(*given, **options)
 
     return File
 
@@ -119,22 +90,6 @@ _LENGTH = len(_SEAL.format(0))
 
 # Bytes that are read at a time.
 _BLOCK = 1 << 20
-
-
-def seal(path: Path) -> None:
-    """Append a seal to a file that is complete; a file that has one is not changed.
-
-    Where the disk is full, the file is left without a seal: it can be read all the same.
-    """
-    with path.open("r+b", buffering=0) as file:
-        length, found = _split(file)
-        if found is None:
-            total = _checksum(file, length)
-            try:
-                file.seek(length)
-                file.write(_SEAL.format(total).encode())
-            except OSError:
-                file.truncate(length)
 
 
 def seal_of(content: Iterable[bytes | memoryview]) -> bytes:
@@ -189,9 +144,6 @@ _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # size [bytes/s]. The time on a clock is a second limit, as other programs may keep the machine busy.
 _LIMIT, _SPEED, _CLOCK = 6.0, 10e6, 60.0
 
-# Longest time to wait for another program that has the file open, and time between two attempts [s].
-_PATIENCE, _AGAIN = 30.0, 0.2
-
 # Exit statuses of the process that reads a file.
 _SOUND, _UNREADABLE, _BUSY = 0, 3, 4
 _ENDLESS = "HDF5 reads it without end"
@@ -203,72 +155,50 @@ from ehlectric.runtime.hdf5_soundness import read_all
 sys.exit(read_all(sys.argv[2], int(sys.argv[3])))
 """
 
-# Path of a file, and what changes with its content: size, time of the last change, number of the file.
-_State = tuple[Path, int, int, int]
-
-# Files without a seal that are known to be sound, the latest last, and their largest number.
-_known: dict[_State, None] = {}
+# Files without a seal that are known to be sound, the latest last, and their largest number. A key is the
+# path and what changes with the content: size, time of the last change, number of the file.
+_known: dict[tuple[Path, int, int, int], None] = {}
 _MOST_KNOWN = 64
 
 
 def refuse_damaged(path: Path) -> None:
     """Refuse a file that HDF5 cannot read, without being harmed by it. Raises DamagedError where the seal of
     the file does not fit, or HDF5 cannot read it, crashes or does not end; InputError where the file cannot
-    be opened, is not a NetCDF file, or stays open in another program.
+    be opened or is not a NetCDF file; BlockingIOError where another program writes to it.
     """
     with regular(path) as file:
         start = file.read(len(_SIGNATURE))
         state = os.fstat(file.fileno())
     if start != _SIGNATURE:
         raise InputError(path, "is not a NetCDF file")
-    if not known_sound(path, state) and not sealed(path):
+    key = path.absolute(), state.st_size, state.st_mtime_ns, state.st_ino
+    if key not in _known and not sealed(path):
         _try(path, state.st_size)
-        remember_sound(path, state)
-
-
-def known_sound(path: Path, state: os.stat_result) -> bool:
-    """Whether a file has not changed since it was found or written sound."""
-    return _key(path, state) in _known
-
-
-def remember_sound(path: Path, state: os.stat_result) -> None:
-    """Remember that a file is sound: this process has read it, or written it. ``state``, its state when it
-    was found or written sound.
-    """
-    _known[_key(path, state)] = None
-    # A copy, which other threads do not change.
-    for oldest in list(_known)[:-_MOST_KNOWN]:
-        _known.pop(oldest, None)
-
-
-def _key(path: Path, state: os.stat_result) -> _State:
-    return path.absolute(), state.st_size, state.st_mtime_ns, state.st_ino
+        _known[key] = None
+        # A copy, which other threads do not change.
+        for oldest in list(_known)[:-_MOST_KNOWN]:
+            _known.pop(oldest, None)
 
 
 def _try(path: Path, size: int) -> None:
-    """Read a file in a process of its own."""
-    until = time.monotonic() + _PATIENCE
+    """Read a file in a separate process."""
     seconds = _LIMIT + size / _SPEED
     command = [sys.executable, "-I", "-c", _CODE, json.dumps(sys.path), str(path), str(math.ceil(seconds))]
-    while True:
-        try:
-            status = subprocess.run(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                timeout=_CLOCK + seconds,
-                check=False,
-            ).returncode
-        except subprocess.TimeoutExpired:
-            raise DamagedError.of(path, _ENDLESS) from None
-        if status == _SOUND:
-            return
-        if status != _BUSY:
-            raise DamagedError.of(path, _SAYS.get(status, "HDF5 crashes on it"))
-        if time.monotonic() > until:
-            raise InputError(path, "is held open by another program, which must close it")
-        time.sleep(_AGAIN)
+    try:
+        status = subprocess.run(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            timeout=_CLOCK + seconds,
+            check=False,
+        ).returncode
+    except subprocess.TimeoutExpired:
+        raise DamagedError.of(path, _ENDLESS) from None
+    if status == _BUSY:
+        raise BlockingIOError
+    if status != _SOUND:
+        raise DamagedError.of(path, _SAYS.get(status, "HDF5 crashes on it"))
 
 
 def read_all(path: str, seconds: int) -> int:
@@ -281,7 +211,7 @@ def read_all(path: str, seconds: int) -> int:
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
-        with reading_class()(path, "r") as file:
+        with file_class()(path, "r") as file:
             check_netcdf_values(Path(path), file)
             _read_group(file)
     except BlockingIOError:

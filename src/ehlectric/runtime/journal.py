@@ -5,13 +5,15 @@ Sweeps keep their points in a journal, and runs with moving roughness their inst
 
 from __future__ import annotations
 
+import json
 import os
 import sqlite3
-from collections.abc import Callable, Iterator, Mapping
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from ehlectric.errors import DamagedError, InputError, WriteError
 from ehlectric.runtime.file_rules import UnfitError, refusing
@@ -58,10 +60,6 @@ class JournalForm:
     columns: Mapping[str, tuple[str, ...]]
 
 
-# Check of the rows of a journal; raises UnfitError if they are not as they were written.
-Check = Callable[[sqlite3.Connection], None]
-
-
 class Journal:
     """Journal that is opened by the single process that writes it; a context manager.
 
@@ -73,11 +71,12 @@ class Journal:
     another process; DamagedError if the file is damaged.
     """
 
-    def __init__(self, path: Path, form: JournalForm, check: Check) -> None:
+    def __init__(self, path: Path, form: JournalForm, check: Callable[[sqlite3.Connection], None]) -> None:
+        # ``check`` raises UnfitError if the rows of the file are not as they were written.
         self.path, self.form = path, form
         refuse_special(path)
         with ExitStack() as stack:
-            stack.enter_context(locked(path.parent, f".ehlectric-{path.stem}.lock"))
+            stack.enter_context(locked(path.parent, lock_of(path)))
             stack.callback(_remove_empty, path)
             with self.one_line_errors():
                 self.file = _opened(path, form, "rwc")
@@ -135,23 +134,35 @@ class Journal:
 
 
 @contextmanager
-def reading(path: Path, form: JournalForm, check: Check | None = None) -> Iterator[sqlite3.Connection]:
+def reading(path: Path, form: JournalForm, *, checked: bool = False) -> Iterator[sqlite3.Connection]:
     """Context with a connection that reads in a transaction, also while another process writes.
 
-    With ``check``, size and pages of the file are checked before, and its rows at the end of the context.
-    Raises InputError if the file cannot be used, or is of another kind; DamagedError if it is damaged.
+    ``checked`` says whether size and pages of the file are checked first. Raises InputError if the file
+    cannot be used, or is of another kind; DamagedError if it is damaged, or an UnfitError is raised within.
     """
-    if check is not None:
+    if checked:
         with regular(path) as opened:
             check_size(path, os.fstat(opened.fileno()).st_size, _LARGEST, copies=_COPIES)
     with _one_line_errors(path, form), closing(_opened(path, form, "rw")) as file:
         file.execute("BEGIN")
         with refusing(path):
-            if check is not None:
+            if checked:
                 _check_tables(file, form)
             yield file
-            if check is not None:
-                check(file)
+
+
+def seal_of_row(row: Sequence[Any]) -> int:
+    """Checksum of the values of a row.
+
+    Examples
+    --------
+    >>> seal_of_row(["a key", "solved", 1.5]) == seal_of_row(["a key", "solved", 9.5])
+    False
+    """
+    total = zlib.crc32(json.dumps([v for v in row if not isinstance(v, bytes)], default=repr).encode())
+    for content in row:
+        total = zlib.crc32(content, total) if isinstance(content, bytes) else total
+    return total
 
 
 def _check_tables(file: sqlite3.Connection, form: JournalForm) -> None:
@@ -172,6 +183,11 @@ def _check_tables(file: sqlite3.Connection, form: JournalForm) -> None:
     (verdict,) = file.execute("PRAGMA integrity_check(1)").fetchone()
     if verdict != "ok":
         raise UnfitError("its pages do not fit together")
+
+
+def lock_of(path: Path) -> str:
+    """Name of the file that is locked in the folder of a journal while a process may write to it."""
+    return f".ehlectric-{path.stem}.lock"
 
 
 def begun(path: Path) -> bool:

@@ -1,46 +1,31 @@
-"""NetCDF files: reading them, their content in memory, and files that grow while other programs read them."""
+"""NetCDF files: reading them, and their content in memory."""
 
 from __future__ import annotations
 
-import errno
-import os
-import shutil
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, suppress
-from dataclasses import dataclass
-from functools import partial
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from importlib import import_module
-from io import FileIO
+from io import SEEK_END, BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from ehlectric.errors import DamagedError, InputError, UnreadableError
-from ehlectric.runtime.drafts import Draft, finish, redo_file, write_down
-from ehlectric.runtime.files import write, writing
-from ehlectric.runtime.hdf5_soundness import (
-    file_class,
-    known_sound,
-    reading_class,
-    refuse_damaged,
-    remember_sound,
-    seal_of,
-)
-from ehlectric.runtime.locks import held_back, take
+from ehlectric.runtime.hdf5_soundness import file_class, refuse_damaged, seal_of
 from ehlectric.runtime.sizes import check_netcdf_values
 from ehlectric.runtime.threads import own_filters
 
 if TYPE_CHECKING:
     import xarray as xr
+    from _typeshed import ReadableBuffer
 
-
-F = TypeVar("F", bound=AbstractContextManager[Any])
 
 # Longest time to wait for another program that has the file open, and time between two attempts [s].
-_PATIENCE, _AGAIN = 30.0, 0.05
+_PATIENCE, _AGAIN = 30.0, 0.1
 
 
 def read_dataset(path: Path) -> xr.Dataset:
@@ -86,6 +71,8 @@ class Layout:
     attributes: Mapping[str, Any]
     # Variables that are coordinates, besides those with the name of a dimension.
     coordinates: tuple[str, ...] = ()
+    # Options with which variables are created in the file, as chunks and compression.
+    storage: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def dataset(self) -> xr.Dataset:
         """Dataset of xarray with copies of the values."""
@@ -130,7 +117,8 @@ class Layout:
         near = [one for one in sorted(self.coordinates) if {*_names(self.variables[one][0])} <= {*dims}]
         if near and name not in (*self.coordinates, *dims):
             attributes["coordinates"] = " ".join(near)
-        variable = file.create_variable(name, dims, dtype, fillvalue=fill)
+        options = {"fillvalue": fill, **self.storage.get(name, {})}
+        variable = file.create_variable(name, dims, dtype, **options)
         for key, value in attributes.items():
             variable.attrs[key] = value
         if values.size:
@@ -209,38 +197,42 @@ def content_of(content: xr.Dataset | Layout) -> Callable[[BinaryIO], None]:
 
         content.dump_to_store(xr.backends.H5NetCDFStore(file))
 
-    return _created(fill, None, sealed=True)
-
-
-def create(path: Path, lay_out: Callable[[Any], None], fill: Callable[[Any], None] | None = None) -> None:
-    """Create or replace a NetCDF file that will grow, whole or not at all; raises a WriteError.
-
-    ``lay_out`` is called with the ``h5netcdf.File``, in which it creates variables and attributes, and then
-    ``fill`` with the same file as an ``h5py.File``, to whose variables it writes.
-    """
-    write(path, _created(lay_out, fill))
-    with suppress(OSError):  # another program may have removed it
-        remember_sound(path, path.stat())
-
-
-def _created(
-    lay_out: Callable[[Any], None], fill: Callable[[Any], None] | None, *, sealed: bool = False
-) -> Callable[[BinaryIO], None]:
-    """Function that writes a new NetCDF file to an open file; a complete one ends with a seal."""
-
-    def content(target: BinaryIO) -> None:
+    def write(target: BinaryIO) -> None:
         draft = Draft()
         with file_class()(draft, "w") as file:
-            lay_out(file)
-        if fill is not None:
-            with values_in(draft) as file:
-                fill(file)
-        for part in draft.content():
-            target.write(part)
-        if sealed:
-            target.write(seal_of(draft.content()))
+            fill(file)
+        if draft.failure is not None:
+            raise draft.failure
+        target.write(draft.getbuffer())
+        target.write(seal_of([draft.getbuffer()]))
 
-    return content
+    return write
+
+
+class Draft(BytesIO):
+    """File in memory, which is written to the disk when HDF5 has closed it.
+
+    The library HDF5 crashes where a write fails, as on a full disk or without memory.
+    """
+
+    failure: MemoryError | None = None  # of a write, to be raised after HDF5 has closed the file
+
+    def write(self, content: ReadableBuffer) -> int:
+        """Write bytes at the position, and return their number."""
+        try:
+            return super().write(content)
+        except MemoryError as error:
+            self.failure = error
+            return memoryview(content).nbytes
+
+    def truncate(self, size: int | None = None) -> int:
+        """Change the size, also to a larger one, and return it."""
+        position = self.tell()
+        size = position if size is None else size
+        if (missing := size - self.seek(0, SEEK_END)) > 0:
+            self.write(bytes(missing))
+        self.seek(position)
+        return super().truncate(size)
 
 
 @contextmanager
@@ -250,88 +242,17 @@ def opened(path: Path) -> Iterator[Any]:
     Raises a DamagedError where the file is damaged, and an InputError where it cannot be opened, is no NetCDF
     file, or another program keeps it open.
     """
-    if redo_file(path).is_file() and path.is_file():
-        with writing(path), _to_change(path):
-            pass
-    refuse_damaged(path)
-
-    def attempt() -> Any:
-        return reading_class()(path, "r")
-
-    with _patient(path, attempt) as file:
-        yield file
-
-
-@contextmanager
-def changed(path: Path) -> Iterator[Draft]:
-    """Context with a draft of a file, whose changes are written all or not at all, also after a kill.
-
-    It waits while another program has the file open. Interrupts are held back until the file is closed, so
-    that they leave no damaged file. Raises an InputError where another program keeps the file open, or the
-    disk is full.
-    """
-    with _to_change(path) as target:
-        was_sound = known_sound(path, os.fstat(target.fileno()))
-        draft = Draft(target.fileno())
-        yield draft
-        with writing(path):
-            # Some file systems need space also for what they overwrite.
-            if shutil.disk_usage(path.parent).free < draft.changed:
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            draft.apply(partial(write_down, path, target.fileno()))
-            redo_file(path).unlink()
-        if was_sound:
-            remember_sound(path, os.fstat(target.fileno()))
-
-
-@contextmanager
-def _to_change(path: Path) -> Iterator[FileIO]:
-    """Context with a file that is locked for changes; those that a kill has interrupted are made."""
-
-    def attempt() -> FileIO:
-        target = FileIO(path, "r+")
-        # HDF5 takes the same lock.
-        if take(target.fileno()) == "busy":
-            target.close()
-            raise BlockingIOError
-        return target
-
-    with _patient(path, attempt) as target:
-        with writing(path, redo_file(path)):
-            finish(path, target.fileno())
-        yield target
-
-
-@contextmanager
-def _patient(path: Path, attempt: Callable[[], F]) -> Iterator[F]:
-    """Context with a file that is opened once no other program holds it; interrupts wait for its end."""
     until = time.monotonic() + _PATIENCE
     while True:
-        with held_back():
-            try:
-                file = attempt()
-            except BlockingIOError:
-                if time.monotonic() > until:
-                    told = "is held open by another program, which must close it"
-                    raise InputError(path, told) from None
-            else:
-                with file:
-                    yield file
-                return
-        time.sleep(_AGAIN)
-
-
-def layout_in(draft: Draft) -> AbstractContextManager[Any]:
-    """The ``h5netcdf.File`` in a draft, open to create variables, dimensions and groups."""
-    layout: AbstractContextManager[Any] = file_class()(draft, "r+")
-    return layout
-
-
-def values_in(draft: Draft) -> AbstractContextManager[Any]:
-    """The ``h5py.File`` in a draft, open to resize variables and to write their values.
-
-    The library of NetCDF looks up all variables and dimensions of a file that it opens, and those that have a
-    dimension whenever its size is asked for, which takes several times as long as the values of an instant.
-    """
-    values: AbstractContextManager[Any] = import_module("h5py").File(draft, "r+")
-    return values
+        try:
+            refuse_damaged(path)
+            file = file_class()(path, "r")
+        except BlockingIOError:
+            if time.monotonic() > until:
+                text = "is held open by another program, which must close it"
+                raise InputError(path, text) from None
+            time.sleep(_AGAIN)
+        else:
+            break
+    with file:
+        yield file

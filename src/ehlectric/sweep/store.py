@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import sqlite3
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
@@ -39,7 +38,7 @@ from ehlectric.runtime.file_rules import (
     is_text,
 )
 from ehlectric.runtime.files import now
-from ehlectric.runtime.journal import Journal, JournalForm, reading
+from ehlectric.runtime.journal import Journal, JournalForm, reading, seal_of_row
 from ehlectric.runtime.result_names import SWEEP
 from ehlectric.sweep import sweep_inputs as sweep_design
 from ehlectric.sweep.engine import Outcome, Planned
@@ -81,17 +80,6 @@ def _check(name: str, *, right: bool) -> None:
     """Raise UnfitError where a part of the file is not as it was written."""
     if not right:
         raise UnfitError(f"{name} is not as it was written")
-
-
-def seal_of_row(row: Sequence[Any]) -> int:
-    """Checksum of the outcome of a point, the values of its row in the table of results.
-
-    Examples
-    --------
-    >>> seal_of_row(["a key", "solved", 1.5]) == seal_of_row(["a key", "solved", 9.5])
-    False
-    """
-    return zlib.crc32(json.dumps(list(row), default=repr).encode())
 
 
 def check_seals(file: sqlite3.Connection) -> None:
@@ -498,8 +486,10 @@ def read_sweep(folder: str | Path) -> SweepResults:
     DamagedError
         If its file is damaged.
     """
-    with reading(Path(folder) / NAME, _FORM, check_seals) as file:
-        return results_of(file)
+    with reading(Path(folder) / NAME, _FORM, checked=True) as file:
+        results = results_of(file)
+        check_seals(file)
+    return results
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:

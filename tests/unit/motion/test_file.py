@@ -1,33 +1,35 @@
-"""The file of a moving contact: what is read back, and every way in which a run goes on or does not."""
+"""File and journal of a moving contact: what is read back, and every way in which a run is resumed or not."""
 
 import fcntl
+import gzip
 import json
-import os
 import re
 import signal
+import sqlite3
 import time
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import replace
 from threading import Thread
 
 import h5netcdf
-import h5py
 import numpy as np
 import pytest
 
-from ehlectric import InputError
+from ehlectric import InputError, load
 from ehlectric.errors import ConvergenceError, DamagedError
 from ehlectric.film.unsteady import UnsteadyFilm
+from ehlectric.motion import storage
 from ehlectric.motion.moving_contact import LINE, TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.solver import TransientSolver
-from ehlectric.motion.storage import MotionFile
-from ehlectric.motion.stored_run import MotionRun, read_motion, saved_steps
+from ehlectric.motion.storage import MotionJournal
+from ehlectric.motion.stored_run import MotionRun, is_stored, read_motion, saved_run
 from ehlectric.runtime import netcdf as netcdf_files
-from ehlectric.runtime.hdf5_soundness import remember_sound
-from ehlectric.runtime.result_names import MOTION
+from ehlectric.runtime.journal import seal_of_row
+from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL
 from tests.helpers.each import each
 from tests.helpers.moving_cases import POINT, moving
+from tests.helpers.places import ROOT
 
 # Twelve steps of two grid spacings, kept are 0, 4, 8 and 12.
 SHORT = {"passes": 0.375, "steps": 12, "record": 4}
@@ -73,14 +75,14 @@ def same(one, other):
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """A run from its beginning to its end: its dataset, and its file as it stands after each kept instant."""
+    """A run from its start to its end: its dataset, and its journal after each recorded instant."""
     folder = tmp_path_factory.mktemp("whole")
     told, files = [], {}
 
     def progress(*what):
         told.append(what)
         if what[2] == "time steps":
-            files[what[0]] = (folder / MOTION).read_bytes()
+            files[what[0]] = (folder / MOTION_JOURNAL).read_bytes()
 
     run_motion(CASE, folder, progress=progress)
     assert told == ANEW
@@ -94,13 +96,11 @@ def whole(written):
 
 @pytest.fixture
 def stopped(written, tmp_path):
-    """Puts the file of a run that was stopped after a step into the folder of the test."""
+    """Puts the journal of a run that was killed after a step into the folder of the test."""
 
     def put(step):
-        path = tmp_path / MOTION
+        path = tmp_path / MOTION_JOURNAL
         path.write_bytes(written[1][step])
-        os.utime(path, (0, 0))  # older than what a test makes of it
-        remember_sound(path, path.stat())
         return path
 
     return put
@@ -210,28 +210,25 @@ def test_a_run_that_was_stopped_goes_on_to_the_last_bit(tmp_path, whole, stopped
     assert done.attrs["seconds"] > spent
 
 
-# What is written of an instant in succession: rows, maps, numbers, what is gone on from, its checksum.
-@pytest.mark.parametrize(
-    ("instant", "writes"),
-    [(1, 22), (2, 20), *(pytest.param(2, writes, marks=pytest.mark.slow) for writes in (1, 10, 27))],
-)
+# Parts of an instant in succession: maps, films of the run, films of its companion.
+@pytest.mark.parametrize(("instant", "parts"), [(1, 2), (2, 1), pytest.param(2, 3, marks=pytest.mark.slow)])
 def test_an_instant_that_is_half_written_does_not_count(
-    tmp_path, monkeypatch, whole, stopped, instant, writes
+    tmp_path, monkeypatch, whole, stopped, instant, parts
 ):
     stopped(4 * (instant - 1))
-    put, left = h5py.Dataset.__setitem__, writes
+    put, left = storage.add_arrays, parts
 
-    def torn(self, key, value):
+    def torn(*what):
         nonlocal left
         left -= 1
         if not left:
             raise StoppedError
-        put(self, key, value)
+        put(*what)
 
     with monkeypatch.context() as patch:
-        patch.setattr(h5py.Dataset, "__setitem__", torn)
+        patch.setattr(storage, "add_arrays", torn)
         run(CASE, tmp_path)
-    assert left == 0  # the last of 27 writes is the checksum
+    assert left == 0
     part = read_motion(tmp_path)
     assert part["frame_step"].values.tolist() == [0, 4, 8][:instant]
     assert part.sizes["step"] == 4 * (instant - 1) + 1
@@ -240,52 +237,87 @@ def test_an_instant_that_is_half_written_does_not_count(
     same(read_motion(tmp_path), whole)
 
 
-def changed(path, change):
-    with h5netcdf.File(path, "a") as file:
-        change(file)
+def edited(path, statement, *values):
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute(statement, values)
 
 
 def found(path, case):
-    """What a run of a case would go on from."""
-    return MotionFile(path, TransientContact.of(case)).resumed()
+    """What a run of a case would be resumed from."""
+    with MotionJournal(path.parent, TransientContact.of(case)) as journal:
+        return journal.resumed()
 
 
-def spoil(name):
-    def change(file):
-        # Of both instants that are kept: nothing is known of which is meant.
-        variable = file.groups["resume"].variables[name]
-        variable[:] = np.asarray(variable[:]) + 1
-
-    return change
-
-
-def set_attribute(name, value):
-    return lambda file: file.attrs.__setitem__(name, value)
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "value"), [("version", "0.0.0"), ("rough", "[]")])
+def test_another_run_is_not_resumed(stopped, name, value):
+    path = stopped(4)
+    assert found(path, CASE)[0] == 4
+    text = json.dumps(value)
+    edited(path, "UPDATE run SET value = ?, seal = ? WHERE name = ?", text, seal_of_row([name, text]), name)
+    assert found(path, CASE) is None
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "change",
+    "statement",
     [
-        set_attribute("version", "0.0.0"),
-        set_attribute("rough", "[]"),
-        set_attribute("frames", 0),
-        lambda file: file.attrs.__delitem__("case"),
-        spoil("pressure"),
-        spoil("thickness"),
-        spoil("mass"),
-        spoil("density"),
-        spoil("free"),
-        spoil("t"),
-        spoil("h00"),
-        spoil("checksum"),
+        "UPDATE run SET value = '\"2026\"' WHERE name = 'date'",
+        "UPDATE instants SET step = 5 WHERE step = 4",
+        "UPDATE instants SET numbers = '{}'",
+        "UPDATE instants SET seal = seal + 1 WHERE step = 0",
+        "UPDATE arrays SET content = substr(content, 2) WHERE name = 'mass'",
+        "UPDATE arrays SET shape = '[1]' WHERE name = 'pressure'",
+        "UPDATE arrays SET type = 'O' WHERE name = 't'",
+        "UPDATE arrays SET name = 'other' WHERE name = 'h00'",
+        "DROP TABLE arrays",
+        "ALTER TABLE instants RENAME COLUMN numbers TO texts",
+        "CREATE VIEW other AS SELECT * FROM run",
     ],
 )
-def test_what_is_not_this_run_or_damaged_is_not_gone_on_with(stopped, change):
+def test_a_damaged_journal_is_neither_read_nor_replaced(tmp_path, stopped, statement):
     path = stopped(4)
-    assert found(path, CASE)[0] == 4
-    changed(path, change)
-    assert found(path, CASE) is None
+    edited(path, statement)
+    content = path.read_bytes()
+    with pytest.raises(DamagedError, match=r"motion\.sqlite: is damaged: .*; compute it again$"):
+        read_motion(tmp_path)
+    with pytest.raises(DamagedError, match=r"motion\.sqlite: is damaged: .*; remove it to solve the case"):
+        run(CASE, tmp_path, 0)
+    assert path.read_bytes() == content
+    assert not (tmp_path / MOTION).exists()
+
+
+def test_a_journal_of_something_else_is_refused(tmp_path, stopped):
+    path = stopped(4)
+    edited(path, "PRAGMA user_version = 2")
+    with pytest.raises(InputError, match=r"motion\.sqlite: is of a later version of ehlectric$"):
+        read_motion(tmp_path)
+    edited(path, "PRAGMA application_id = 7")
+    with pytest.raises(InputError, match=r"is not a run with moving roughness of ehlectric$"):
+        run(CASE, tmp_path)
+    path.write_text("no database, but a text that is long enough" * 50)
+    with pytest.raises(InputError, match=r"is not a run with moving roughness of ehlectric$"):
+        read_motion(tmp_path)
+
+
+@pytest.mark.slow
+def test_bytes_that_change_in_a_journal_are_noticed(tmp_path, stopped, whole):
+    """A changed byte is refused in one line, or lies in free space and changes nothing."""
+    content, draw = stopped(8).read_bytes(), np.random.default_rng(2)
+    refused = 0
+    for at in draw.integers(100, len(content), 60):
+        (tmp_path / MOTION).unlink(missing_ok=True)
+        (tmp_path / MOTION_JOURNAL).write_bytes(
+            content[:at] + bytes([content[at] ^ 1 << draw.integers(8)]) + content[at + 1 :]
+        )
+        try:
+            part = read_motion(tmp_path)
+        except InputError:
+            refused += 1
+        else:
+            np.testing.assert_array_equal(part["pressure"], whole["pressure"][:3])
+            np.testing.assert_array_equal(part["minimum_thickness"], whole["minimum_thickness"][:9])
+    assert refused > 15
 
 
 @each(
@@ -296,19 +328,6 @@ def test_another_case_is_not_gone_on_with(stopped, changes):
     path = stopped(4)
     assert found(path, CASE)[0] == 4
     assert found(path, CASE.replace(changes)) is None
-
-
-@pytest.mark.slow
-def test_a_damaged_run_is_not_replaced_without_a_word(stopped):
-    path = stopped(4)
-    with h5py.File(path) as file:
-        place = file["pressure"].id.get_chunk_info(0).byte_offset
-    content = bytearray(path.read_bytes())
-    content[place + 20] ^= 0x20
-    path.write_bytes(content)
-    with pytest.raises(DamagedError, match="HDF5"):
-        found(path, CASE)
-    assert path.read_bytes() == content
 
 
 @pytest.mark.slow
@@ -333,32 +352,132 @@ def test_a_surface_that_was_measured_again_is_solved_anew(tmp_path):
     rough = {"surface": 1, "file": str(tmp_path / "profile.csv"), "x_unit": "m", "z_unit": "m"}
     case = moving(roughness=[rough | {"cutoff_short": "1 mm"}], motion=SHORT)
     run(case, tmp_path, 0)
-    assert found(tmp_path / MOTION, case)[0] == 0
+    assert found(tmp_path / MOTION_JOURNAL, case)[0] == 0
     measure(1.1 * heights)
-    assert found(tmp_path / MOTION, case) is None
+    assert found(tmp_path / MOTION_JOURNAL, case) is None
 
 
 @pytest.mark.slow
 def test_a_run_that_is_complete_is_solved_anew(tmp_path, stopped):
     stopped(12)
+    assert run(CASE, tmp_path) == [of_step(12)]  # only motion.nc was missing
+    assert [path.name for path in tmp_path.iterdir()] == [MOTION]
+    stopped(12)  # a kill came before the journal was removed
     assert run(CASE, tmp_path, 0) == ANEW[:2]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("size", [0, 100, 20_000])
 def test_a_file_cut_short_is_refused_and_an_empty_one_replaced(tmp_path, stopped, size):
-    path = stopped(4)
+    stopped(12)
+    run(CASE, tmp_path)
+    path = tmp_path / MOTION
     path.write_bytes(path.read_bytes()[:size])
     with pytest.raises(InputError, match=r": is (not a NetCDF file|damaged: HDF5)"):
         read_motion(tmp_path)
-    if not size:
-        assert found(path, CASE) is None
-        return
-    for _ in range(2):  # the file is left as it is
+    for _ in range(2 * (size > 0)):  # the file is left as it is
         with pytest.raises(DamagedError, match="remove it"):
             run(CASE, tmp_path, 0)
-    path.unlink()
+    if size:
+        path.unlink()
     assert run(CASE, tmp_path, 0) == ANEW[:2]
+
+
+def test_an_empty_journal_of_a_killed_run_is_used(tmp_path):
+    (tmp_path / MOTION_JOURNAL).touch()
+    assert not is_stored(tmp_path)
+    with pytest.raises(InputError, match=r"motion\.nc: cannot be read, no such file"):
+        read_motion(tmp_path)
+    assert run(CASE, tmp_path, 0) == ANEW[:2]
+
+
+@pytest.fixture
+def of_release(tmp_path):
+    """File of a run that version 1.0.0 was stopped in, after four of twelve steps."""
+    content = (ROOT / "tests" / "data" / "motion" / "stopped-1.0.0.nc.gz").read_bytes()
+    (tmp_path / MOTION).write_bytes(gzip.decompress(content))
+    return tmp_path / MOTION
+
+
+def test_a_stopped_run_of_the_first_version_is_read_and_not_resumed(tmp_path, of_release, whole):
+    content = of_release.read_bytes()
+    part = load(tmp_path).to_xarray()
+    assert (part.attrs["complete"], part.attrs["version"]) == (0, "1.0.0")
+    assert list(part.variables) == list(whole.variables)
+    np.testing.assert_allclose(part["pressure"], whole["pressure"][:2], rtol=1e-6)
+    np.testing.assert_allclose(part["minimum_thickness"], whole["minimum_thickness"][:5], rtol=1e-9)
+    assert saved_run(tmp_path) == (4, CASE.to_toml())
+    says = r"motion\.nc: contains a stopped run without motion\.sqlite, which cannot be resumed; expected an"
+    with pytest.raises(InputError, match=says):
+        run(CASE, tmp_path)
+    assert of_release.read_bytes() == content
+    assert [path.name for path in tmp_path.iterdir()] == [MOTION]
+    of_release.unlink()
+    assert run(CASE, tmp_path, 0) == ANEW[:2]
+
+
+def test_a_file_that_the_first_version_was_killed_in_is_refused(tmp_path, of_release):
+    """It may be half changed; its list of changes is read by that version only."""
+    (tmp_path / MOTION_CHANGES).write_bytes(b"ehl redo 1\r\n")
+    with pytest.raises(InputError, match=r"motion\.nc: has changes that a kill of version 1\.0\.0 left"):
+        read_motion(tmp_path)
+    of_release.unlink()
+    run(CASE, tmp_path, 0)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [MOTION, MOTION_JOURNAL]
+
+
+def test_a_killed_run_is_read_and_gets_its_file(tmp_path, stopped, whole):
+    journal = stopped(8)
+    content = journal.read_bytes()
+    part = read_motion(tmp_path)
+    assert part["frame_step"].values.tolist() == [0, 4, 8]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [MOTION, MOTION_JOURNAL]
+    assert journal.read_bytes() == content
+    from_file = read_motion(tmp_path / MOTION)
+    assert from_file.identical(part)
+    assert {name: from_file[name].dtype for name in part} == {name: part[name].dtype for name in part}
+    assert load(tmp_path) == load(tmp_path / MOTION)
+    assert run(CASE, tmp_path) == [of_step(8), of_step(12)]
+    same(read_motion(tmp_path), whole)
+    assert [path.name for path in tmp_path.iterdir()] == [MOTION]
+
+
+def test_a_run_is_read_while_it_goes_on(tmp_path, whole):
+    """Every instant is there once it is recorded; the reader writes nothing into the folder."""
+    shown = []
+
+    def progress(_done, _of, text):
+        if text == "time steps":
+            shown.append((load(tmp_path).frames, read_motion(tmp_path).sizes["step"], saved_run(tmp_path)[0]))
+            assert not (tmp_path / MOTION).exists()
+
+    run_motion(CASE, tmp_path, progress=progress)
+    assert shown == [(1, 1, 0), (2, 5, 4), (3, 9, 8), (4, 13, 12)]
+    same(read_motion(tmp_path), whole)
+
+
+def test_a_full_disk_keeps_the_instants_and_says_so(tmp_path, stopped, whole):
+    """SQLite itself refuses more pages, as on a full disk."""
+    path = stopped(4)
+
+    def progress(done, _of, text):
+        if done == 4 and text == "time steps":
+            patched(path)
+
+    def patched(_):
+        (journal,) = journals
+        (pages,) = journal.file.execute("PRAGMA page_count").fetchone()
+        journal.file.execute(f"PRAGMA max_page_count = {pages}")
+
+    journals, enter = [], MotionJournal.__enter__
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(MotionJournal, "__enter__", lambda self: journals.append(self) or enter(self))
+        says = r"motion\.sqlite: cannot be written to, database or disk is full; free some space, or choose"
+        with pytest.raises(InputError, match=says):
+            run_motion(CASE, tmp_path, progress=progress)
+    assert read_motion(tmp_path)["frame_step"].values.tolist() == [0, 4]
+    assert run(CASE, tmp_path) == [of_step(4), of_step(8), of_step(12)]
+    same(read_motion(tmp_path), whole)
 
 
 @pytest.mark.slow
@@ -377,12 +496,14 @@ def test_what_cannot_be_read_is_said(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("change", [set_attribute("frames", 0), set_attribute("case", "title = 3")])
-def test_a_motion_without_an_instant_or_a_case_is_none(stopped, change):
-    path = stopped(4)
-    changed(path, change)
+@pytest.mark.parametrize(("name", "value"), [("frames", 0), ("case", "title = 3")])
+def test_a_motion_without_an_instant_or_a_case_is_none(tmp_path, stopped, name, value):
+    stopped(4)
+    read_motion(tmp_path)
+    with h5netcdf.File(tmp_path / MOTION, "a") as file:
+        file.attrs[name] = value
     with pytest.raises(DamagedError, match=r"is damaged: .*(2 of 0|case)"):
-        read_motion(path)
+        read_motion(tmp_path)
 
 
 @pytest.mark.slow
@@ -508,23 +629,24 @@ def held(path):
 
 
 @pytest.mark.slow
-def test_who_looks_at_a_run_does_not_end_it(tmp_path, monkeypatch, whole, stopped):
-    reader, sleep = held(stopped(8)), time.sleep
-
-    def close_and_sleep(seconds):
-        """The reader closes the file once it is waited for."""
-        reader.close()
-        sleep(seconds)
-
-    monkeypatch.setattr(netcdf_files.time, "sleep", close_and_sleep)
-    assert run(CASE, tmp_path) == [of_step(8), of_step(12)]
+def test_who_looks_at_a_run_does_not_end_it(tmp_path, stopped, whole):
+    """Also where the reader holds a transaction open when an instant is to be written."""
+    path = stopped(8)
+    with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as reader:
+        reader.execute("BEGIN")
+        reader.execute("SELECT * FROM instants").fetchone()
+        thread = Thread(target=lambda: (time.sleep(1.0), reader.execute("COMMIT")))
+        thread.start()
+        assert run(CASE, tmp_path) == [of_step(8), of_step(12)]
+        thread.join()
     same(read_motion(tmp_path), whole)
 
 
 @pytest.mark.slow
-def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monkeypatch, stopped):
-    monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
-    with held(stopped(12)) as reader:
+def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, stopped):
+    stopped(12)
+    run(CASE, tmp_path)
+    with held(tmp_path / MOTION) as reader:
         before = (tmp_path / MOTION).read_bytes()
         assert run(CASE, tmp_path, 0) == ANEW[:2]
         assert reader.read() == before
@@ -533,12 +655,12 @@ def test_a_run_from_the_start_leaves_the_old_file_to_who_reads_it(tmp_path, monk
 
 def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
     monkeypatch.setattr(netcdf_files, "_PATIENCE", 0.0)
-    reader = held(stopped(8))
-    text = f"{tmp_path}/motion.nc: is held open by another program, which must close it"
-    with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
-        run(CASE, tmp_path)
+    stopped(8)
+    read_motion(tmp_path)
+    reader = held(tmp_path / MOTION)
     assert read_motion(tmp_path).sizes["frame"] == 3
     fcntl.flock(reader, fcntl.LOCK_EX)
+    text = f"{tmp_path}/motion.nc: is held open by another program, which must close it"
     with pytest.raises(InputError, match=f"^{re.escape(text)}$"):
         read_motion(tmp_path)
     reader.close()
@@ -546,18 +668,18 @@ def test_who_does_not_close_it_is_told(tmp_path, monkeypatch, stopped):
 
 @pytest.mark.slow
 def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
-    """Whichever comes to write after the other has."""
+    """Also in a call within the first one, which holds the folder already."""
     stopped(4)
-    told = []
+    refused = []
 
     def progress(*what):
-        told.append(what)
         if what[0] == 4:
-            run(CASE, tmp_path)
+            with pytest.raises(InputError, match=r"is being written to by another ehlectric") as error:
+                run(CASE, tmp_path)
+            refused.append(error.value)
 
-    with pytest.raises(InputError, match=r"motion\.nc: .*another run"):
-        run_motion(CASE, tmp_path, progress=progress)
-    assert told == [of_step(4)]
+    run_motion(CASE, tmp_path, progress=progress)
+    assert len(refused) == 1
     same(read_motion(tmp_path), whole)
 
 
@@ -567,14 +689,14 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
 )
 def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
     stopped(4)
-    put, left = h5py.Dataset.__setitem__, 10
+    put, left = storage.add_arrays, 2
 
-    def signalled(self, key, value):
+    def signalled(*what):
         nonlocal left
         left -= 1
         if not left:
             signal.raise_signal(number)
-        put(self, key, value)
+        put(*what)
 
     def stop(came, _frame):
         raise StoppedError(came)
@@ -582,14 +704,15 @@ def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped
     before = signal.signal(number, stop)
     try:
         with monkeypatch.context() as patch:
-            patch.setattr(h5py.Dataset, "__setitem__", signalled)
+            patch.setattr(storage, "add_arrays", signalled)
             with pytest.raises(StoppedError, match=f"^{int(number)}$"):
                 run_motion(CASE, tmp_path)
         assert signal.getsignal(number) is stop
     finally:
         signal.signal(number, before)
     assert read_motion(tmp_path)["frame_step"].values.tolist() == [0, 4, 8]
-    assert saved_steps(tmp_path / MOTION) == 8
+    assert saved_run(tmp_path)[0] == 8
+    assert sorted(path.name for path in tmp_path.iterdir()) == [MOTION, MOTION_JOURNAL]
 
 
 def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
@@ -603,19 +726,25 @@ def test_in_another_thread_it_runs_too(tmp_path, stopped, whole):
 def test_only_what_is_new_is_written(tmp_path, monkeypatch, stopped):
     """Memory does not grow with the steps: each goes once."""
     stopped(0)
-    append, written = MotionFile.append, []
+    append, written = MotionJournal.append, []
 
     def counted(self, record):
         written.append((len(record.rows), record.step))
         append(self, record)
 
-    monkeypatch.setattr(MotionFile, "append", counted)
+    monkeypatch.setattr(MotionJournal, "append", counted)
     run(CASE, tmp_path)
     assert written == [(4, 4), (4, 8), (4, 12)]
 
 
 def test_steps_that_are_saved(tmp_path, stopped):
-    assert saved_steps(tmp_path / MOTION) == 0
-    assert [saved_steps(stopped(step)) for step in (0, 4, 12)] == [0, 4, 12]
+    assert saved_run(tmp_path) == (0, "")
+    for step in (0, 4, 12):
+        stopped(step)
+        assert saved_run(tmp_path) == (step, CASE.to_toml())
+    run(CASE, tmp_path)
+    assert saved_run(tmp_path) == (12, CASE.to_toml())
     (tmp_path / MOTION).write_text("no file of a run")
-    assert saved_steps(tmp_path / MOTION) == 0
+    assert saved_run(tmp_path) == (0, "")
+    (tmp_path / MOTION_JOURNAL).write_text("no journal of a run")
+    assert saved_run(tmp_path) == (0, "")

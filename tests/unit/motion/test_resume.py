@@ -1,50 +1,64 @@
-"""Films that a run is resumed from: their layout in the file, as earlier versions wrote it, and checksum."""
+"""Journal of a run: tables and values by hand, as its description says, and films that come back exactly."""
 
+import json
+import sqlite3
 import zlib
+from contextlib import closing
+from dataclasses import replace
 
-import h5netcdf
-import h5py
 import numpy as np
 import pytest
 
 from ehlectric.film.newton import State
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.storage import has_place, keep, kept, make_place
+from ehlectric.motion.companion import Companion
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.storage import MotionJournal, Record, described, time_step
+from ehlectric.runtime.result_names import MOTION_JOURNAL
+from ehlectric.version import __version__
+from tests.helpers.moving_cases import moving
 
-SHAPE = (5, 3)
+CASE = moving(motion={"passes": 0.375, "steps": 12, "record": 4})
+SHAPE = (65, 1)
 
 
-def instant(seed):
+def instant(seed, *, touching=False):
     """An instant of random values."""
     random = np.random.default_rng(seed)
-    state = State(random.random(SHAPE), float(random.random()), random.random(SHAPE))
+    over = random.random(SHAPE) if touching else 0.0
+    state = State(random.random(SHAPE), float(random.random()), random.random(SHAPE), over)
     full = random.random(SHAPE) > 0.5
     return Instant(float(seed), state, random.random(SHAPE), random.random(SHAPE), full)
 
 
-def history(frame):
-    """History of the recorded instant of a number."""
-    return History(now=instant(2 * frame + 1), before=instant(2 * frame))
+def history(frame, *, touching=False):
+    """History of the recorded instant of a number; only its last film touches."""
+    return History(now=instant(2 * frame + 1, touching=touching), before=instant(2 * frame))
 
 
-@pytest.fixture
-def path(tmp_path):
-    with h5netcdf.File(tmp_path / "run.nc", "w") as file:
-        make_place(file, history(0))
-    return tmp_path / "run.nc"
+@pytest.fixture(scope="module")
+def first():
+    """Contact, and the film before the motion as the first recorded instant."""
+    contact = TransientContact.of(CASE)
+    solver, companion = TransientSolver(contact), Companion(contact)
+    start, coarse = solver.start(), companion.start()
+    row = time_step(solver, start, companion.films(0, coarse))
+    return contact, Record(0, [row], solver.snapshot(start.now), start, coarse, 0.25)
 
 
-def put(path, frame):
-    """Keep the history of a recorded instant in a file that has room for it."""
-    with h5py.File(path, "r+") as file:
-        assert has_place(file, history(frame))
-        keep(file, history(frame), frame)
+def attributes(contact):
+    return {"case": contact.case.to_toml(), "version": __version__, "rough": described(contact)}
 
 
-def read(path, frames):
-    """History that a file has kept, after a number of recorded instants."""
-    with h5netcdf.File(path, "r") as file:
-        return kept(file, frames)
+def kept(folder, contact, *records):
+    """Films that a journal is resumed from after it was begun and records were added."""
+    with MotionJournal(folder, contact) as journal:
+        journal.begin(records[0], attributes(contact), None)
+        for record in records[1:]:
+            journal.append(record)
+    with MotionJournal(folder, contact) as journal:
+        return journal.resumed()
 
 
 def same(one, other):
@@ -52,73 +66,58 @@ def same(one, other):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
     for name in ("pressure", "thickness", "h00"):
         np.testing.assert_array_equal(getattr(one.state, name), getattr(other.state, name))
+    touching = (np.broadcast_to(each.state.contact_pressure, SHAPE) for each in (one, other))
+    np.testing.assert_array_equal(*touching)
     assert one.time == other.time
     assert one.full_film.dtype == bool
 
 
-def test_what_is_kept_is_read_to_the_last_bit(path):
-    put(path, 0)
-    found = read(path, 1)
-    same(found.now, history(0).now)
-    same(found.before, history(0).before)
+@pytest.mark.parametrize("touching", [False, True])
+def test_films_come_back_to_the_last_bit(tmp_path, first, touching):
+    contact, record = first
+    later = [
+        replace(record, step=step, history=history(step, touching=touching), coarse=history(step + 9))
+        for step in (4, 8)
+    ]
+    done, fine, coarse = kept(tmp_path, contact, record, *later)
+    assert done == 8
+    for found, expected in ((fine, history(8, touching=touching)), (coarse, history(17))):
+        same(found.now, expected.now)
+        same(found.before, expected.before)
 
 
-def test_the_films_before_stay_while_the_next_are_written(path):
-    """Two places in turn: a torn write of frame 2 spoils that of frame 0, not that of frame 1."""
-    for frame in range(3):
-        put(path, frame)
-    for frame in (1, 2):
-        same(read(path, frame + 1).now, history(frame).now)
-    with h5py.File(path, "r+") as file:
-        variable = file["resume"]["mass"]
-        variable[0] = variable[0] + 1.0
-    assert read(path, 3) is None
-    same(read(path, 2).now, history(1).now)
+def test_a_companion_that_did_not_converge_is_not_kept(tmp_path, first):
+    contact, record = first
+    assert kept(tmp_path, contact, record, replace(record, step=4, coarse=None))[2] is None
 
 
-def test_nothing_is_kept_before_the_first_instant(path):
-    put(path, 0)
-    assert read(path, 0) is None
-
-
-def test_the_layout_is_that_of_earlier_versions(path):
-    """Names, types, dimensions and checksum, by hand: a run stopped before an update is resumed after it."""
-    put(path, 0)
-    with h5netcdf.File(path, "r") as file:
-        check_layout(file.groups["resume"])
-
-
-def check_layout(group):
-    assert {name: size.size for name, size in group.dimensions.items()} == {
-        "place": 2,
-        "instant": 2,
-        "along": 5,
-        "across": 3,
-    }
-    maps = ("place", "instant", "along", "across")
-    layout = {
-        name: (variable.dimensions, variable.dtype.str[1:]) for name, variable in group.variables.items()
-    }
-    assert layout == {
-        "pressure": (maps, "f8"),
-        "thickness": (maps, "f8"),
-        "mass": (maps, "f8"),
-        "density": (maps, "f8"),
-        "free": (maps, "i1"),
-        "t": (maps[:2], "f8"),
-        "h00": (maps[:2], "f8"),
-        "checksum": (maps[:1], "i8"),
-    }
-    now, before = history(0).now, history(0).before
-    total = 0
-    for one, two in (
-        (now.state.pressure, before.state.pressure),
-        (now.state.thickness, before.state.thickness),
-        (now.mass, before.mass),
-        (now.density, before.density),
-        (now.full_film.astype("i1"), before.full_film.astype("i1")),
-        (now.time, before.time),
-        (now.state.h00, before.state.h00),
-    ):
-        total = zlib.crc32(np.stack([one, two]).tobytes(), total)
-    assert int(group.variables["checksum"][0]) == total
+def test_the_journal_is_as_described(tmp_path, first):
+    """Any program that reads SQLite reads it: numbers are JSON, and arrays are raw bytes."""
+    contact, record = first
+    unknown = replace(record.rows[0], coarse_lowest_thickness=float("nan"))
+    kept(tmp_path, contact, record, replace(record, step=2, rows=[unknown, record.rows[0]], seconds=0.5))
+    with closing(sqlite3.connect(tmp_path / MOTION_JOURNAL)) as file:
+        run = {name: json.loads(text) for name, text in file.execute("SELECT name, value FROM run")}
+        assert run == {**attributes(contact), "steps": 12}
+        rows = file.execute("SELECT step, time, seconds, numbers FROM instants ORDER BY step").fetchall()
+        assert [row[:3] for row in rows] == [(0, 0.0, 0.25), (2, 0.0, 0.5)]
+        numbers = json.loads(rows[1][3])
+        film, field = record.snapshot.film, record.snapshot.field
+        assert numbers["minimum_thickness"] == [float(np.min(film.thickness))] * 2
+        assert numbers["coarse_lowest_thickness"] == [None, record.rows[0].coarse_lowest_thickness]
+        assert (numbers["max_strength"], numbers["frame_step"]) == (field.max_strength, 2)
+        assert "minimum_y" not in numbers  # of a line contact
+        kind, shape, content = file.execute(
+            "SELECT type, shape, content FROM arrays WHERE part = 'maps' AND step = 2 AND name = 'pressure'"
+        ).fetchone()
+        assert (kind, shape, len(content)) == ("<f4", "[65]", 260)
+        np.testing.assert_array_equal(np.frombuffer(content, "<f4"), film.pressure.astype("<f4"))
+        parts = dict(file.execute("SELECT part, count(*) FROM arrays GROUP BY part"))
+        assert parts == {"still": 1, "maps": 12, "films": 7, "coarse films": 7}
+        # Films are those of the last instant only.
+        assert file.execute("SELECT DISTINCT step FROM arrays WHERE part LIKE '%films'").fetchall() == [(2,)]
+        *row, seal = file.execute("SELECT * FROM instants WHERE step = 2").fetchone()
+        assert seal == zlib.crc32(json.dumps(row).encode())
+        *row, content, seal = file.execute("SELECT * FROM arrays WHERE name = 'x'").fetchone()
+        assert seal == zlib.crc32(content, zlib.crc32(json.dumps(row).encode()))
+        np.testing.assert_array_equal(np.frombuffer(content, "<f8"), film.x)

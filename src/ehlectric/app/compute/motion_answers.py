@@ -16,11 +16,10 @@ from ehlectric.app.view_models import MotionAnswer
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError
 from ehlectric.motion.result import MotionResult
-from ehlectric.motion.stored_run import read_motion
+from ehlectric.motion.stored_run import is_stored, read_motion
 from ehlectric.quantities.result_warnings import warnings_of
 from ehlectric.runs.by_kind import run_motion
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.result_names import MOTION
 from ehlectric.tables.motion_tables import run_rows
 
 _PREFIX = "motion-"
@@ -46,7 +45,7 @@ def run(table: Mapping[str, Any], folder: str, progress: Progress) -> MotionAnsw
 def stored(table: Mapping[str, Any], folder: str) -> MotionAnswer | None:
     """Solved part of the motion of a case, such as of a run that was cancelled; None where there is none."""
     place = _place(_case(table, folder), folder)
-    return _answer(place, "") if (place / MOTION).is_file() else None
+    return _answer(place, "") if is_stored(place) else None
 
 
 def _case(table: Mapping[str, Any], folder: str) -> Case:
