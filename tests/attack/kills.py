@@ -92,10 +92,9 @@ def _saved_points(out: Path) -> frozenset[Any]:
 
 
 def _saved_steps(out: Path) -> frozenset[Any]:
-    from ehlectric.motion.stored_run import saved_steps
+    from ehlectric.motion.stored_run import saved_run
 
-    path = out / "motion.nc"
-    return frozenset(range(saved_steps(path) if path.is_file() else 0))
+    return frozenset(range(saved_run(out)[0]))
 
 
 SPEED = "contact.entrainment_speed"

@@ -5,10 +5,11 @@ import os
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import time
+from contextlib import closing
 
-import h5netcdf
 import numpy as np
 import pytest
 
@@ -246,12 +247,15 @@ def begun(folder, frames=3, text=LONG):
 
 
 def kept(folder):
-    """Instants in the file of a run, 0 where it cannot be read now."""
-    try:
-        with h5netcdf.File(folder / "out" / "motion.nc", "r") as file:
-            return int(file.attrs["frames"])
-    except (OSError, KeyError):
+    """Instants in the journal of a run, 0 where there is none yet."""
+    path = folder / "out" / "motion.sqlite"
+    if not path.is_file():
         return 0
+    with closing(sqlite3.connect(path)) as file:
+        try:
+            return int(file.execute("SELECT count(*) FROM instants").fetchone()[0])
+        except sqlite3.OperationalError:
+            return 0
 
 
 @pytest.mark.slow
@@ -269,7 +273,7 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     assert errors == (
         f"interrupted; {steps} of {STEPS} steps are saved in out; the same command resumes the run\n"
     )
-    assert files(tmp_path / "out") == ["motion.nc"]
+    assert files(tmp_path / "out") == ["motion.nc", "motion.sqlite"]
     again = begun(tmp_path, frames + 1)
     again.send_signal(number)
     assert again.communicate()[1].startswith("interrupted; ")

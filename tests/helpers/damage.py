@@ -6,8 +6,16 @@ import string
 
 import numpy as np
 
+from ehlectric.runtime.hdf5_soundness import seal_of
+
 BAD_NUMBERS = (0.0, -1.0, 1e300, -1e300, 1e-300, 5e-324, np.nan, np.inf, -np.inf)
 BAD_JSON = (None, 0, -1, 1e300, float("nan"), 10**400, "x", "", [], {}, [[]], [{}], True)
+
+
+def seal(path):
+    """Append a seal to a file without one, as that of a file that a test has changed."""
+    content = path.read_bytes()
+    path.write_bytes(content + seal_of([content]))
 
 
 def with_damaged_bytes(content, seed):

@@ -34,6 +34,7 @@ from ehlectric.motion.warnings import motion_warnings
 from ehlectric.quantities.result_warnings import warnings_of
 from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
+from ehlectric.runtime.journal import remove
 from ehlectric.runtime.progress import Progress, RunOutcome, silent
 from ehlectric.runtime.result_names import MOTION, MOTION_CHANGES, MOTION_JOURNAL, SUMMARY
 from ehlectric.runtime.result_names import OF_CONTACTS as FILES
@@ -118,7 +119,7 @@ def _solve(
     path, journal_path = folder / MOTION, folder / MOTION_JOURNAL
     stored = stored_attributes(path)
     if stored is not None and stored["complete"]:
-        journal_path.unlink(missing_ok=True)  # a kill came after motion.nc was written
+        remove(journal_path)  # a kill came after motion.nc was written
         if not again and is_run_of(contact, stored):
             return
     with MotionJournal(folder, contact) as journal:
@@ -132,7 +133,7 @@ def _solve(
         clear(folder, (MOTION, MOTION_CHANGES))
         complete = _steps(journal, resumed, contact, prepared, progress)
     if complete:
-        journal_path.unlink()
+        remove(journal_path)
 
 
 def _steps(

@@ -190,6 +190,13 @@ def lock_of(path: Path) -> str:
     return f".ehlectric-{path.stem}.lock"
 
 
+def remove(path: Path) -> None:
+    """Remove a journal that no process writes to."""
+    # SQLite would take a rollback journal that is left behind for that of the next file of the name.
+    path.with_name(f"{path.name}-journal").unlink(missing_ok=True)
+    path.unlink(missing_ok=True)
+
+
 def begun(path: Path) -> bool:
     """Whether a file of a journal exists and contains anything: a kill may leave an empty one."""
     return path.is_file() and path.stat().st_size > 0

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
-from io import SEEK_END, BytesIO
+from io import SEEK_CUR, SEEK_END, SEEK_SET, RawIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -21,7 +21,7 @@ from ehlectric.runtime.threads import own_filters
 
 if TYPE_CHECKING:
     import xarray as xr
-    from _typeshed import ReadableBuffer
+    from _typeshed import ReadableBuffer, WriteableBuffer
 
 
 # Longest time to wait for another program that has the file open, and time between two attempts [s].
@@ -203,36 +203,61 @@ def content_of(content: xr.Dataset | Layout) -> Callable[[BinaryIO], None]:
             fill(file)
         if draft.failure is not None:
             raise draft.failure
-        target.write(draft.getbuffer())
-        target.write(seal_of([draft.getbuffer()]))
+        target.write(draft.content)
+        target.write(seal_of([draft.content]))
 
     return write
 
 
-class Draft(BytesIO):
+class Draft(RawIOBase):
     """File in memory, which is written to the disk when HDF5 has closed it.
 
     The library HDF5 crashes where a write fails, as on a full disk or without memory.
     """
 
-    failure: MemoryError | None = None  # of a write, to be raised after HDF5 has closed the file
+    def __init__(self) -> None:
+        self.content = bytearray()
+        self.failure: MemoryError | None = None  # of a write, to be raised after HDF5 has closed the file
+        self._position = 0
 
-    def write(self, content: ReadableBuffer) -> int:
-        """Write bytes at the position, and return their number."""
-        try:
-            return super().write(content)
-        except MemoryError as error:
-            self.failure = error
-            return memoryview(content).nbytes
+    def seek(self, offset: int, whence: int = SEEK_SET) -> int:
+        """Move to a position, and return it."""
+        start = {SEEK_SET: 0, SEEK_CUR: self._position, SEEK_END: len(self.content)}[whence]
+        self._position = start + offset
+        return self._position
 
     def truncate(self, size: int | None = None) -> int:
         """Change the size, also to a larger one, and return it."""
-        position = self.tell()
-        size = position if size is None else size
-        if (missing := size - self.seek(0, SEEK_END)) > 0:
-            self.write(bytes(missing))
-        self.seek(position)
-        return super().truncate(size)
+        size = self._position if size is None else size
+        self._grow(size)
+        del self.content[size:]
+        return size
+
+    def readinto(self, buffer: WriteableBuffer) -> int:
+        """Fill a buffer from the position on, and return the number of bytes."""
+        view = memoryview(buffer).cast("B")
+        part = self.content[self._position : self._position + len(view)]
+        view[: len(part)] = part
+        self._position += len(part)
+        return len(part)
+
+    def write(self, content: ReadableBuffer) -> int:
+        """Write bytes at the position, and return their number."""
+        view = memoryview(content).cast("B")
+        end = self._position + len(view)
+        if len(view):
+            self._grow(end)
+        if self.failure is None:
+            self.content[self._position : end] = view
+        self._position = end
+        return len(view)
+
+    def _grow(self, size: int) -> None:
+        """Add zeros up to a size; without memory for them, the content stays as it is."""
+        try:
+            self.content.extend(bytes(max(0, size - len(self.content))))
+        except MemoryError as error:
+            self.failure = error
 
 
 @contextmanager

@@ -15,10 +15,10 @@ OF_BEARINGS = (SUMMARY, CONTACTS, IMPEDANCE, DUTY, BEARING_NETCDF)
 DRIVE_NETCDF, EVENTS, SPECTRUM = "drive.nc", "events.csv", "spectrum.csv"
 OF_DRIVES = (SUMMARY, EVENTS, SPECTRUM, DUTY, DRIVE_NETCDF)
 
-# Run with moving roughness, its journal while it is not complete, and changes that a kill of version 1.0.0
-# left unfinished.
+# Run with moving roughness, its journal while it is not complete, with SQLite's file of a transaction, and
+# changes that a kill of version 1.0.0 left unfinished.
 MOTION, MOTION_JOURNAL, MOTION_CHANGES = "motion.nc", "motion.sqlite", ".motion.nc.redo"
-OF_MOTION = (MOTION, MOTION_JOURNAL, MOTION_CHANGES)
+OF_MOTION = (MOTION, f"{MOTION_JOURNAL}-journal", MOTION_JOURNAL, MOTION_CHANGES)
 
 # Database of a sweep, and the files that are made from it.
 SWEEP = "sweep.sqlite"

@@ -24,6 +24,7 @@ from ehlectric.motion.warnings import touch_warnings
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.results import MOTION_KEYS
 from ehlectric.runtime.file_rules import UnfitError
+from ehlectric.runtime.result_names import MOTION_JOURNAL
 from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
 from tests.unit.motion.test_file import StoppedError, same
@@ -73,12 +74,12 @@ def test_a_spot_of_half_a_contact_counts_on_both_sides():
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """A run from its start to its end: its outcome, and its file after the steps 34 and 41."""
+    """A run from its start to its end: its outcome, and its journal after the steps 34 and 41."""
     folder, files = tmp_path_factory.mktemp("touching"), {}
 
     def progress(done, _of, text):
         if text == "time steps" and done in (34, 41):
-            files[done] = (folder / "motion.nc").read_bytes()
+            files[done] = (folder / MOTION_JOURNAL).read_bytes()
 
     return run(CASE, folder, progress), files
 
@@ -143,7 +144,7 @@ def test_balance_of_the_load_with_asperities(written):
 @pytest.mark.parametrize("step", [34, 41], ids=["before spots", "among spots"])
 def test_a_resumed_run_has_the_same_asperities(written, step, tmp_path):
     outcome, files = written
-    (tmp_path / "motion.nc").write_bytes(files[step])
+    (tmp_path / MOTION_JOURNAL).write_bytes(files[step])
     assert ("spots" in read_motion(tmp_path)) == (step == 41)
     told = []
     run_motion(CASE, tmp_path, progress=lambda done, _of, _text: told.append(done))
@@ -262,7 +263,7 @@ def test_a_run_that_touches_has_no_error_of_its_minimum():
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "value"), [("spots", 1.5), ("asperity_load_share", -0.1)])
 def test_damaged_values_are_refused(written, name, value, tmp_path):
-    (tmp_path / "motion.nc").write_bytes(written[1][41])
+    (tmp_path / MOTION_JOURNAL).write_bytes(written[1][41])
     dataset = read_motion(tmp_path)
     wrong = np.where(np.arange(dataset.sizes["step"]) == 3, value, dataset[name].values)
     with pytest.raises(UnfitError, match=name):

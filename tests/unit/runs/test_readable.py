@@ -11,7 +11,7 @@ from ehlectric.errors import UnreadableError
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.patch import Joined
 from ehlectric.motion.run import run_motion
-from ehlectric.motion.storage import MotionFile
+from ehlectric.motion.storage import MotionJournal
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.sweep.engine import Outcome
 from ehlectric.sweep.store import Store
@@ -71,13 +71,13 @@ def test_a_drive_that_load_would_refuse(tmp_path):
 @pytest.mark.gate
 def test_an_instant_that_load_would_refuse_is_not_written(tmp_path, monkeypatch):
     """The instants before it can be loaded."""
-    right = MotionFile._frame
+    right = MotionJournal._frame
 
     def frame(self, record):
         found = right(self, record)
         return replace(found, pressure=found.pressure - 1e12) if record.step else found
 
-    monkeypatch.setattr(MotionFile, "_frame", frame)
+    monkeypatch.setattr(MotionJournal, "_frame", frame)
     with pytest.raises(
         UnreadableError, match=r"motion\.nc: does not get the instant at step \d+.* pressure is neg"
     ):

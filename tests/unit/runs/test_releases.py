@@ -11,9 +11,9 @@ from ehlectric import Sweep, load
 from ehlectric.errors import InputError
 from ehlectric.runs.file_kinds import read_input
 from ehlectric.runs.solve import case_of
-from ehlectric.runtime.hdf5_soundness import seal
 from ehlectric.sweep.store import read_sweep
 from ehlectric.version import __version__
+from tests.helpers.damage import seal
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
 

@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric.errors import InputError
 from ehlectric.runtime import sizes
-from ehlectric.runtime.hdf5_soundness import reading_class
+from ehlectric.runtime.hdf5_soundness import file_class
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.sizes import check_netcdf_values, check_size
@@ -75,7 +75,7 @@ def test_shapes_are_those_of_the_library(tmp_path):
             home.variables[name][...] = np.full((length, 3), float(length))
     with h5py.File(path, "a") as file:
         file["a"].resize((1, 3))
-    with h5netcdf.File(path, "r") as file, reading_class()(path, "r") as read:
+    with h5netcdf.File(path, "r") as file, file_class()(path, "r") as read:
         assert read.variables["a"].shape == (5, 3)
         for name in ("a", "b", "inner/c", "inner/d"):
             expected, found = file[name], read[name]
