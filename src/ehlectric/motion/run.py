@@ -143,7 +143,7 @@ def _steps(
     prepared: PreparedContact,
     progress: Progress,
 ) -> bool:
-    """Solve the time steps after those of a journal; whether the run is complete."""
+    """Solve the time steps that a journal lacks; whether the run is complete."""
     solver, companion = TransientSolver(contact), Companion(contact)
     if resumed is None:
         progress(0, contact.schedule.steps, "film before the motion")

@@ -3,11 +3,11 @@
 The journal of a run has three tables. ``run`` contains the attributes of motion.nc as JSON, and the number
 of all ``steps``. ``instants`` has a row for each recorded instant: the number of its time step, its time [s],
 the computing time since the instant before [s], and ``numbers``, a JSON object with the numbers of the
-instant and, as lists, those of the time steps since the instant before, by the names of the variables of
-motion.nc. ``arrays`` contains the raw bytes of arrays with their type of NumPy and their shape, by part, time
-step and name. The parts are "maps" of the instants, "still", the nodes and the maps of stationary roughness,
-and the films from which the run and its companion are resumed, "films" and "coarse films". ``seal`` is the
-CRC-32 of the row.
+instant and lists with the numbers of the time steps since the instant before, by the names of the variables
+of motion.nc. ``arrays`` contains the raw bytes of arrays with their type of NumPy and their shape, by part,
+time step and name. The parts are "maps" of the instants, "still", the nodes and the maps of stationary
+roughness, and the films from which the run and its companion are resumed, "films" and "coarse films".
+``seal`` is the CRC-32 of the row.
 """
 
 from __future__ import annotations

@@ -170,7 +170,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 
 def _from_journal(journal: Path, path: Path) -> xr.Dataset:
-    """Run from its journal; where no process writes to the journal, motion.nc is written too."""
+    """Run from its journal. If no process writes to the journal, also write motion.nc."""
     with ExitStack() as stack, suppress(WriteError):  # the disk may be full, or not be writable
         try:
             stack.enter_context(locked(journal.parent, lock_of(journal)))

@@ -353,8 +353,8 @@ class _Percent:
 def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
     """Solve a contact with moving roughness in memory.
 
-    ``run_motion`` writes the instants of a long run into a folder while they are solved, and resumes a run
-    that was stopped; ``load`` reads them.
+    ``run_motion`` saves the instants of a long run in a folder while they are solved, and resumes a run that
+    was stopped; ``load`` reads them.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ _UNUSABLE = (
     sqlite3.SQLITE_NOLFS,
 )
 
-# Largest size of a file: that of a sweep of the most points, with room to spare [bytes]. Ratio of the memory
+# Largest size of a file, which is larger than a sweep of the most points [bytes]. Ratio of the memory
 # that its content takes to this size.
 _LARGEST, _COPIES = 8_000_000_000, 3.0
 
@@ -192,7 +192,7 @@ def lock_of(path: Path) -> str:
 
 def remove(path: Path) -> None:
     """Remove a journal that no process writes to."""
-    # SQLite would take a rollback journal that is left behind for that of the next file of the name.
+    # SQLite would apply a rollback journal that is left behind to the next file of the name.
     path.with_name(f"{path.name}-journal").unlink(missing_ok=True)
     path.unlink(missing_ok=True)
 
