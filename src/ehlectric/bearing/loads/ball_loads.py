@@ -408,7 +408,7 @@ class _Forces:
         states, contacts = ([getattr(each, name) for each in blocks] for name in ("state", "contacts"))
         others = (
             np.concatenate([getattr(each, name) for each in blocks], axis=-1)
-            for name in ("own", "missing", "residual")
+            for name in ("on_balls", "missing", "residual")
         )
         return cls(joined(states), joined(contacts), *others)
 
