@@ -29,11 +29,10 @@ from ehlectric.cases.table import CaseFile, Title, as_mapping, with_name_keys
 from ehlectric.errors import InputError, short, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import Laws, OwnLaws, SampledLaws
+from ehlectric.quantities.alternatives import CONTACT_GROUPS
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import inputs
 from ehlectric.runtime.values import headline
-
-# Units of the numbers in the representation of a case, by their key in the table ``contact``.
-_SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
 
 # Key of the laws of a user's own, in tables of Python and in the context of a validation.
 LAWS = "laws"
@@ -259,7 +258,9 @@ class Case(CaseFile, book="case_file"):
 
     def _headline(self) -> str:
         """Title, geometry, load and speed on one line."""
-        given = [(key, self.contact.value(key), unit) for key, unit in _SHOWN.items()]
+        groups = CONTACT_GROUPS[self.contact.geometry]
+        keys = [key for row in (*groups["load"], groups["speed"][0]) for key in row]
+        given = [(key, self.contact.value(key), inputs()["contact"][key].unit) for key in keys]
         numbers = [f"{key} {amount(value, unit)}" for key, value, unit in given if value is not None]
         motion = None if self.motion is None else "moving roughness"
         laws = None if self._laws is None else f"own laws of {', '.join(self._laws.names)}"

@@ -12,11 +12,6 @@ from ehlectric.quantities.quantity import data_file
 
 _READ = data_file("ehlectric.quantities", "key_aliases.toml")
 
-# Keys that a wrong name may mean, by the dotted name; a file that has none of them takes its nearest key.
-ALIASES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {name: tuple(keys) for name, keys in _READ["aliases"].items()}
-)
-
 # Advice for unknown keys that users expect, by the name of the file in the book of inputs, and dotted key.
 ADVICE: Mapping[tuple[str, str], str] = MappingProxyType(
     {(file, key): row["text"] for row in _READ["advice"] for file in row["files"] for key in row["keys"]}

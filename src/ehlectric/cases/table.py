@@ -27,9 +27,9 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
 from ehlectric.cases.amounts import WRITTEN, Amount, Amounts, Count, with_bounds
-from ehlectric.cases.key_names import ADVICE, ALIASES, refuse_deep, refuse_long_keys
+from ehlectric.cases.key_names import ADVICE, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
-from ehlectric.quantities.inputs import inputs
+from ehlectric.quantities.inputs import aliases, inputs
 from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.reading import read_text
 from ehlectric.runtime.values import Tabled
@@ -555,7 +555,7 @@ def any_of(keys: Sequence[str]) -> str:
 def meant(key: str, model: type[Table], given: Mapping[str, Any] = MappingProxyType({})) -> list[str]:
     """Known keys that an unknown key may mean, and that a file with the given tables can use.
 
-    Those of ``ALIASES`` come first, then a key with the same name in another table, then the most similar
+    Those of ``aliases`` come first, then a key with the same name in another table, then the most similar
     key in the same table. The list is empty if no key is similar, because a wrong hint is worse than none.
     """
     unused = model.unused_keys(given) if given else ()
@@ -573,7 +573,7 @@ def similar_keys(key: str, known: Sequence[str]) -> list[str]:
     table, _, leaf = key.rpartition(".")
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
-        alias = [prefix + other for other in ALIASES.get(name.lower(), ()) if prefix + other in known]
+        alias = [prefix + other for other in aliases().get(name.lower(), ()) if prefix + other in known]
         if alias:
             return alias
     return _nearest_of(key, table, leaf, known)

@@ -36,6 +36,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import Formula, LineContact
 from ehlectric.formulas.film_point import PointContact
+from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES
 from ehlectric.quantities.result_warnings import ResultWarning
 from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
@@ -125,6 +126,11 @@ def _whole_field(problem: PointFieldProblem) -> PointField:
     return field.mirrored() if field.y[0] == 0.0 else field
 
 
+def _resolved(geometry: str) -> tuple[str, ...]:
+    """First keys of each group of alternatives, and the slide-to-roll ratio."""
+    return (*(key for rows in CONTACT_ALTERNATIVES[geometry] for key in rows[0]), "slide_to_roll_ratio")
+
+
 LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = Kind(
     resolve=resolve,
     rough=rough_surfaces,
@@ -135,13 +141,7 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
     result_warnings=line_result_warnings,
     formulas=film_line.FORMULAS,
     regime=film_line.regime,
-    contact_keys=(
-        "reduced_radius",
-        "reduced_modulus",
-        "load_per_length",
-        "entrainment_speed",
-        "slide_to_roll_ratio",
-    ),
+    contact_keys=_resolved("line"),
     grid_keys=(),
     hertz_keys=("half_width", "max_pressure"),
     film_summary=_line_film,
@@ -159,14 +159,7 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     result_warnings=point_result_warnings,
     formulas=film_point.FORMULAS,
     regime=film_point.regime,
-    contact_keys=(
-        "radius_x",
-        "radius_y",
-        "reduced_modulus",
-        "load",
-        "entrainment_speed",
-        "slide_to_roll_ratio",
-    ),
+    contact_keys=_resolved("point"),
     grid_keys=("side",),
     hertz_keys=("semi_axis_x", "semi_axis_y", "max_pressure"),
     film_summary=_point_film,

@@ -1,17 +1,16 @@
 """Help of the fields of the app: what an input is, its usual values, and what follows as it grows.
 
-What an input is stands in the book of inputs, as in the reference of the files; the rest is in
-``field_help.toml``, whose effects a test compares with solved examples.
+The entry of an input has its meaning, usual values and effects; ``field_help.toml`` has the words of the
+effects, which a test compares with solved examples, and of the sources of usual values.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
-from ehlectric.quantities.inputs import Input, described, input_at, plain_text, table_and_key
+from ehlectric.quantities.inputs import Input, attributes, described, input_at, plain_text
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import printed, rounded
 
@@ -31,7 +30,6 @@ class Help:
     falls: Sequence[str] = ()
 
 
-@cache
 def _data() -> dict[str, dict[str, Any]]:
     return data_file("ehlectric.quantities", "field_help.toml")
 
@@ -50,8 +48,7 @@ def effect(name: str) -> dict[str, Any]:
 
 def help_at(key: str) -> Help:
     """Usual values and effects of the input of a dotted key."""
-    table, name, _ = table_and_key(key)
-    return Help(**_data().get(table, {}).get(name, {}))
+    return Help(**attributes("help").get(key, {}))
 
 
 def help_text(key: str) -> str:

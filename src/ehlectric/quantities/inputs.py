@@ -1,4 +1,4 @@
-"""Inputs of the files, from ``inputs_and_sliders.toml``: label, symbol and meaning of every key, form fields.
+"""Inputs of the files, from ``inputs.toml``: label, symbol and meaning of every key, form fields.
 
 Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. The
 tables of the package ``cases`` take the SI unit and the bounds of a number from here. Those of a
@@ -31,6 +31,11 @@ _REPLACING = {above: key for key, above in REPLACED.items()}
 # Tables of the keys that stand in no table.
 _FILES = ("case_file", "bearing_file", "drive_file")
 
+# Attributes of an entry that are no fields of ``Input``; ``attributes`` returns them.
+_FURTHER = frozenset(
+    ("aliases", "default", "field", "help", "in_results", "lists", "only", "only_given", "row_of")
+)
+
 # Tables that a file has several times, with the words for one of them.
 _NUMBERED = {"contact.body": "of body", "roughness": "of rough surface"}
 
@@ -57,9 +62,8 @@ class Input(Bounds, Quantity):
         return self.unit == "K" and not self.difference
 
 
-@cache
 def _contents() -> dict[str, dict[str, Any]]:
-    return data_file("ehlectric.quantities", "inputs_and_sliders.toml")
+    return data_file("ehlectric.quantities", "inputs.toml")
 
 
 @cache
@@ -83,6 +87,7 @@ _BELOW, _ABOVE = 1.0 / 30.0, 10.0
 
 
 def _input(key: str, **entry: Any) -> Input:
+    entry = {name: value for name, value in entry.items() if name not in _FURTHER}
     entry["typical"] = _typical(entry)
     for name in ("slider", "choices"):
         entry[name] = tuple(entry[name]) if name in entry else getattr(Input, name)
@@ -99,6 +104,48 @@ def _typical(entry: Mapping[str, Any]) -> tuple[float, float] | None:
     else:
         low, high = max(0.0, _BELOW * entry["slider"][0]), _ABOVE * max(map(abs, entry["slider"]))
     return factor * low, factor * high
+
+
+@cache
+def attributes(name: str) -> Mapping[str, Any]:
+    """Values of an attribute by dotted key, of the entries that have it; of both bodies of a contact.
+
+    Examples
+    --------
+    >>> attributes("default")["drive.seed"], attributes("only")["contact.body_2.radius_x"]
+    (0, 'point')
+    """
+    return {
+        f"{table}{key}": entry[name]
+        for head, entries in _contents().items()
+        if head != "forms"
+        for table in _PLACES.get(head, (f"{head}.",))
+        for key, entry in entries.items()
+        if name in entry
+    }
+
+
+# Beginnings of the dotted keys of a table of entries, if they are not its name.
+_PLACES = {"contact.body": ("contact.body_1.", "contact.body_2.")} | dict.fromkeys((*_FILES, "sweep"), ("",))
+
+
+@cache
+def aliases() -> Mapping[str, tuple[str, ...]]:
+    """Keys that a wrong name may mean, by the dotted name.
+
+    Examples
+    --------
+    >>> aliases()["contact.force"]
+    ('contact.load', 'contact.load_per_length', 'contact.max_hertz_pressure')
+    """
+    meant: dict[str, tuple[str, ...]] = {}
+    for key, names in attributes("aliases").items():
+        table = key.rpartition(".")[0]
+        for name in names:
+            dotted = name.removeprefix(".") if "." in name or not table else f"{table}.{name}"
+            meant[dotted] = (*meant.get(dotted, ()), key)
+    read = data_file("ehlectric.quantities", "key_aliases.toml")["aliases"]
+    return meant | {name: tuple(keys) for name, keys in read.items()}
 
 
 def form(name: str) -> Mapping[str, tuple[str, ...]]:

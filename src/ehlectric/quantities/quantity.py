@@ -10,6 +10,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import resources
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
@@ -102,8 +103,9 @@ class Bounds:
 Keys = Mapping[str, Quantity]
 
 
+@cache
 def data_file(package: str, name: str) -> dict[str, Any]:
-    """Contents of a data file in TOML that lies in a package.
+    """Contents of a data file in TOML that lies in a package; it is read once, and no caller changes it.
 
     Examples
     --------

@@ -12,7 +12,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from ehlectric.quantities.inputs import ENDS, input_at
+from ehlectric.quantities.inputs import ENDS, attributes, input_at
 from ehlectric.quantities.quantity import Keys, Quantity, data_file, under
 
 # Voltages whose share of time the summary of a drive has [V]: in the field, discharges begin at a few volts.
@@ -48,24 +48,38 @@ def _entries(kind: str) -> Mapping[str, Mapping[str, Any]]:
     }
 
 
-def _quantity(key: str, fields: Mapping[str, Any], geometry: str) -> Quantity:
-    """Quantity of an entry for a geometry; an input has the label of the book of inputs."""
+def _quantity(fields: Mapping[str, Any], geometry: str) -> Quantity:
+    """Quantity of an entry for a geometry."""
     chosen = {
         name: value[geometry] if isinstance(value, dict) else value
         for name, value in fields.items()
         if name not in ("only", "stored")
     }
-    given = input_at(key.removeprefix("inputs.")) if key.startswith("inputs.") else None
-    return Quantity(**({} if given is None else {"label": given.label, "meaning": given.meaning}) | chosen)
+    return Quantity(**chosen)
+
+
+# Tables of the inputs that rows of a kind of result show.
+_INPUTS = {"contact": ("contact", "grid"), "bearing": ("bearing", "motor", "discharge")}
+
+
+def _inputs(kind: str) -> dict[str, Quantity]:
+    """Inputs that rows of a kind of result show, by dotted key."""
+    shown: dict[str, Quantity] = {}
+    for key, unit in attributes("in_results").items():
+        entry = input_at(key)
+        if entry is not None and key.partition(".")[0] in _INPUTS.get(kind, ()):
+            shown[f"inputs.{key}"] = Quantity(entry.meaning, entry.unit, entry.label, shown=unit)
+    return shown
 
 
 def _read(kind: str, geometry: str = "", *, stored: bool = True) -> dict[str, Quantity]:
-    """Quantities of a file by dotted key: those that a summary stores, or the others."""
-    return {
-        key: _quantity(key, fields, geometry)
+    """Quantities of a file by dotted key: those that a summary stores, or the others, with inputs."""
+    read = {
+        key: _quantity(fields, geometry)
         for key, fields in _entries(kind).items()
         if fields.get("stored", True) is stored and fields.get("only", geometry) == geometry
     }
+    return read if stored else read | _inputs(kind)
 
 
 def _within(table: str, keys: Keys) -> dict[str, Quantity]:

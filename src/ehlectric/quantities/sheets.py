@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from ehlectric.quantities.alternatives import with_groups
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.rows import Section, Sheet
 
 _READ = data_file("ehlectric.quantities", "sheets.toml")
 _SECTIONS = {
-    name: Section(section["heading"], tuple(section["keys"]), section.get("only", ""))
+    name: Section(section["heading"], with_groups(section["keys"]), section.get("only", ""))
     for name, section in _READ["sections"].items()
 }
 
@@ -71,7 +72,7 @@ SURFACES, OILS, SWEEP_COLUMNS, BREAKDOWNS, VALUES = (
 )
 
 # Inputs and results of sweeps, on a page and in a report.
-SWEEPS: Mapping[str, tuple[str, ...]] = {name: tuple(keys) for name, keys in _READ["sweeps"].items()}
+SWEEPS: Mapping[str, tuple[str, ...]] = {name: with_groups(keys) for name, keys in _READ["sweeps"].items()}
 
 
 def at_ends(keys: Iterable[str], ends: Iterable[str] = ENDS) -> Iterator[str]:

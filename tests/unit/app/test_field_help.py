@@ -14,6 +14,7 @@ from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field_defaults import end_and_key
 from ehlectric.bearing.summary import summary_of
 from ehlectric.quantities.field_help import effect, help_at, help_text
+from ehlectric.quantities.inputs import attributes
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit
 from tests.helpers.places import EXAMPLES
@@ -335,9 +336,7 @@ def test_every_field_has_help():
 
 def test_help_is_of_known_inputs_and_effects():
     data = data_file("ehlectric.quantities", "field_help.toml")
-    tables = {name: table for name, table in data.items() if name not in ("effects", "sources")}
-    keys = {key.replace("body_1", "body").replace("body_2", "body") for key in FIELDS}
-    assert {f"{table}.{name}" for table, entries in tables.items() for name in entries} <= keys
+    assert attributes("help").keys() <= FIELDS.keys()
     used = {name for claims in CLAIMS.values() for name in (*claims.rises, *claims.falls)}
     assert used == set(data["effects"])
     sources = {help_at(key).source for key in FIELDS}

@@ -7,8 +7,8 @@ import pytest
 
 from ehlectric import Case, DriveCase, InputError, Sweep
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.cases.key_names import ALIASES
 from ehlectric.cases.table import nearest_key, similar_keys
+from ehlectric.quantities.inputs import aliases
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -19,7 +19,7 @@ CONTACT |= {"entrainment_speed": "4 m/s", "lubricant": "paper"}
 @pytest.mark.slow
 def test_every_alias_leads_to_keys_that_exist():
     """A key whose name changes would otherwise stay in messages; an alias that became a key is none."""
-    for name, keys in ALIASES.items():
+    for name, keys in aliases().items():
         hints = [nearest_key(name, model) for model in (Case, BearingCase, DriveCase, Sweep)]
         hints += similar_keys(name, [f"vary.{key}" for key in ("from", "to", "count", "spacing")])
         for key in keys:

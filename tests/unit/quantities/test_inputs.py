@@ -11,7 +11,16 @@ from ehlectric.cases.input_keys import TABLES, describe, input_field, input_of, 
 from ehlectric.cases.measurements import CYCLE
 from ehlectric.cases.oil_inputs import law_parameters
 from ehlectric.cases.table import number_of
-from ehlectric.quantities.inputs import REPLACED, SPEED, TEMPERATURE, form, input_at, inputs, key_of_drive
+from ehlectric.quantities.inputs import (
+    REPLACED,
+    SPEED,
+    TEMPERATURE,
+    attributes,
+    form,
+    input_at,
+    inputs,
+    key_of_drive,
+)
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
@@ -112,3 +121,8 @@ def test_columns_of_a_duty_cycle_replace_the_operating_point():
     keys = {name: column.key for name, column in CYCLE.columns.items()}
     assert (keys["speed"], keys["temperature"]) == (SPEED, TEMPERATURE)
     assert all(input_at(key).unit == CYCLE.columns[name].unit for name, key in keys.items() if key)
+
+
+@each("name", ["default", "field", "help", "lists", "only_given"])
+def test_attributes_of_fields_are_of_inputs_with_a_field(name):
+    assert attributes(name).keys() <= {key for _, key in FIELDS}

@@ -9,21 +9,20 @@ from ehlectric.app.form_fields.field import (
     both,
     carries,
     equal,
-    form_data,
     given,
     group_of,
     of_kind,
     unequal,
 )
 from ehlectric.app.form_fields.oil_fields import oil
-from ehlectric.quantities.inputs import form
+from ehlectric.quantities.inputs import attributes, form
 
 _own = equal("bearing.base", None)
 
 
 def _number_in_place_of(key: str) -> dict[str, Any]:
     """Condition of a field that holds a number where its list has no word for the value."""
-    words = [way["value"] for way in form_data("alternatives")[key]["ways"] if "value" in way]
+    words = [way["value"] for entry in attributes("lists")[key] for way in entry["ways"] if "value" in way]
     return {"when": unequal(key, None, *words), "strict": True}
 
 
@@ -44,7 +43,7 @@ _SHOWN: dict[str, dict[str, Any]] = {
     **{
         key: {"when": given("bearing.fits")}
         for key in form("bearing")["Clearance"]
-        if key.startswith("bearing.fits.") and key not in form_data("only_given")
+        if key.startswith("bearing.fits.") and key not in attributes("only_given")
     },
     "bearing.coating.ring": {"when": equal("bearing.coating.base", None)},
 }

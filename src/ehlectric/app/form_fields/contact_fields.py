@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.app.catalogue import oil
-from ehlectric.app.form_fields.field import Group, always, both, equal, form_data, given, group_of
+from ehlectric.app.form_fields.field import Group, always, both, equal, given, group_of
 from ehlectric.app.form_fields.field_rules import changed
 from ehlectric.app.form_fields.oil_fields import oil as oil_fields
 from ehlectric.app.page_inputs import Inputs
@@ -77,6 +77,10 @@ _GROUPS = {name: _groups(name) for name in ("line", "point")}
 # Tables that line and point contacts share, which a change from one to the other keeps.
 _SHARED = ("lubricant", "electric", "discharge", "film", "inlet")
 
+# Inputs of the table ``contact`` that they share.
+_KEYS = {name: [key for keys in form(name).values() for key in keys] for name in ("line", "point")}
+_KEPT = [key for key in _KEYS["line"] if key.startswith("contact.") and key in _KEYS["point"]]
+
 
 def geometry_of(inputs: Inputs) -> str:
     """Geometry of a contact, "line" or "point"; a line where the inputs do not say."""
@@ -101,5 +105,5 @@ def switched(inputs: Inputs, start: Inputs) -> Inputs:
     # A point contact has no length, and a line contact gets back the one it had before.
     if found.value("discharge") is not None:
         found = found.changed({"discharge.length": start.value("discharge.length")})
-    values = {f"contact.{name}": inputs.value(f"contact.{name}") for name in form_data("shared")}
+    values = {key: inputs.value(key) for key in _KEPT}
     return changed(found, {key: value for key, value in values.items() if value is not None})

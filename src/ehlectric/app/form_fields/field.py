@@ -15,7 +15,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.bearing_kinds import KEYS_OF_KINDS, KINDS_OF_BEARINGS, KindOfBearing
 from ehlectric.quantities.field_help import help_text
 from ehlectric.quantities.grouped_digits import certain
-from ehlectric.quantities.inputs import form, input_at
+from ehlectric.quantities.inputs import attributes, form, input_at
 from ehlectric.quantities.quantity import data_file
 from ehlectric.quantities.units import in_unit, parts, printed, rounded, si_unit, split
 
@@ -288,18 +288,17 @@ def field_of(key: str, **more: Any) -> Field:
         "unit": entry.shown,
         "low": entry.slider[0],
         "high": entry.slider[1],
-        "when": never if key in form_data("only_given") else always,
+        "when": never if key in attributes("only_given") else always,
         "note": entry.field_note,
         "help": help_text(key),
         **{name: getattr(entry, name) for name in ("log", "kind", "choices", "optional")},
-        **form_data("fields").get(key, {}),
+        **attributes("field").get(key, {}),
     }
     return Field(key, **(own | more))
 
 
-def list_of_ways(name: str, when: When = always) -> Field:
+def list_of_ways(entry: Mapping[str, Any], when: When = always) -> Field:
     """List of the alternative ways to give a quantity, from the book."""
-    entry = form_data("alternatives")[name]
     ways = []
     for way in entry["ways"]:
         changes = {key: None if value == "" else value for key, value in way.get("changes", {}).items()}
@@ -334,16 +333,16 @@ def group_of(
     lists: Mapping[str, When] = MappingProxyType({}),
     **more: Any,
 ) -> Group:
-    """Group of a form of ``form_fields.toml``, each field after the list of alternatives that precedes it.
+    """Group of a form of the app, each field after the lists of alternatives that precede it.
 
     ``shown`` has further attributes of fields by their keys, such as when a field is shown; ``lists`` has the
     condition under which each list of alternatives is shown.
     """
     fields: list[Field] = []
     for key in form(form_name)[title]:
-        for name in (key, f"{form_name}/{key}"):
-            if name in form_data("alternatives"):
-                fields.append(list_of_ways(name, lists.get(key, always)))
+        for entry in attributes("lists").get(key, ()):
+            if entry.get("form", form_name) == form_name:
+                fields.append(list_of_ways(entry, lists.get(key, always)))
         fields.append(field_of(key, **shown.get(key, {})))
     about = dict(form_data("groups").get(title, {}))
     if about.pop("assumed", False):

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
-from ehlectric.app.form_fields.field import Field, Group, Way, When, form_data
+from ehlectric.app.form_fields.field import Field, Group, Way, When
 from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
-from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.inputs import ENDS, attributes
 
 DRIVE_END, NON_DRIVE_END = ENDS
 
@@ -98,4 +98,4 @@ def default_of(inputs: Inputs, key: str) -> Any:
         return None
     table = next((table for table in _LIBRARY if key.startswith(f"{table}.")), None)
     known = {} if table is None else _LIBRARY[table](str(inputs.value(f"{table}.base")))
-    return known.get(key.removeprefix(f"{table}."), form_data("defaults").get(key))
+    return known.get(key.removeprefix(f"{table}."), attributes("default").get(key))
