@@ -69,7 +69,9 @@ def test_margins_over_the_speed_are_those_of_single_bearings(margins):
         solution = quick_solution(quick.replace({SPEED: speed}))
         own = margins.lambda_factor * lambda_ratio(solution)
         assert ratio[k] == pytest.approx(own, rel=1e-9)
-    assert (margin[1], ratio[1]) == pytest.approx((margins.solved.margin, margins.solved.lambda_ratio), rel=1e-9)
+    assert (margin[1], ratio[1]) == pytest.approx(
+        (margins.solved.margin, margins.solved.lambda_ratio), rel=1e-9
+    )
 
 
 @pytest.mark.slow
