@@ -24,8 +24,8 @@ from benchmarks.flattened_waves import flattened, point_amplitude_ratio
 from benchmarks.greenwood_tripp import greenwood_tripp
 from benchmarks.moving_asperities import POSED, Posed, Solved, solved, store, stored
 from ehlectric.arrays import Array
-from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact.preparation import prepare
 from ehlectric.formulas.asperities import (
     LOAD_SHARE,
     AsperityContact,
@@ -76,7 +76,7 @@ class Surface:
     @classmethod
     def of(cls, posed: Posed) -> Surface:
         """Surface of a contact; it is generated, and nothing is solved."""
-        prepared = check_case(posed.case)
+        prepared = prepare(posed.case)
         contact = TransientContact.of(posed.case, prepared.rough)
         conditions, whole = contact.conditions, contact.roughness.surfaces[0].steps[-1][1]
         assert isinstance(whole, Map)

@@ -23,8 +23,8 @@ from scipy.stats import qmc
 
 from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
-from ehlectric.contact.check import check_case
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import Setup
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 
@@ -69,7 +69,7 @@ def case_of(kind: str, at: dict[str, float]) -> Case:
         table["grid"]["nodes_y"] = NODES[kind]
     smooth = Case.from_dict(table)
     conditions = KINDS[smooth.contact.geometry].resolve(smooth)
-    guess = check_case(smooth).film_problem(Setup.of(smooth)).thickness_guess
+    guess = prepare(smooth).film_problem(Setup.of(smooth)).thickness_guess
     film = guess * conditions.thickness_scale
     width = float(conditions.half_width)
     roughness = {
@@ -97,7 +97,7 @@ def solved(kind: str, at: dict[str, float], limit: float) -> dict[str, Any]:
     try:
         with processor_limit(limit):
             case = case_of(kind, at)
-            problem = check_case(case).film_problem(Setup.of(case))
+            problem = prepare(case).film_problem(Setup.of(case))
             film = (solve_film if kind == "lines" else solve_point_film)(problem)
     except GivenUpError:
         return row | {"status": "limit of time", "seconds": limit}

@@ -23,7 +23,7 @@ from tests.helpers.mixed_films import MixedFilm, at_film, mixed_film, rough_line
 from benchmarks.measure import ROOT, processor
 from benchmarks.time_limit import GivenUpError, processor_limit
 from ehlectric import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import spacings_of
 from ehlectric.contact.touching import weighted_percentiles
 
@@ -93,7 +93,7 @@ class Contact:
 
 def composite_roughness(case: Case) -> float:
     """Root mean square height of the sum of both surfaces over the Hertz zone [m]."""
-    prepared = check_case(case)
+    prepared = prepare(case)
     problem = prepared.kind.film_problem(prepared.case, prepared.conditions, prepared.rough)
     x = np.linspace(-1.0, 1.0, 2001 if problem.width is None else 201)
     y = np.zeros(1) if problem.width is None else x
@@ -140,7 +140,7 @@ def key_figures(film: MixedFilm) -> Record:
 def solved(contact: Contact, limit: float) -> Record:
     """Record of a contact, with the time of its film and of the smooth one on the same grid."""
     case, rq = contact.case()
-    prepared = check_case(case)
+    prepared = prepare(case)
     spacing = max(spacings_of(prepared.case, prepared.conditions))
     wave = contact.shortest_wave
     film, seconds = timed(case, limit)

@@ -9,7 +9,7 @@ from tests.helpers.mixed_films import at_film, gaussian, rough_point
 
 from benchmarks.film_mixed import RoughBodies, masjedi_khonsari_point
 from benchmarks.mixed_store import POINT_GRIDS, Contact, Record, composite_roughness
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.formulas.asperities import LOAD_SHARE, load_shares
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "mixed_sweep.png"
@@ -34,7 +34,7 @@ def formula_share(ratio: float) -> float | None:
     """Load share of the rough ball by the formula of Masjedi and Khonsari."""
     case = rough_point(SWEPT, nodes=65, speed=0.1)
     rq = composite_roughness(case)
-    conditions = check_case(at_film(case, ratio * rq)).conditions
+    conditions = prepare(at_film(case, ratio * rq)).conditions
     return masjedi_khonsari_point(
         conditions.contact, RoughBodies(roughness=rq, hardness=HARDNESS)
     ).asperity_share

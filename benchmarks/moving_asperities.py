@@ -21,7 +21,7 @@ from tests.helpers.mixed_films import at_film, gaussian, rough_point
 
 from ehlectric import Case
 from ehlectric.arrays import Array
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.touching import hertz_weights, load_share_of, spots_of, weighted_rms
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.isothermal_film import PointFilm
@@ -156,7 +156,7 @@ def standard_error(values: Array, batches: int) -> float:
 def solved(posed: Posed) -> Solved:
     """Means over time of a contact, over the steps before a failure if there is one."""
     started, case = time.process_time(), posed.case
-    prepared = check_case(case)
+    prepared = prepare(case)
     contact = TransientContact.of(case, prepared.rough)
     solver, schedule = TransientSolver(contact), contact.schedule
     first = int(np.ceil(schedule.covered / schedule.step - 1e-9))

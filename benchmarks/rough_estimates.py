@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from ehlectric import Case
-from ehlectric.contact.check import check_case
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.preparation import prepare
 from ehlectric.film.film_errors import discretisation_error, max_pressure_error, rough_film_error
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
@@ -101,7 +101,7 @@ def _surface(
 
 def estimates(case: dict[str, Any]) -> Iterator[Estimates]:
     """Estimates and true errors of one contact on the tested grids; none if it has no film."""
-    prepared = check_case(Case.from_dict(case))
+    prepared = prepare(Case.from_dict(case))
     conditions = prepared.conditions
     problem = KINDS[conditions.geometry].film_problem(prepared.case, conditions, prepared.rough)
     with quiet_solution():

@@ -20,7 +20,7 @@ SOURCE = str(Path(__file__).parents[1] / "src" / "ehlectric")
 
 # Functions that are counted, each with the end of the path of its module.
 NEWTON = ("film/newton.py", "newton")
-PREPARE = ("contact/check.py", "check_case")
+PREPARE = ("contact/preparation.py", "prepare")
 PARSE = ("tomllib/_parser.py", "loads")
 
 

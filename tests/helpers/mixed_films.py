@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ehlectric import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
@@ -128,7 +128,7 @@ class MixedFilm:
 
 def posed(case):
     """Film problem of a case of either kind, with its rough surfaces."""
-    prepared = check_case(case)
+    prepared = prepare(case)
     return prepared.kind.film_problem(prepared.case, prepared.conditions, prepared.rough)
 
 

@@ -130,9 +130,9 @@ def run(
         kind, case = file.kind, by_kind.RUNS[file.kind].read(file)
         data = MeasuredFile.of(measured, None, uncertainty)
         if kind == "contact":
-            from ehlectric.contact.check import check_case
+            from ehlectric.contact.preparation import prepare
 
-            case = check_case(case)
+            case = prepare(case)
             if not quiet:
                 warn(case.reach_warnings())
             shown = progress_line(shown=not quiet)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.check import PreparedContact
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_refinement import FilmProgress
+from ehlectric.contact.preparation import PreparedContact
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.result import RESULTS, PointResult, Result, film_columns
 from ehlectric.contact.solver import OWN, Solvers, solve
@@ -104,12 +104,12 @@ def run(
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from ehlectric.contact.check import check_case
+    >>> from ehlectric.contact.preparation import prepare
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
     >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
     >>> with TemporaryDirectory() as folder:
-    ...     outcome = run(check_case(case), folder)
+    ...     outcome = run(prepare(case), folder)
     >>> outcome.converged, [path.name for path in outcome.files]
     (True, ['summary.json', 'result.nc', 'film.csv'])
     """

@@ -17,13 +17,13 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import Electric, Grid, Solver
 from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.contact.capacitance_meter import meter_warnings
-from ehlectric.contact.check import MOST_STEPS, PreparedContact, check_case, widened
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import heat_warnings
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_memory import check_grid
 from ehlectric.contact.contact_refinement import Refined, Refinement
 from ehlectric.contact.contact_solution import Smooth
+from ehlectric.contact.preparation import MOST_STEPS, PreparedContact, prepare, widened
 from ehlectric.contact.problems import Setup, domain_of, heights_of
 from ehlectric.contact.result import RESULTS, PointResult, Result
 from ehlectric.contact.starvation import starvation_warnings
@@ -165,7 +165,7 @@ def _accepted(contact: Case | PreparedContact, solvers: Solvers) -> PreparedCont
             got="[motion] where a stationary film is solved",
             takes="run_motion, or a case without it",
         )
-    return check_case(case)
+    return prepare(case)
 
 
 def solve_contact(

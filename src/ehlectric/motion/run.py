@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.check import PreparedContact, check_case
+from ehlectric.contact.preparation import PreparedContact, prepare
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError
@@ -54,7 +54,7 @@ def run(
     InputError where the case or the folder cannot be used, or another command writes into the folder, and a
     ConvergenceError where the film before the motion did not converge.
     """
-    prepared = check_case(case)
+    prepared = prepare(case)
     contact = TransientContact.of(case, prepared.rough)
     failure = None
     with alone_in(folder, (MOTION, *FILES, *others), locks=[RESULT_LOCK]) as folder:
@@ -105,7 +105,7 @@ def run_motion(case: Case, folder: str | Path, *, again: bool = True, progress: 
     ConvergenceError
         If a time step does not converge; motion.nc contains the recorded instants before this step.
     """
-    prepared = check_case(case)
+    prepared = prepare(case)
     contact = TransientContact.of(case, prepared.rough)
     with alone_in(folder, (MOTION,), locks=[RESULT_LOCK]) as folder:
         _solve(contact, prepared, folder, again=again, progress=progress)

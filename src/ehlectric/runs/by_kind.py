@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.case import Case
     from ehlectric.cases.drive_case import DriveCase
     from ehlectric.cases.film_factors import FilmFactors
-    from ehlectric.contact.check import PreparedContact
+    from ehlectric.contact.preparation import PreparedContact
     from ehlectric.contact.result import PointResult, Result
     from ehlectric.contact.solver import Solvers
     from ehlectric.drive.result import DriveResult
@@ -129,11 +129,11 @@ def run_contact(
     results.
     """
     from ehlectric.cases.case import Case
-    from ehlectric.contact.check import PreparedContact, check_case
+    from ehlectric.contact.preparation import PreparedContact, prepare
     from ehlectric.contact.run import run
 
     solvers = solvers_of(solver, "--solver")
-    contact = case if isinstance(case, PreparedContact) else check_case(case)
+    contact = case if isinstance(case, PreparedContact) else prepare(case)
     assert isinstance(contact.case, Case)
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)

@@ -104,7 +104,7 @@ def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness
     422
     """
     from ehlectric.cases.case import Case
-    from ehlectric.contact.check import check_case
+    from ehlectric.contact.preparation import prepare
     from ehlectric.contact.summary import formulas_of
     from ehlectric.runs.solve import case_of
 
@@ -113,7 +113,7 @@ def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness
         raise InputError(
             "case", got=type(found).__name__, takes="the case of a contact; check takes any case"
         )
-    return dict(formulas_of(check_case(found).conditions))
+    return dict(formulas_of(prepare(found).conditions))
 
 
 def film(

@@ -28,7 +28,7 @@ from ehlectric.runtime.values import headline
 from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
-    from ehlectric.contact.check import PreparedContact
+    from ehlectric.contact.preparation import PreparedContact
     from ehlectric.quantities.verdict import Verdict
     from ehlectric.sweep.engine import Planned
 
@@ -73,13 +73,13 @@ def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
 
 @check.register
 def _check_contact(case: Case) -> Meaning:
-    from ehlectric.contact.check import check_case
+    from ehlectric.contact.preparation import prepare
     from ehlectric.contact.summary import breakdown_by_formula, case_summary
     from ehlectric.motion.moving_contact import TransientContact
     from ehlectric.tables.contact_tables import case_rows
     from ehlectric.tables.motion_tables import schedule_rows
 
-    contact = check_case(case)
+    contact = prepare(case)
     summary = case_summary(case, contact.conditions)
     rows = case_rows(case, summary)
     estimate = breakdown_by_formula(case, contact.conditions)

@@ -18,8 +18,8 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drive_case import DriveCase, case_of_dict
 from ehlectric.contact import run as of_contacts
-from ehlectric.contact.check import PreparedContact, case_with_laws, check_case, portable
 from ehlectric.contact.contact_refinement import FilmProgress
+from ehlectric.contact.preparation import PreparedContact, case_with_laws, portable, prepare
 from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
@@ -253,7 +253,7 @@ def solve(
         takes = "solve_motion(case), run_motion(case, folder), or a case without it"
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
     chosen = solvers_of(solvers)
-    prepared = check_case(chosen.accept(found))
+    prepared = prepare(chosen.accept(found))
     log_warnings(found.title, prepared.reach_warnings())
     told = _Percent(prepared, progress or silent)
     result = solve_stationary(

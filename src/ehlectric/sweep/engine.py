@@ -30,7 +30,7 @@ from ehlectric.bearing.uncertainty import SEED
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
-from ehlectric.contact.check import portable
+from ehlectric.contact.preparation import portable
 from ehlectric.contact.solver import solve
 from ehlectric.drive.quick_estimate import quick_drive
 from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown

@@ -13,7 +13,7 @@ from ehlectric.bearing.quick_contacts import required_quick_case
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import is_quantity, key_of_names
-from ehlectric.contact.check import case_with_laws
+from ehlectric.contact.preparation import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.inputs import BOTH, ENDS, REPLACED, end_and_replaced
 from ehlectric.quantities.results import TEXTS_OF_POINTS

@@ -10,7 +10,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from ehlectric.contact.check import case_with_laws
+from ehlectric.contact.preparation import case_with_laws
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import clear

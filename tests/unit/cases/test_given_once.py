@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric import Case
 from ehlectric.cases.case_oil import Lubricant, depends_on_temperature
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from tests.helpers.each import each
 
 SHEET = {
@@ -65,7 +65,7 @@ def test_what_makes_an_oil_depend_on_its_temperature(oil, follows):
 def test_a_temperature_that_does_not_change_the_viscosity_is_told(oil, kelvin, codes):
     at = {} if kelvin is None else {"temperature": kelvin}
     case = Case.from_dict({"contact": CONTACT | at, "lubricant": oil})
-    assert [one.code for one in check_case(case).warnings() if one.code.startswith("temp")] == codes
+    assert [one.code for one in prepare(case).warnings() if one.code.startswith("temp")] == codes
 
 
 EPS = {"temperature": ["40 degC", "80 degC"], "relative_permittivity": [2.07, 2.03]}

@@ -20,9 +20,9 @@ from ehlectric import (
     solve_many,
     write_report,
 )
-from ehlectric.contact.check import check_case, portable
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.contact_heat import physics_of
+from ehlectric.contact.preparation import portable, prepare
 from ehlectric.lubricant.viscosity import roelands
 from ehlectric.tables.html_tables import html_of
 
@@ -180,7 +180,7 @@ def test_a_hot_film_has_the_laws_at_its_temperatures():
 
 def test_a_law_without_temperature_is_noted_in_a_hot_film():
     codes = [
-        [one.code for one in check_case(hot_case(OIL, laws=Laws(viscosity=law))).warnings()]
+        [one.code for one in prepare(hot_case(OIL, laws=Laws(viscosity=law))).warnings()]
         for law in (hybrid, vogel_and_roelands)
     ]
     assert ["temperature-unused" in each for each in codes] == [True, False]

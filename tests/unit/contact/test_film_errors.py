@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError, solve
-from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import resolve
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import film_problem
 from ehlectric.film.isothermal_film import solve_film
 from tests.helpers.share import share_of
@@ -142,7 +142,7 @@ def test_error_of_the_largest_tolerance(paper_case, tolerance):
 def test_too_large_a_tolerance_is_refused_when_solved(paper_case):
     """A case may have it, as stored results may."""
     case = paper_case.replace({"solver.tolerance": 1e-4})
-    for refuse in (solve, check_case):
+    for refuse in (solve, prepare):
         with pytest.raises(InputError, match=r"^solver.tolerance: .*0.0001.* 1e-06"):
             refuse(case)
 

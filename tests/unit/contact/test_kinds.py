@@ -10,9 +10,9 @@ import typer
 
 from ehlectric import Case, InputError, save, solve
 from ehlectric.commands.solve_commands import check, run
-from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.result import RESULTS
 from ehlectric.contact.solver import OWN, solve_contact
 from ehlectric.contact.solver import solve as solve_prepared
@@ -151,7 +151,7 @@ def test_a_film_factor_is_that_of_a_slower_contact(geometry, exponent):
 def test_prepared_surfaces_are_those_that_are_solved(geometry):
     """A contact whose surfaces were prepared for another case is solved with those."""
     case = case_of(geometry, roughness=[MADE])
-    higher = check_case(case.replace({"roughness.1.amplitude": "10 nm"}))
+    higher = prepare(case.replace({"roughness.1.amplitude": "10 nm"}))
     plain, other = (solve_prepared(one, beside_smooth=False) for one in (case, replace(higher, case=case)))
     np.testing.assert_allclose(other.roughness, 2.0 * plain.roughness, rtol=1e-12)
 

@@ -5,8 +5,8 @@ import re
 import pytest
 
 from ehlectric import Case
-from ehlectric.contact.check import check_case
 from ehlectric.contact.contact_refinement import ExpectedGrid, FilmProgress, Reach
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.run import run
 from ehlectric.film.isothermal_film import solve_point_film
 
@@ -17,7 +17,7 @@ THICK = BALL | {"max_hertz_pressure": 0.5e9, "entrainment_speed": 1.0}
 
 
 def prepared(contact, **grid):
-    return check_case(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": grid}))
+    return prepare(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": grid}))
 
 
 def out_of_reach(contact):
@@ -104,7 +104,7 @@ def test_a_run_tells_its_grids(tmp_path):
     grid = {"nodes": 101, "refine": 0.01, "most_nodes": 801}
     case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": grid})
     texts = []
-    outcome = run(check_case(case), tmp_path, lambda _done, _of, text: texts.append(text))
+    outcome = run(prepare(case), tmp_path, lambda _done, _of, text: texts.append(text))
     grids = [int(found[1]) for text in texts if (found := re.search(r"grid (\d+)", text))]
     assert grids == sorted(grids)
     assert grids[0] == 1

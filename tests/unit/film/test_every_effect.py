@@ -12,7 +12,7 @@ from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.interpolate import BarycentricInterpolator
 
 from ehlectric import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.problems import Setup
 from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.moving_patch import MovingFilm
@@ -60,7 +60,7 @@ def table(geometry, *, starved=False, hot=False, touching=False, rough=True):
 def posed(geometry, **effects):
     """Film problem of a case."""
     case = Case.from_dict(table(geometry, **effects))
-    return check_case(case).film_problem(Setup.of(case))
+    return prepare(case).film_problem(Setup.of(case))
 
 
 def film_of(problem):
@@ -130,7 +130,7 @@ def test_a_newtonian_rheology_is_the_film_without_it(effects):
     case = table("line", **effects)
     plain = film_of(posed("line", **effects))
     case = Case.from_dict(case | {"film": {"rheology": "newtonian"}})
-    sheared = film_of(check_case(case).film_problem(Setup.of(case)))
+    sheared = film_of(prepare(case).film_problem(Setup.of(case)))
     assert sheared.converged
     np.testing.assert_allclose(sheared.central_thickness, plain.central_thickness, rtol=1e-8)
 
@@ -154,7 +154,7 @@ def sliding():
     case = table("line", starved=True, hot=True)
     case["contact"] |= {"slide_to_roll_ratio": 1.9}
     case = Case.from_dict(case | {"inlet": {"oil_layer": "60 nm"}})
-    return check_case(case).film_problem(Setup.of(case))
+    return prepare(case).film_problem(Setup.of(case))
 
 
 def carried_across(problem, temperature, zeta):
@@ -200,7 +200,7 @@ def moving(geometry, **effects):
     found = table(geometry, **effects) | {"motion": {"passes": 1.0}}
     found["grid"] = {"nodes": 101} if geometry == "line" else {"nodes": 65, "nodes_y": 65}
     case = Case.from_dict(found)
-    contact = TransientContact.of(case, check_case(case).rough)
+    contact = TransientContact.of(case, prepare(case).rough)
     return contact, MovingFilm(contact.problem, contact.moving_gap)
 
 

@@ -133,12 +133,12 @@ def test_a_starved_hot_film_is_refined_at_the_temperature_of_its_first_grid():
 
 def test_a_grid_that_takes_minutes_is_not_tried():
     """A patch of 8192 intervals along x has 20 million nodes: heat and shear end the refinement before."""
-    from ehlectric.contact.check import check_case
     from ehlectric.contact.contact_refinement import finer_grids
+    from ehlectric.contact.preparation import prepare
     from ehlectric.contact.problems import Setup
 
     for film, most in ((None, 4097), ({}, 4097), ({"rheology": "eyring"}, 1025), (HOT, 1025)):
-        contact = check_case(ball(film, {"error": 1e-4}))
+        contact = prepare(ball(film, {"error": 1e-4}))
         setup = Setup.of(contact.case)
         grids, reason = finer_grids(setup, "point", contact.film_problem(setup))
         assert grids[-1].nodes_along <= most

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.film.film_errors import max_pressure_error
 from ehlectric.film.nested import nested_iteration
 from ehlectric.runtime.threads import quiet_solution
@@ -44,7 +44,7 @@ def drawn(geometry, seed, number):
 
 def ratios(geometry, case):
     """True error over its estimate on all grids that have one four times finer."""
-    prepared = check_case(case)
+    prepared = prepare(case)
     with quiet_solution():
         solutions = nested_iteration(prepared.film_problem(prepared.case), None)
     found = {s.level.mesh.x.size: s for s in solutions if s.status == "converged"}

@@ -7,9 +7,9 @@ import pytest
 
 from ehlectric import Case, InputError, load, solve
 from ehlectric.app.compute.contact_answers import answer_of
-from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import resolve
 from ehlectric.contact.contact_heat import heat_warnings, hot_oil, oil_over_temperature, physics_of
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.run import save
 from ehlectric.contact.warnings import film_warnings
 from ehlectric.discharge.film_breakdown import FieldUtilisation
@@ -230,18 +230,18 @@ def test_a_temperature_without_values_of_the_oil_is_refused_by_its_key(key):
     """A density that falls by 0.2 % per kelvin from -60 degC is zero at 440 degC, less than 30 K hotter."""
     case = case_with("lubricant", thermal_expansion=2e-3, reference_temperature=213.15)
     with pytest.raises(InputError, match="properties; expected at most") as refused:
-        check_case(case.replace({key: "426 degC"}))
+        prepare(case.replace({key: "426 degC"}))
     assert refused.value.key == key
     allowed = float(refused.value.takes.split()[2])
     assert 400.0 <= allowed < 410.0
-    check_case(case.replace({key: f"{allowed} degC"}))
+    prepare(case.replace({key: f"{allowed} degC"}))
 
 
 @pytest.mark.parametrize("ratio", [2.5, -2.5])
 def test_a_surface_against_entrainment_is_refused(ratio):
     case = case_with("contact", slide_to_roll_ratio=ratio)
     with pytest.raises(InputError, match=r"^contact\.slide_to_roll_ratio: .*2\.5"):
-        check_case(case)
+        prepare(case)
 
 
 def test_the_solver_of_the_paper_has_no_heat():
@@ -390,8 +390,8 @@ def test_heat_that_does_not_fit_into_memory_is_refused():
     """Of a line contact it grows with the square of the nodes: 300 000 of them need above a terabyte."""
     table = HOT_LINE | {"grid": {"nodes": 300_001}}
     with pytest.raises(InputError, match=r"^grid\.nodes: got 300001"):
-        check_case(Case.from_dict(table))
-    check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
+        prepare(Case.from_dict(table))
+    prepare(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
 
 
 @pytest.mark.slow
@@ -437,7 +437,7 @@ def test_constants_of_another_law_are_not_taken_without_a_word(rheology, told):
     """A Newtonian film stands for comparison in sweeps of the law, and needs no note."""
     case = case_with("lubricant", carreau_stress="5 MPa", carreau_exponent=0.5)
     case = case.replace({"film.rheology": rheology})
-    notes = [each for each in check_case(case).warnings() if each.code == "shear-constant-unused"]
+    notes = [each for each in prepare(case).warnings() if each.code == "shear-constant-unused"]
     assert len(notes) == bool(told)
     assert all(f"lubricant.{told} not used" in note.text and note.severity == "note" for note in notes)
 

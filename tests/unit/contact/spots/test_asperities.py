@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, solve
-from ehlectric.contact.check import check_case
+from ehlectric.contact.preparation import prepare
 from ehlectric.contact.run import save
 from ehlectric.contact.touching import Coarser, about_share, asperities, share_text, spot_warnings
 from ehlectric.figures import figure_names as known
@@ -177,7 +177,7 @@ def test_a_hardness_below_the_hertz_pressure_is_told_before_the_solution(case):
     def codes(hardness):
         table = case.to_dict()
         table["contact"]["hardness"] = hardness
-        return [warning.code for warning in check_case(Case.from_dict(table)).warnings()]
+        return [warning.code for warning in prepare(Case.from_dict(table)).warnings()]
 
     assert "hardness-low" in codes(0.3e9)
     assert "hardness-low" not in codes(7e9)

@@ -102,7 +102,7 @@ class PreparedContact:
         yield from surface_warnings(self.case.roughness, self.rough, self.domain, *spacings)
 
 
-def check_case(case: Case) -> PreparedContact:
+def prepare(case: Case) -> PreparedContact:
     """Check a case and prepare its contact, before any folder is made for its results.
 
     Raises an InputError if values contradict each other, the tolerance is too large, a surface cannot be
