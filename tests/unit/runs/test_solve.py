@@ -25,6 +25,7 @@ from ehlectric import (
     solve_many,
     solve_motion,
 )
+from ehlectric.contact.contact_heat import physics_of
 from ehlectric.contact.solver import solve as solve_stationary
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
@@ -137,6 +138,23 @@ def test_convergence_can_be_required():
     assert not solve(case).converged
     with pytest.raises(ConvergenceError, match="stalled"):
         solve(case, require_convergence=True)
+
+
+def test_a_contact_is_prepared_once(tmp_path, monkeypatch):
+    """Heat and shear of its film are those of the preparation; warnings and solution take them from there."""
+    cases = []
+
+    def counted(case, conditions):
+        cases.append(case)
+        return physics_of(case, conditions)
+
+    monkeypatch.setattr("ehlectric.contact.preparation.physics_of", counted)
+    path = tmp_path / "case.toml"
+    path.write_text(Case.from_dict(CONTACT).to_toml())
+    for given in (path, CONTACT, Case.from_dict(CONTACT)):
+        cases.clear()
+        solve(given)
+        assert len(cases) == 1
 
 
 def test_warnings_are_logged_once(caplog):
