@@ -13,7 +13,7 @@ from ehlectric.commands.options import files_ending
 from ehlectric.commands.start_commands import TEMPLATES, template
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.file_kinds import read_input
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
 from tests.helpers.gate import gated
@@ -41,7 +41,7 @@ def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectri
     schema = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"
     for part in ("new.toml", schema, "ehlectric check new.toml", f"ehlectric {command} new.toml"):
         assert part in done.stdout
-    assert check(RUNS[found].read(tmp_path / "new.toml")).rows
+    assert preview_of(RUNS[found].read(tmp_path / "new.toml")).rows
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
     assert text.startswith(f"#:schema ./{schema}\n# ")
     # What is not published is marked; a line and a point have assumptions in their alternatives.

@@ -16,7 +16,7 @@ NAMES = (
     "ehlectric.motion.run", "ehlectric.paper.reproduce", "ehlectric.report.build",
     "ehlectric.report.written_report",
     "ehlectric.report.pdf", "ehlectric.runs.by_kind", "ehlectric.runs.measured_film_factors",
-    "ehlectric.runs.meaning", "ehlectric.runs.solve", "ehlectric.surfaces.surface_files",
+    "ehlectric.runs.preview", "ehlectric.runs.solve", "ehlectric.surfaces.surface_files",
     "ehlectric.surfaces.surface_warnings", "ehlectric.sweep.run", "ehlectric.tables.bearing_tables",
     "ehlectric.tables.oil_tables", "ehlectric.tables.contact_tables", "ehlectric.tables.measured_tables",
     "ehlectric.tables.motion_tables", "ehlectric.tables.oil_tables", "ehlectric.tables.sweep_summary",

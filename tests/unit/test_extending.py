@@ -23,7 +23,7 @@ from ehlectric.lubricant.law import Law, Parameter
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 from ehlectric.quantities import result_warnings
 from ehlectric.quantities.result_warnings import ResultWarning
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.conftest import PAPER_CONTACT
@@ -119,10 +119,10 @@ def test_a_new_law_is_saved_and_loaded(tmp_path):
 def test_check_shows_formulas_and_warnings_of_a_new_law(geometry):
     case = Case.from_dict(table(geometry))
     assert case.oil.alpha == pytest.approx(22e-9, rel=1e-15)
-    meaning = check(case)
+    meaning = preview_of(case)
     summary, texts = meaning.summary, meaning.warnings
     of_paper = Case.from_dict(table(geometry) | {"lubricant": {"base": "paper", "viscosity_law": "barus"}})
-    expected = check(of_paper).summary
+    expected = preview_of(of_paper).summary
     # Formulas know alpha alone, and the Moes groups too.
     assert summary["groups"] == pytest.approx(expected["groups"], rel=1e-14)
     assert films_of(summary) == pytest.approx(films_of(expected), rel=1e-13)
@@ -247,7 +247,7 @@ def test_a_new_formula_is_in_results_and_tables(monkeypatch, module, geometry):
     """Its film is a thousandth of the viscosity, 0.04 Pa s."""
     monkeypatch.setitem(module.FORMULAS, "mine", Formula("My formula", central))
     case = Case.from_dict(table(geometry) | {"lubricant": {"base": "paper"}})
-    meaning = check(case)
+    meaning = preview_of(case)
     summary = meaning.summary
     films = {"minimum_thickness": None, "central_thickness": 4e-5}
     assert summary["film_formulas"]["mine"] == films
@@ -261,7 +261,7 @@ def test_a_new_formula_is_in_results_and_tables(monkeypatch, module, geometry):
 def test_a_piezoviscous_formula_gives_nothing_for_an_isoviscous_oil(monkeypatch):
     monkeypatch.setitem(film_line.FORMULAS, "mine", Formula("My formula", central, piezoviscous=True))
     oil = {"base": "paper", "viscosity_law": "constant"}
-    meaning = check(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
+    meaning = preview_of(Case.from_dict({"contact": PAPER_CONTACT, "lubricant": oil}))
     summary = meaning.summary
     assert set(summary["film_formulas"]["mine"].values()) == {None}
     assert not any("My formula" in name for name in rows(meaning))

@@ -59,7 +59,7 @@ def _rows(looked_up: LookedUp) -> Iterator[Row]:
     """Rows of the film: in nm for a contact in SI units, else in Moes' unit."""
     from ehlectric.quantities.rows import Row
 
-    groups, film, found = looked_up.groups, looked_up.film, looked_up.contact
+    groups, film, contact = looked_up.groups, looked_up.film, looked_up.contact
     yield Row("Moes' M", float(groups.moes_m))
     if looked_up.moes_l is not None:
         yield Row("Moes' L", looked_up.moes_l, note=", with alpha* of the oil")
@@ -68,10 +68,10 @@ def _rows(looked_up: LookedUp) -> Iterator[Row]:
         yield Row("ratio of the semi-axes k", float(groups.ratio))
     for name, title in _FILMS.items():
         error = f", ± {readable(float(100.0 * film.errors[name]), 2)} %"
-        if found is None:
+        if contact is None:
             yield Row(f"{title}, Moes' unit", getattr(film, name), note=error, digits=".4g")
         else:
-            yield Row(title, getattr(found, f"{name}_thickness"), "nm", error, digits=".4g")
+            yield Row(title, getattr(contact, f"{name}_thickness"), "nm", error, digits=".4g")
     if looked_up.lambda_ratio is not None:
         note = ", minimum film / composite Rq"
         yield Row("lambda ratio", looked_up.lambda_ratio, note=note, digits=".3g")

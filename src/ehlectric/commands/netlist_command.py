@@ -72,17 +72,17 @@ def spice(
                 netlist = _bearing(file, contacts, arc, speeds, progress, motor=bench is not None)
         clear_left_behind(output.parent)
         files = write_files(netlist, output, bench)
-    found = netlist.subcircuits
+    subcircuits = netlist.subcircuits
     if not quiet:
-        for one in found:
-            print_rows(_rows(one), one.case.title)
+        for subcircuit in subcircuits:
+            print_rows(_rows(subcircuit), subcircuit.case.title)
         echo_files(files)
-        warn(dict.fromkeys(warning for one in found for warning in one.warnings()))
+        warn(dict.fromkeys(warning for subcircuit in subcircuits for warning in subcircuit.warnings()))
         if file.kind == "drive" and bench is None:
             say("note: the bearings alone; --bench FILE.cir also writes the inverter and the motor", err=True)
-        for note in dict.fromkeys(note for one in found for note in one.notes):
+        for note in dict.fromkeys(note for subcircuit in subcircuits for note in subcircuit.notes):
             say(f"note: {note}", err=True)
-    if not all(result.converged for one in found for result in one.results):
+    if not all(result.converged for subcircuit in subcircuits for result in subcircuit.results):
         say("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
@@ -140,6 +140,6 @@ def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
         unit = parameter.unit.replace("Ohm", "Ω")
         shown = f"{readable(parameter.value, 4)} rpm" if unit == "rpm" else amount(parameter.value, unit)
         yield Row(parameter.name, shown, "", f", {parameter.meaning}")
-    for one in subcircuit.circuits if subcircuit.tabulated else ():
-        breaks = "" if one.threshold is None else f", breakdown at {readable(one.threshold, 4)} V"
-        yield Row(f"at {speed_text(one.speed)}", amount(one.capacitance, "F"), "", breaks)
+    for point in subcircuit.circuits if subcircuit.tabulated else ():
+        breaks = "" if point.threshold is None else f", breakdown at {readable(point.threshold, 4)} V"
+        yield Row(f"at {speed_text(point.speed)}", amount(point.capacitance, "F"), "", breaks)

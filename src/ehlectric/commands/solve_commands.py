@@ -51,17 +51,17 @@ def check(file: Path, quiet: bool = False, as_json: bool = False) -> None:
     with user_errors():
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
-        from ehlectric.runs.meaning import check as check_meaning
+        from ehlectric.runs.preview import preview_of
 
         checked = expect(file, "contact", "motion", "bearing", "drive", "sweep")
-        meaning = check_meaning(by_kind.RUNS[checked.kind].read(checked))
+        preview = preview_of(by_kind.RUNS[checked.kind].read(checked))
     if as_json:
-        typer.echo(json.dumps(meaning.summary, indent=2))
+        typer.echo(json.dumps(preview.summary, indent=2))
     elif not quiet:
-        print_rows(meaning.rows, meaning.title)
-        print_verdict(meaning.verdict)
+        print_rows(preview.rows, preview.title)
+        print_verdict(preview.verdict)
     if not quiet:
-        warn(meaning.warnings)
+        warn(preview.warnings)
 
 
 @contextmanager
@@ -222,11 +222,11 @@ def bearings(as_json: bool = False) -> None:
         from ehlectric.runs.lookups import bearings as library_bearings
         from ehlectric.tables.oil_tables import catalogue_tables
 
-        found = bearing_catalogue()
+        catalogue = bearing_catalogue()
     if as_json:
         typer.echo(json.dumps(library_bearings(), indent=2))
         return
-    for table in catalogue_tables(found):
+    for table in catalogue_tables(catalogue):
         print_table(table)
         say("")
     say('in a bearing file: base = "6208"; the sources of all values are in the guide')

@@ -77,13 +77,13 @@ def sweep(
         from ehlectric.runs import by_kind
         from ehlectric.runs.file_kinds import expect
 
-        asked = by_kind.read_sweep(expect(sweep_file, "sweep"))
+        requested = by_kind.read_sweep(expect(sweep_file, "sweep"))
         if not quiet:
-            _tell_what_lacks(asked)
+            _tell_what_lacks(requested)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
-            outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
-        wanted = (plots or bool(formats)) and outcome.converged
-        drawn, why = _drawn(outcome.result, output, look) if wanted else (Drawn(()), "")
+            outcome = by_kind.RUNS["sweep"].run(requested, output, progress, **options)
+        draws = (plots or bool(formats)) and outcome.converged
+        drawn, why = _drawn(outcome.result, output, look) if draws else (Drawn(()), "")
     if not quiet:
         from ehlectric.sweep.verdict_rule import sweep_verdict
         from ehlectric.tables.sweep_summary import sweep_rows

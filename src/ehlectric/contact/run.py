@@ -15,7 +15,7 @@ from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.preparation import PreparedContact
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.result import RESULTS, PointResult, Result, film_columns
-from ehlectric.contact.solver import OWN, Solvers, solve
+from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers, solve
 from ehlectric.contact.stored import SCHEMA, layout_of, parts_of, stored_case
 from ehlectric.errors import InputError
 from ehlectric.runtime.file_rules import check_format, refusing
@@ -91,7 +91,7 @@ def run(
     folder: str | Path,
     progress: Progress = silent,
     *,
-    solvers: Solvers = OWN,
+    solvers: Solvers = DEFAULT_SOLVERS,
     others: Sequence[str] = (),
     further: Mapping[str, Content] | None = None,
 ) -> RunOutcome[Result | PointResult]:

@@ -63,7 +63,7 @@ class Solvers:
         return f"<Solvers {self.name!r}>"
 
 
-OWN = Solvers(
+DEFAULT_SOLVERS = Solvers(
     "ehlectric",
     film={geometry: kind.solve_film for geometry, kind in KINDS.items()},
     field={geometry: kind.solve_field for geometry, kind in KINDS.items()},
@@ -76,7 +76,7 @@ def solve(
     *,
     progress: Progress | None = None,
     require_convergence: bool = False,
-    solvers: Solvers = OWN,
+    solvers: Solvers = DEFAULT_SOLVERS,
     beside_smooth: bool = True,
     on_grid: OnGrid | None = None,
 ) -> Result | PointResult:
@@ -116,8 +116,8 @@ def solve(
     if require_convergence and not film.converged:
         raise ConvergenceError(f"film, {film.status} at a residual of {film.residual:.1e}")
     roughness = heights_of(rough, *film.axes)
-    # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
-    field_solvers = solvers if film.converged else OWN
+    # The field of an unconverged film is for inspection only. Other solvers may not converge for it.
+    field_solvers = solvers if film.converged else DEFAULT_SOLVERS
     started = time.perf_counter()
     field = field_solvers.field[geometry](kind.field_problem(contact.case, conditions, film, roughness))
     smooth = _smooth(contact, films, field.axes, solvers) if rough and beside_smooth else None
@@ -141,7 +141,7 @@ def solve(
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(contact.case, film, field),
             *meter_warnings(case, film),
-            *_field_warnings(contact, films, field, estimated=field_solvers.name == OWN.name),
+            *_field_warnings(contact, films, field, estimated=field_solvers.name == DEFAULT_SOLVERS.name),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,
@@ -233,7 +233,7 @@ def _on_large_domain(
     refinement, default = contact.refinement, contact
     film = solve_film(replace(refinement.problem, on_grid=on_grid), progress=progress)
     films = refinement.refined(film)
-    enlarged = solvers.name == OWN.name and contact.case.grid.default_domain
+    enlarged = solvers.name == DEFAULT_SOLVERS.name and contact.case.grid.default_domain
     for _ in range(MOST_STEPS if enlarged else 0):
         wider = widened(contact, films.film)
         if wider is None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.result import Result
-from ehlectric.contact.solver import OWN, Solvers
+from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.paper import fas, sor
@@ -156,4 +156,4 @@ def _accepted(case: Case) -> Case:
 
 
 PAPER = Solvers("paper", film={"line": fas.solve_film}, field={"line": sor.solve_field}, accept=_accepted)
-SOLVERS = {solvers.name: solvers for solvers in (OWN, PAPER)}
+SOLVERS = {solvers.name: solvers for solvers in (DEFAULT_SOLVERS, PAPER)}

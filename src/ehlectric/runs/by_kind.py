@@ -75,15 +75,15 @@ def with_figures(
     A figure that fails does not end the run: it is among ``undrawn`` of the outcome.
     """
     progress(0, 0, "drawing figures")
-    results: tuple[Any, ...] = (outcome.result, *outcome.beside)
+    results: tuple[Any, ...] = (outcome.result, *outcome.further_results)
     drawn: list[Drawn] = []
     with kept_going() as undrawn, alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
         from ehlectric.figures.result_figures import draw_figures
 
         for result in results:
             drawn.append(draw_figures(result, folder, formats=formats, style=style))
-    files = (*outcome.files, *(file for one in drawn for file in one.files))
-    warnings = (*outcome.warnings, *(warning for one in drawn for warning in one.warnings))
+    files = (*outcome.files, *(file for drawing in drawn for file in drawing.files))
+    warnings = (*outcome.warnings, *(warning for drawing in drawn for warning in drawing.warnings))
     return replace(outcome, files=files, warnings=warnings, undrawn=tuple(undrawn))
 
 
@@ -175,12 +175,12 @@ def solvers_of(given: str | Solvers, key: str = "solvers") -> Solvers:
     """Solvers by their name, "ehlectric" or "paper". Raises InputError, which names the ``key``, for another
     name.
     """
-    from ehlectric.contact.solver import OWN, Solvers
+    from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
 
     if isinstance(given, Solvers):
         return given
-    if given == OWN.name:
-        return OWN
+    if given == DEFAULT_SOLVERS.name:
+        return DEFAULT_SOLVERS
     from ehlectric.paper.paper_contacts import SOLVERS
 
     if given not in SOLVERS:
@@ -243,7 +243,7 @@ def _with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOut
         outcome,
         summary={**outcome.summary, "measured": factors.summary()},
         warnings=(*outcome.warnings, *factors.warnings),
-        beside=(factors,),
+        further_results=(factors,),
     )
 
 

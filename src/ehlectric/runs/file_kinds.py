@@ -73,8 +73,8 @@ def expect(path: Path, *kinds: FileKind) -> InputFile:
     kind = kind_of_tables(table) or kinds[0]
     if kind not in kinds:
         name, command = _NAMES[kind]
-        wanted = _NAMES[kinds[0]][0]
-        raise InputError(path, f"is {name}", takes=f"{wanted}; solve it with: {_typed(command, path)}")
+        expected = _NAMES[kinds[0]][0]
+        raise InputError(path, f"is {name}", takes=f"{expected}; solve it with: {_typed(command, path)}")
     return InputFile(path, table, kind)
 
 

@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from ehlectric.film.atlas.atlas_films import AtlasFilm, ContactFilm
     from ehlectric.film.atlas.atlas_groups import Groups
     from ehlectric.formulas.film_line import Thickness
-    from ehlectric.runs.meaning import Meaning
+    from ehlectric.runs.preview import Preview
     from ehlectric.sweep.sweep_inputs import Sweep
 
 # Films of the atlas, and arguments for Moes' groups.
 _FILMS, _GROUPS = ("central", "minimum", "mean"), ("m", "l", "k")
 
 
-def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str | Path) -> Meaning:
+def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str | Path) -> Preview:
     """Check a case of any kind without solving it, and return what it means, as ``ehlectric check`` does.
 
     Parameters
@@ -40,7 +40,7 @@ def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str
 
     Returns
     -------
-    ehlectric.runs.meaning.Meaning
+    ehlectric.runs.preview.Preview
         ``summary``, nested tables of numbers in SI units: dry contact, groups and film formulas of a contact;
         loads, films and margin of a bearing; circuit of a drive; number of points of a sweep and its first
         point. ``rows`` of the table, ``warnings``, and ``verdict`` of a bearing with a dielectric strength.
@@ -54,24 +54,24 @@ def check(case: Case | BearingCase | DriveCase | Sweep | Mapping[str, Any] | str
     --------
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
     >>> contact |= {"entrainment_speed": "4 m/s"}
-    >>> meaning = check({"contact": contact, "lubricant": "paper"})
-    >>> round(meaning.summary["hertz"]["half_width"] * 1e6, 1)
+    >>> preview = check({"contact": contact, "lubricant": "paper"})
+    >>> round(preview.summary["hertz"]["half_width"] * 1e6, 1)
     249.6
     """
     from ehlectric.runs.by_kind import RUNS
     from ehlectric.runs.file_kinds import kind_of_tables, read_input
-    from ehlectric.runs.meaning import check as meaning_of
+    from ehlectric.runs.preview import preview_of
     from ehlectric.runs.solve import case_of
     from ehlectric.sweep.sweep_inputs import Sweep
 
     if isinstance(case, Sweep):
-        return meaning_of(case)
+        return preview_of(case)
     if isinstance(case, str | Path):
         file = read_input(case)
-        return meaning_of(RUNS[file.kind].read(file))
+        return preview_of(RUNS[file.kind].read(file))
     if isinstance(case, Mapping) and kind_of_tables(case) == "sweep":
-        return meaning_of(Sweep.from_dict(case))
-    return meaning_of(case_of(case))
+        return preview_of(Sweep.from_dict(case))
+    return preview_of(case_of(case))
 
 
 def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness]:
@@ -108,12 +108,12 @@ def formulas(case: Case | Mapping[str, Any] | str | Path) -> dict[str, Thickness
     from ehlectric.contact.summary import formulas_of
     from ehlectric.runs.solve import case_of
 
-    found = case_of(case)
-    if not isinstance(found, Case):
+    contact_case = case_of(case)
+    if not isinstance(contact_case, Case):
         raise InputError(
-            "case", got=type(found).__name__, takes="the case of a contact; check takes any case"
+            "case", got=type(contact_case).__name__, takes="the case of a contact; check takes any case"
         )
-    return dict(formulas_of(prepare(found).conditions))
+    return dict(formulas_of(prepare(contact_case).conditions))
 
 
 def film(
@@ -265,10 +265,10 @@ def _by_numbers(given: Mapping[str, Any], *, options: bool) -> LookedUp:
             contact = PointContact(**radii, **common, load=force)
         else:
             contact = LineContact(**common, reduced_radius=values["radius"], load_per_length=force)
-        found = contact_film(contact, at)
+        films = contact_film(contact, at)
     rq = _rq(given, options=options)
-    ratio = None if rq is None else float(found.minimum_thickness) / rq
-    return LookedUp(found.groups, found.film, found, float(contact.moes_l), ratio)
+    ratio = None if rq is None else float(films.minimum_thickness) / rq
+    return LookedUp(films.groups, films.film, films, float(contact.moes_l), ratio)
 
 
 def _rq(given: Mapping[str, Any], *, options: bool) -> float | None:
@@ -313,15 +313,15 @@ def _number(name: str, given: Mapping[str, Any], unit: str, *, options: bool) ->
         return Amount(unit=unit, above=0.0).parse(given[name], written=options)
 
 
-def film_summary(found: LookedUp) -> dict[str, Any]:
+def film_summary(looked_up: LookedUp) -> dict[str, Any]:
     """Numbers of a film of the atlas by name: in Moes' unit, and in m for a contact with an oil."""
-    groups, films = found.groups, found.contact
-    numbers = {"moes_m": groups.moes_m, "moes_l": found.moes_l, "atlas_moes_l": groups.moes_l}
-    numbers |= {"ratio": groups.ratio} | asdict(found.film)
+    groups, films = looked_up.groups, looked_up.contact
+    numbers = {"moes_m": groups.moes_m, "moes_l": looked_up.moes_l, "atlas_moes_l": groups.moes_l}
+    numbers |= {"ratio": groups.ratio} | asdict(looked_up.film)
     if films is not None:
         numbers |= {f"{name}_thickness": getattr(films, f"{name}_thickness") for name in _FILMS}
-    if found.lambda_ratio is not None:
-        numbers["lambda_ratio"] = found.lambda_ratio
+    if looked_up.lambda_ratio is not None:
+        numbers["lambda_ratio"] = looked_up.lambda_ratio
     return numbers
 
 
@@ -380,13 +380,13 @@ def oils() -> list[dict[str, Any]]:
 
     Examples
     --------
-    >>> [one["name"] for one in oils()][:3]
+    >>> [oil["name"] for oil in oils()][:3]
     ['e-axle-fluid', 'fva-3', 'iso-vg-32']
     """
     from ehlectric.cases.library.library_oils import library_oils
     from ehlectric.tables.oil_tables import listed_oil
 
-    return [listed_oil(one) for one in library_oils()]
+    return [listed_oil(oil) for oil in library_oils()]
 
 
 def bearings() -> list[dict[str, Any]]:
@@ -405,10 +405,10 @@ def bearings() -> list[dict[str, Any]]:
 
     Examples
     --------
-    >>> next(one for one in bearings() if one["name"] == "6208")["static_rating"]
+    >>> next(bearing for bearing in bearings() if bearing["name"] == "6208")["static_rating"]
     17900.0
     """
     from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
     from ehlectric.tables.oil_tables import described
 
-    return [described(one) for one in bearing_catalogue()]
+    return [described(bearing) for bearing in bearing_catalogue()]

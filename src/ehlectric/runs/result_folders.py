@@ -145,17 +145,17 @@ def stored_result(path: str | Path) -> Path:
     if not path.is_dir():
         if not _is_result(path):
             refuse_unreadable(path)
-        beside = path.name in files_of_results(path.parent) and path.name not in names
-        if not beside:
+        belongs = path.name in files_of_results(path.parent) and path.name not in names
+        if not belongs:
             return path
         path = path.parent
-    found = [path / name for name in names if _is_result(path / name)]
-    if not found:
+    files = [path / name for name in names if _is_result(path / name)]
+    if not files:
         raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
-    if len(found) > 1:
-        results = " and ".join(file.name for file in found)
+    if len(files) > 1:
+        results = " and ".join(file.name for file in files)
         raise InputError(path, f"has {results}", takes="one result; name the file to draw")
-    return found[0]
+    return files[0]
 
 
 def _is_result(path: Path) -> bool:

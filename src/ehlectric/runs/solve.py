@@ -21,7 +21,7 @@ from ehlectric.contact import run as of_contacts
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.preparation import PreparedContact, case_with_laws, portable, prepare
 from ehlectric.contact.result import PointResult, Result
-from ehlectric.contact.solver import OWN, Solvers
+from ehlectric.contact.solver import DEFAULT_SOLVERS, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
 from ehlectric.contact.stored import SCHEMA as CONTACT
 from ehlectric.drive import run as of_drives
@@ -40,7 +40,7 @@ from ehlectric.runs.result_folders import stored_result
 from ehlectric.runtime.file_rules import format_of
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.netcdf import read_dataset
-from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, silent, told_to
+from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, progress_or_silent, silent
 from ehlectric.runtime.result_names import MOTION
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.worker_processes import cores, processes
@@ -243,30 +243,30 @@ def solve(
     >>> solve(case)  # doctest: +ELLIPSIS
     <Result line contact, minimum film ..., maximum pressure ..., maximum field ..., converged>
     """
-    found = case_of(case)
-    told_to(progress)
+    valid_case = case_of(case)
+    progress_or_silent(progress)
     if laws is not None:
-        found = case_with_laws(found, laws)
-    if isinstance(found, BearingCase | DriveCase):
-        return _of_bearings(found, progress, workers, solvers, require_convergence=require_convergence)
-    if found.motion is not None:
+        valid_case = case_with_laws(valid_case, laws)
+    if isinstance(valid_case, BearingCase | DriveCase):
+        return _of_bearings(valid_case, progress, workers, solvers, require_convergence=require_convergence)
+    if valid_case.motion is not None:
         takes = "solve_motion(case), run_motion(case, folder), or a case without it"
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
     chosen = solvers_of(solvers)
-    prepared = prepare(chosen.accept(found))
-    log_warnings(found.title, prepared.reach_warnings())
-    told = _Percent(prepared, progress or silent)
+    prepared = prepare(chosen.accept(valid_case))
+    log_warnings(valid_case.title, prepared.reach_warnings())
+    percent = _Percent(prepared, progress or silent)
     result = solve_stationary(
         prepared,
-        progress=told,
+        progress=percent,
         require_convergence=require_convergence,
         solvers=chosen,
         beside_smooth=beside_smooth,
-        on_grid=told.on_grid,
+        on_grid=percent.on_grid,
     )
     if progress is not None:
         progress(100, 100, "solved")
-    log_warnings(found.title, result.warnings)
+    log_warnings(valid_case.title, result.warnings)
     return result
 
 
@@ -279,7 +279,7 @@ def _of_bearings(
     require_convergence: bool,
 ) -> BearingResult | DriveResult:
     """Result of a bearing or of a drive; its warnings are logged."""
-    if solvers_of(solvers) is not OWN:
+    if solvers_of(solvers) is not DEFAULT_SOLVERS:
         raise InputError("solvers", got=shown(solvers), takes="'ehlectric' for a bearing or a drive")
     result: BearingResult | DriveResult
     if isinstance(case, BearingCase):
@@ -328,7 +328,7 @@ class _Percent:
         self._nodes = contact.case.first_grid.nodes_along
         self._power = 1 if contact.conditions.geometry == "line" else 2
         self._tolerance, self._progress = contact.case.solver.tolerance, progress
-        self._told = FilmProgress(contact.reach)
+        self._film_progress = FilmProgress(contact.reach)
         self._grid, self._first, self._most = 0, 1.0, 0
         self._start = 0.0  # share of coarser grids than the first, which are not solved
 
@@ -343,11 +343,11 @@ class _Percent:
         self._start = self._start or share * ratio
         done = (share * (ratio + (1.0 - ratio) * part) - self._start) / (1.0 - self._start)
         self._most = max(self._most, min(99, int(100.0 * done)))
-        self._progress(self._most, 100, self._told.text(nodes, step, residual))
+        self._progress(self._most, 100, self._film_progress.text(nodes, step, residual))
 
     def on_grid(self, mesh: Mesh, error: float | None) -> None:
         """Note that a grid of a refinement is solved, and its error."""
-        self._told.on_grid(mesh, error)
+        self._film_progress.on_grid(mesh, error)
 
 
 def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
@@ -378,7 +378,7 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
     """
     if case.motion is None:
         raise InputError("motion", "missing;", takes="it, or solve for a stationary contact")
-    told_to(progress)
+    progress_or_silent(progress)
     with TemporaryDirectory() as folder:
         try:
             run_motion(case, folder, progress=progress)
@@ -505,7 +505,8 @@ def solve_many(
     >>> oil = {"base": "paper"}
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
     >>> tables = [{"contact": contact | {"entrainment_speed": u}, "lubricant": oil} for u in (2.0, 4.0)]
-    >>> films = {one.number: one.result.film.minimum_thickness for one in solve_many(tables, workers=1)}
+    >>> results = {solved.number: solved.result for solved in solve_many(tables, workers=1)}
+    >>> films = [results[number].film.minimum_thickness for number in range(2)]
     >>> round(films[1] / films[0], 2)
     1.64
     """
@@ -518,19 +519,21 @@ def solve_many(
         )
     if laws is not None and not isinstance(laws, Laws):
         raise InputError("laws", got=shown(type(laws).__name__), takes="Laws of functions")
-    number, report = workers or cores(), told_to(progress)
+    number, report = workers or cores(), progress_or_silent(progress)
     given = enumerate(cases if laws is None else (_given_laws(case, laws) for case in cases))
-    found = _here(given) if number == 1 else _in_processes(given, number)
-    return _reported(found, len(cases) if isinstance(cases, Sized) else 0, report)
+    finished = _here(given) if number == 1 else _in_processes(given, number)
+    return _reported(finished, len(cases) if isinstance(cases, Sized) else 0, report)
 
 
-def _reported(found: Generator[Solved[Any], None, None], of: int, report: Progress) -> Iterator[Solved[Any]]:
-    """Finished cases, each told before it is yielded."""
-    with closing(found):
-        for done, one in enumerate(found, 1):
-            title = "" if one.result is None else one.result.case.title
-            report(done, of, title or f"case {one.number}")
-            yield one
+def _reported(
+    finished: Generator[Solved[Any], None, None], of: int, report: Progress
+) -> Iterator[Solved[Any]]:
+    """Finished cases, each reported before it is yielded."""
+    with closing(finished):
+        for done, solved in enumerate(finished, 1):
+            title = "" if solved.result is None else solved.result.case.title
+            report(done, of, title or f"case {solved.number}")
+            yield solved
 
 
 def _given_laws(case: Solvable, laws: Laws) -> Solvable | InputError:
@@ -544,20 +547,20 @@ def _given_laws(case: Solvable, laws: Laws) -> Solvable | InputError:
 def _here(cases: Iterator[tuple[int, Solvable | InputError]]) -> Generator[Solved[Any], None, None]:
     """Cases solved in this process."""
     for index, case in cases:
-        yield _told(index, solve_case(case))
+        yield _logged(index, solve_case(case))
 
 
 def _in_processes(
     cases: Iterator[tuple[int, Solvable | InputError]], number: int
 ) -> Generator[Solved[Any], None, None]:
     """Cases solved in processes of this machine."""
-    own: dict[int, Case] = {}  # cases with functions, which the processes do not get
+    with_functions: dict[int, Case] = {}  # cases with functions, which the processes do not get
 
     def handed() -> Iterator[tuple[int, Solvable | InputError]]:
         for index, given in cases:
             case = _without_classes_of_the_script(given)
             if isinstance(given, Case) and case is not given:
-                own[index] = given
+                with_functions[index] = given
             yield index, case
 
     with (
@@ -565,10 +568,10 @@ def _in_processes(
         closing(finished_tasks(handed(), crew, solve_case, LostError, _ran_out)) as batches,
     ):
         for index, outcome in (each for batch in batches for each in batch):
-            case = own.pop(index, None)
+            case = with_functions.pop(index, None)
             if case is not None and isinstance(outcome, Result | PointResult):
                 outcome = replace(outcome, case=case)
-            yield _told(index, outcome)
+            yield _logged(index, outcome)
 
 
 def _without_classes_of_the_script(given: Solvable | InputError) -> Solvable | InputError:
@@ -588,7 +591,7 @@ def _ran_out(outcome: _Outcome) -> bool:
     return isinstance(outcome, Exception) and is_out_of_memory(outcome)
 
 
-def _told(index: int, outcome: _Outcome) -> Solved[Any]:
+def _logged(index: int, outcome: _Outcome) -> Solved[Any]:
     """Finished case, whose warnings are logged."""
     if isinstance(outcome, Exception):
         return Solved(index, None, outcome)

@@ -32,13 +32,13 @@ def silent(_done: int, _of: int, _text: str) -> None:
     """
 
 
-def told_to(given: Progress | None) -> Progress:
+def progress_or_silent(given: Progress | None) -> Progress:
     """Progress that a caller gave, or one that is told to nobody in place of None. Raises InputError if it
     cannot be called, such as True.
 
     Examples
     --------
-    >>> told_to(True)
+    >>> progress_or_silent(True)
     Traceback (most recent call last):
     ehlectric.errors.InputError: progress: got True; expected a function of done, of and text, such as print
     """
@@ -118,7 +118,7 @@ class RunOutcome(Generic[R]):
     warnings: tuple[ResultWarning, ...] = ()  # warnings that tell where the result is unreliable
     failure: str | None = None  # one line that says what was not solved; None where the run succeeded
     # Further results with figures of their own, such as the film factors of a measurement.
-    beside: tuple[object, ...] = ()
+    further_results: tuple[object, ...] = ()
     undrawn: tuple[Undrawn, ...] = ()  # figures that could not be drawn
 
     @property

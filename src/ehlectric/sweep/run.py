@@ -16,7 +16,7 @@ from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import load_library
-from ehlectric.runtime.progress import Progress, RunOutcome, silent, told_to
+from ehlectric.runtime.progress import Progress, RunOutcome, progress_or_silent, silent
 from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes, this_process
 from ehlectric.sweep.batches import batches_of, run_batches, weight_of
 from ehlectric.sweep.engine import Outcome, Planned, Task, run_points, task_of
@@ -77,7 +77,7 @@ def run_sweep(
     Each point is saved as it finishes. A point that the folder has is not solved again, unless its process
     was killed or ran out of memory.
     """
-    given, report = _with_laws(_sweep_of(sweep), laws), told_to(progress)
+    given, report = _with_laws(_sweep_of(sweep), laws), progress_or_silent(progress)
     return run(given, folder, report, solvers=crew(executor, workers)).result
 
 

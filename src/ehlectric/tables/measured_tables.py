@@ -89,7 +89,7 @@ _PRINTED = 30
 
 def measured_tables(outcome: RunOutcome[Any]) -> Iterator[Table]:
     """Tables of the film factors beside a result; none without a measurement."""
-    for factors in outcome.beside:
+    for factors in outcome.further_results:
         if isinstance(factors, FilmFactors):
             yield rows_table(factors)
             yield table_of(factor_rows(factors), "Measured and computed")

@@ -16,7 +16,7 @@ from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.compare_page import effects_table, inputs_table
 from ehlectric.app.view_models import Effect, Film, Result, effects, in_both, input_rows, only_in
 from ehlectric.errors import InputError
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.bearings import numbers_of
 from tests.helpers.places import EXAMPLES
 
@@ -162,7 +162,7 @@ def test_contacts_are_compared_by_formula():
     broken = {row.name: row for row in both.results}["breakdown voltage by formula"]
     assert broken.main
     assert (broken.group, broken.bound) == ("breakdown", "≤")
-    expected = check(contact_case(case.table)).summary["breakdown_by_formula"]
+    expected = preview_of(contact_case(case.table)).summary["breakdown_by_formula"]
     assert broken.value == expected["breakdown_voltage"]
 
 

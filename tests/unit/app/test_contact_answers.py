@@ -27,7 +27,7 @@ from ehlectric.errors import InputError
 from ehlectric.quantities.result_warnings import CODES
 from ehlectric.quantities.units import to_si
 from ehlectric.runs.by_kind import run_contact
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import silent
 from ehlectric.tables.contact_tables import result_rows
@@ -75,7 +75,7 @@ def words(answer):
 )
 def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
     answer = check_contact(table_of(name), str(tmp_path))
-    expected = check(Case.from_toml(EXAMPLES / f"{name}.toml"))
+    expected = preview_of(Case.from_toml(EXAMPLES / f"{name}.toml"))
     assert [(row.name, row.text) for row in answer.lines] == [(row.name, row.text) for row in expected.rows]
     assert float(number(answer, "hertz.max_pressure").text) == pytest.approx(
         expected.summary["hertz"]["max_pressure"] / 1e9, rel=1e-3

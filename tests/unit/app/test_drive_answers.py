@@ -16,7 +16,7 @@ from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.readable import readable
 from ehlectric.runs.by_kind import run
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.readable import number_in
 
 SHORT = DRIVE.changed({"drive.duration": "2 ms"})
@@ -45,7 +45,7 @@ def number(text):
 
 @pytest.mark.slow
 def test_the_first_answer_has_the_numbers_of_check():
-    answer, meaning = quick(), check(case_of(DRIVE))
+    answer, meaning = quick(), preview_of(case_of(DRIVE))
     about = meaning.summary["drive_end"]
     assert number(answer.number("end.voltage_at_peak").text) == pytest.approx(
         about["voltage_at_peak"], rel=5e-3
@@ -69,7 +69,7 @@ def test_both_ends_are_told_apart():
     answer = quick(non_drive_end=other)
     note = answer.number("end.capacitance").note
     assert "drive end; non-drive end: " in note
-    found = check(case_of(DRIVE.changed({"non_drive_end": other}))).summary
+    found = preview_of(case_of(DRIVE.changed({"non_drive_end": other}))).summary
     assert number(note.rpartition(": ")[2]) == pytest.approx(
         1e12 * found["non_drive_end"]["capacitance"], rel=5e-3
     )
@@ -86,7 +86,7 @@ def test_a_warning_of_both_ends_stands_once():
 def level(**changes):
     """Level and text of the verdict with smooth films before a simulation, and its margin by the divider."""
     case = case_of(DRIVE.changed(changes | {"drive_end.bearing.summit_height": 0.0}))
-    found = check(case).summary
+    found = preview_of(case).summary
     verdict = expected(case, found)
     return verdict.level, verdict.text, verdict.margin
 

@@ -7,7 +7,7 @@ import pytest
 
 import ehlectric
 from ehlectric import BearingCase, Case, InputError, evaluate, solve
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.sweep.sweep_inputs import Sweep
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, bearing_case
@@ -41,7 +41,7 @@ def test_a_given_factor_and_the_same_bearing_with_its_rq():
 
 @pytest.mark.slow
 def test_check_shows_the_ra_with_its_rq():
-    rows = {row.key: f"{row.text}{row.note}" for row in check(of_ra()).rows}
+    rows = {row.key: f"{row.text}{row.note}" for row in preview_of(of_ra()).rows}
     assert rows["inputs.bearing.composite_ra"].startswith("0.024 µm, Rq = 0.03008 µm with the factor 1.253")
 
 

@@ -7,7 +7,7 @@ import pytest
 from ehlectric import Case, InputError, solve
 from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runs.by_kind import run_motion
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
@@ -34,7 +34,7 @@ def test_what_does_not_go_with_a_motion_goes_without(table, tables):
         ({"contact.slide_to_roll_ratio": -2.0}, "motion"),
     ],
 )
-@each("refuse", [TransientContact.of, check, lambda case: run_motion(case, FOLDER)])
+@each("refuse", [TransientContact.of, preview_of, lambda case: run_motion(case, FOLDER)])
 def test_what_cannot_be_solved_is_refused_by_all_that_look(table, changes, key, refuse):
     """Before a folder is made for its results."""
     with pytest.raises(InputError) as refused:

@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric import Case, load, save, solve
 from ehlectric.cases.grid_inputs import Grid
-from ehlectric.contact.solver import OWN
+from ehlectric.contact.solver import DEFAULT_SOLVERS
 from ehlectric.contact.solver import solve as solve_with
 from ehlectric.contact.warnings import accuracy_warnings, inaccurate_field
 from ehlectric.errors import ConvergenceError
@@ -108,10 +108,10 @@ def test_a_solver_without_an_estimate_says_unknown_and_does_not_warn(result):
     """The field solver of this stand-in is ours, but it drops the estimate, as the paper's has none."""
 
     def without(problem):
-        field = OWN.field["line"](problem)
+        field = DEFAULT_SOLVERS.field["line"](problem)
         return dataclasses.replace(field, strength_error=None, sufficient_degree=None)
 
-    other = dataclasses.replace(OWN, name="paper", field={"line": without})
+    other = dataclasses.replace(DEFAULT_SOLVERS, name="paper", field={"line": without})
     found = solve_with(result.case, solvers=other)
     assert not any(warning.code == "field-unresolved" for warning in found.warnings)
     rows = {row.name: row for row in result_rows(found)}

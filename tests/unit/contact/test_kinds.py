@@ -14,7 +14,7 @@ from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.preparation import prepare
 from ehlectric.contact.result import RESULTS
-from ehlectric.contact.solver import OWN, solve_contact
+from ehlectric.contact.solver import DEFAULT_SOLVERS, solve_contact
 from ehlectric.contact.solver import solve as solve_prepared
 from ehlectric.surfaces import rough_surfaces
 from ehlectric.surfaces.surface_files import read_surface
@@ -77,7 +77,13 @@ def read(monkeypatch):
 
 
 def test_each_table_has_the_same_kinds():
-    assert set(KINDS) == set(RESULTS) == set(OWN.film) == set(OWN.field) == {"line", "point"}
+    assert (
+        set(KINDS)
+        == set(RESULTS)
+        == set(DEFAULT_SOLVERS.film)
+        == set(DEFAULT_SOLVERS.field)
+        == {"line", "point"}
+    )
 
 
 @pytest.mark.slow

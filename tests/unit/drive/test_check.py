@@ -6,7 +6,7 @@ from ehlectric import DriveCase, InputError, solve_drive
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
 from ehlectric.quantities.inputs import ENDS
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
@@ -19,7 +19,7 @@ def drive():
 
 @pytest.mark.slow
 def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
-    meaning, solved = check(drive), drive_summary(solve(drive))
+    meaning, solved = preview_of(drive), drive_summary(solve(drive))
     for end in ENDS:
         told = meaning.summary[end]
         for key in ("capacitance", "conductance", "breakdown_voltage", "renewal_time", "voltage_ratio"):
@@ -50,22 +50,22 @@ def test_a_source_that_follows_the_speed_is_the_same_source(drive):
 
 
 def test_contacts_that_would_be_solved_are_from_the_atlas(drive):
-    assert check(drive.replace({"drive.contacts": "solved"})).summary["drive_end"]["films"] == "atlas"
+    assert preview_of(drive.replace({"drive.contacts": "solved"})).summary["drive_end"]["films"] == "atlas"
 
 
 def test_what_the_simulation_refuses_is_refused(drive):
     with pytest.raises(InputError, match=r"^breakdown\.extinction_voltage: .* 100 V"):
-        check(drive.replace({"breakdown.extinction_voltage": "100 V"}))
+        preview_of(drive.replace({"breakdown.extinction_voltage": "100 V"}))
 
 
 def test_a_strength_that_needs_the_field_is_told(drive):
     """Its films are solved by the simulation alone."""
     oil = drive.replace({"bearings.lubricant.viscosity_law": "constant"})
-    (row,) = check(oil).rows
+    (row,) = preview_of(oil).rows
     assert "drive_end.lubricant.viscosity_law: " in row.note
 
 
-@each("look", [check, solve_drive])
+@each("look", [preview_of, solve_drive])
 @each(
     "changes, message",
     [
@@ -87,6 +87,6 @@ def test_a_wrong_remedy_is_refused_before_anything_is_solved(drive, look, change
 def test_an_oil_slower_than_the_edges_is_noted(drive, conductivity, told):
     """2.4 eps0 over 1 uS/m is 21 us: a fifth of a period of 100 us, and 200 edges of 100 ns."""
     conducting = drive.replace({"bearings.discharge.conductivity": conductivity, "drive.contacts": "formula"})
-    texts = [one.text for one in check(conducting).warnings if one.code == "edges-faster-than-oil"]
+    texts = [one.text for one in preview_of(conducting).warnings if one.code == "edges-faster-than-oil"]
     assert bool(texts) is told
     assert all("21" in text and "100 ns" in text for text in texts)

@@ -22,7 +22,7 @@ from ehlectric.quantities.units import RPM
 from ehlectric.report.background import named
 from ehlectric.report.drive_report import deciding_blocks
 from ehlectric.report.report_texts import limits_of
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.drives import arc, element, from_rest, march, motor, small_drive, square, systems
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -175,13 +175,13 @@ def test_a_speed_beyond_the_table_has_a_note(rpm, words):
 @pytest.mark.slow
 @pytest.mark.gate
 def test_a_check_has_the_resistance_and_no_verdict_from_the_divider():
-    meaning = check(driven(1500))
+    meaning = preview_of(driven(1500))
     (row,) = (row for row in meaning.rows if row.key == RING)
     assert row.text == "1.58 Ω, by its table at this speed"
     assert "grounding ring" in expected(driven(1500), meaning.summary).text
-    (plain,) = (row for row in check(small_drive(**{RING: "2 ohm"})).rows if row.key == RING)
+    (plain,) = (row for row in preview_of(small_drive(**{RING: "2 ohm"})).rows if row.key == RING)
     assert plain.text == "2 Ω"
-    assert not [row for row in check(small_drive()).rows if row.key == RING]
+    assert not [row for row in preview_of(small_drive()).rows if row.key == RING]
 
 
 def test_a_report_names_the_table_among_what_decides():

@@ -15,7 +15,7 @@ from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz import axis_ratio
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from tests.helpers.each import each
 
 STATED = 0.4
@@ -37,7 +37,7 @@ def test_formulas_of_hard_contacts_are_marked_in_a_rigid_contact():
     assert rigid == pytest.approx(16.6e-6, rel=3e-3)
     films = {name: f(conditions.contact).central_thickness for name, f in film_point.FORMULAS.items()}
     assert films["nijenbanning_venner_moes"] == pytest.approx(rigid, rel=0.25)
-    ranges = check(case()).summary["film_formula_ranges"]
+    ranges = preview_of(case()).summary["film_formula_ranges"]
     for name in ("hamrock_dowson", "chittenden"):
         assert films[name] < 0.1 * rigid
         assert set(ranges[name].values()) == {"isoviscous-rigid regime"}
@@ -45,7 +45,7 @@ def test_formulas_of_hard_contacts_are_marked_in_a_rigid_contact():
 
 
 def test_rows_mark_formulas_and_limit_their_accuracy():
-    rows = [(row.name, row.note) for row in check(case()).rows]
+    rows = [(row.name, row.note) for row in preview_of(case()).rows]
     marked = {name for name, note in rows if "outside its range: isoviscous-rigid regime" in note}
     assert marked == {
         f"{film} film ({name})"
@@ -53,7 +53,7 @@ def test_rows_mark_formulas_and_limit_their_accuracy():
         for name in ("Hamrock-Dowson", "Chittenden et al.")
     }
     assert "formulas within their range" in dict(rows)["usual difference from a solved film"]
-    hard = [(row.name, row.note) for row in check(case(load="100 N")).rows]
+    hard = [(row.name, row.note) for row in preview_of(case(load="100 N")).rows]
     assert not any("outside" in note for _, note in hard)
 
 

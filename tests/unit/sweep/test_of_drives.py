@@ -14,7 +14,7 @@ from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
 from ehlectric.report.drive_report import swept_values
 from ehlectric.report.report_facts import swept_names
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.sweep.engine import case_key, solve_point
 from ehlectric.sweep.points import flat
 from ehlectric.sweep.result import unit_of_column
@@ -227,7 +227,7 @@ def test_a_measured_voltage_is_a_part_of_the_case(tmp_path):
 
 
 def test_a_sweep_of_a_drive_is_checked_without_a_simulation():
-    meaning = check(over({SPEED: ["1500 rpm", "3000 rpm"]}))
+    meaning = preview_of(over({SPEED: ["1500 rpm", "3000 rpm"]}))
     assert meaning.summary["sweep"]["points"] == 2
     assert meaning.summary["first_point"]["drive_end"]["breakdown_voltage"] > 0.0
     assert any("2 times ehlectric drive" in str(row.note) for row in meaning.rows)

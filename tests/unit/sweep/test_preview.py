@@ -5,7 +5,7 @@ from click.testing import CliRunner
 from typer.main import get_command
 
 from ehlectric.commands.command_line import app
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.sweep.engine import lacking_point, plan
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.drives import small_drive
@@ -24,7 +24,7 @@ def test_the_slowest_point_names_what_it_lacks():
     found = lacking_point(sweep, list(plan(sweep)))
     assert found.point.number == 1
     assert "contact_resistance" in found.reason
-    meaning = check(sweep)
+    meaning = preview_of(sweep)
     assert "contact_resistance" in meaning.summary["sweep"]["lacking"]
 
 
@@ -33,7 +33,7 @@ def test_the_slowest_point_names_what_it_lacks():
 def test_a_given_resistance_lacks_nothing():
     sweep = swept(**{"bearings.bearing.contact_resistance": "1 ohm"})
     assert lacking_point(sweep, list(plan(sweep))) is None
-    assert check(sweep).summary["sweep"]["lacking"] is None
+    assert preview_of(sweep).summary["sweep"]["lacking"] is None
 
 
 @pytest.mark.slow

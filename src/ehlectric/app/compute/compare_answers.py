@@ -22,7 +22,7 @@ from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row
 from ehlectric.quantities.sheets import COMPARED, NOT_COMPARED
 from ehlectric.quantities.units import rpm
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.tables.bearing_tables import check_rows
 
 
@@ -60,9 +60,9 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
 
 
 def _contact(case: Case) -> Side:
-    meaning = check(case)
+    preview = preview_of(case)
     verdict = contact_answers.verdict_by_formula(
-        case, meaning.summary.get("breakdown_by_formula"), meaning.warnings
+        case, preview.summary.get("breakdown_by_formula"), preview.warnings
     )
     decides = contact_answers.deciding(
         contact_answers.deciding_by_formula(case, verdict), verdict, case.electric.voltage
@@ -73,9 +73,9 @@ def _contact(case: Case) -> Side:
         verdict=verdict,
         meaning=contact_answers.meaning_of(verdict),
         deciding=decides,
-        number=_number(meaning.rows, decides.key),
-        results=tuple(_results(_outcomes_first(meaning.rows))),
-        warnings=page_warnings_of(meaning.warnings),
+        number=_number(preview.rows, decides.key),
+        results=tuple(_results(_outcomes_first(preview.rows))),
+        warnings=page_warnings_of(preview.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
 

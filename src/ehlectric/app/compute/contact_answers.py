@@ -38,7 +38,7 @@ from ehlectric.quantities.statement import Fact, Statement
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import ratio_text, readable
 from ehlectric.runs.by_kind import run_contact
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.contact_tables import result_rows
@@ -80,20 +80,20 @@ def quick_answer(table: Mapping[str, Any], session: Path | str | None = None) ->
 
 def by_formula(case: Case) -> ContactAnswer:
     """Answer about a contact before its film is solved, as of ``ehlectric check``."""
-    meaning = check(case)
-    verdict = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    preview = preview_of(case)
+    verdict = verdict_by_formula(case, preview.summary.get("breakdown_by_formula"), preview.warnings)
     formula = BREAKDOWN_FORMULAS[case.contact.geometry]
     keys = {key.replace("*", formula): below for key, below in CHECK_CARDS.items()}
-    warnings = page_warnings_of(meaning.warnings)
+    warnings = page_warnings_of(preview.warnings)
     moving = case.motion is not None
     return ContactAnswer(
-        title=meaning.title,
+        title=preview.title,
         verdict=verdict,
         meaning=meaning_of(verdict),
         how=_TEXTS["moving" if moving else "by_formula"],
-        shown=with_warnings(cards(meaning.rows, keys), warnings),
+        shown=with_warnings(cards(preview.rows, keys), warnings),
         deciding=deciding(deciding_by_formula(case, verdict), verdict, case.electric.voltage),
-        lines=lines_of(meaning.rows),
+        lines=lines_of(preview.rows),
         warnings=warnings,
         solvable=not moving,
         solved=False,

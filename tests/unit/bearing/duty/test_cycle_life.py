@@ -10,7 +10,7 @@ from ehlectric.bearing import duty_points
 from ehlectric.bearing.cycle_life import LIVES
 from ehlectric.bearing.duty_cycle import run_duty
 from ehlectric.cases.bearing_case import BearingCase
-from ehlectric.runs.meaning import check
+from ehlectric.runs.preview import preview_of
 from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS
 
@@ -170,7 +170,7 @@ def test_life_of_the_cycle_is_one_number_everywhere(tmp_path):
 def test_every_number_states_the_point_or_the_cycle(command, tmp_path):
     case = case_of(tmp_path)
     solved = solve_bearing(case).summary(probable=False)
-    rows = check(case).rows if command == "check" else total_rows(solved)
+    rows = preview_of(case).rows if command == "check" else total_rows(solved)
     heading = ""
     for row in rows:
         heading = row.name if row.heading else heading

@@ -1,4 +1,4 @@
-"""Meaning of a file before it is solved: dry contact, films and voltages by formula, size of a sweep.
+"""Preview of a file before it is solved: dry contact, films and voltages by formula, size of a sweep.
 
 Nothing here solves a film, so that the answer is there at once. Films by formula, and what follows from
 them, may be far from the solution; every row and every table that has them says so.
@@ -37,8 +37,8 @@ _MOST_CHECKED = 2000
 
 
 @dataclass(frozen=True, repr=False)
-class Meaning:
-    """Meaning of a file before it is solved."""
+class Preview:
+    """Preview of a file before it is solved."""
 
     title: str
     rows: tuple[Row, ...]  # rows of a table: dry contact, films by formula and what follows from them
@@ -49,12 +49,12 @@ class Meaning:
 
     def __repr__(self) -> str:
         counts = f"{len(self.rows)} rows", f"{len(self.warnings)} warnings"
-        return f"<Meaning {headline(self.title, *counts, verdict=self.verdict)}>"
+        return f"<Preview {headline(self.title, *counts, verdict=self.verdict)}>"
 
 
 @singledispatch
-def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
-    """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict. Returns
+def preview_of(case: Case | BearingCase | DriveCase | Sweep) -> Preview:
+    """Preview of a case or of a sweep, at once: dry contact, groups, and what film formulas predict. Returns
     rows of a table, the same numbers as nested tables, and warnings. Raises InputError if the values
     contradict each other, a surface cannot be used, the grid fits into no memory or no point of a sweep is a
     valid case.
@@ -64,15 +64,15 @@ def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
     >>> from ehlectric import Case
     >>> contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": "20 N"}
     >>> contact |= {"reduced_modulus": "226 GPa", "entrainment_speed": 2.0}
-    >>> meaning = check(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
-    >>> round(meaning.summary["hertz"]["max_pressure"] / 1e9, 3)
+    >>> preview = preview_of(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}))
+    >>> round(preview.summary["hertz"]["max_pressure"] / 1e9, 3)
     0.791
     """
     raise TypeError(f"{type(case).__name__} is no case")
 
 
-@check.register
-def _check_contact(case: Case) -> Meaning:
+@preview_of.register
+def _preview_contact(case: Case) -> Preview:
     from ehlectric.contact.preparation import prepare
     from ehlectric.contact.summary import breakdown_by_formula, case_summary
     from ehlectric.motion.moving_contact import TransientContact
@@ -95,7 +95,7 @@ def _check_contact(case: Case) -> Meaning:
     if case.motion is not None:
         summary["motion"] = TransientContact.of(case, contact.rough).schedule.described()
         rows += schedule_rows(summary)
-    return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
+    return Preview(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
 def _lambda_by_formula(contact: PreparedContact, case: Case) -> dict[str, Any] | None:
@@ -110,9 +110,9 @@ def _lambda_by_formula(contact: PreparedContact, case: Case) -> dict[str, Any] |
         rq = case.meter.rq
     if rq is None or rq < FLAT:
         return None
-    found = minimum_by_formula(contact.conditions)
-    film = found["minimum_thickness"]
-    return None if film is None else {**found, "rq": rq, "lambda_ratio": film / rq}
+    minimum = minimum_by_formula(contact.conditions)
+    film = minimum["minimum_thickness"]
+    return None if film is None else {**minimum, "rq": rq, "lambda_ratio": film / rq}
 
 
 def _lambda_rows(estimate: Mapping[str, Any], where: str) -> Iterator[Row]:
@@ -139,8 +139,8 @@ def _row(key: str, value: float, note: str) -> Row:
     return row_of(key, about, value, note, bound=about.bound)
 
 
-@check.register
-def _check_bearing(case: BearingCase) -> Meaning:
+@preview_of.register
+def _preview_bearing(case: BearingCase) -> Preview:
     from ehlectric.bearing.quick_contacts import quick_case
     from ehlectric.bearing.result import check_bearing, solve_bearing
     from ehlectric.bearing.solution import error_text
@@ -172,11 +172,11 @@ def _check_bearing(case: BearingCase) -> Meaning:
                 note="the file is checked; ehlectric bearing computes its films, margins and life",
             )
         )
-    return Meaning(case.title, tuple(rows), summary, result.all_warnings, result.verdict)
+    return Preview(case.title, tuple(rows), summary, result.all_warnings, result.verdict)
 
 
-@check.register
-def _check_drive(case: DriveCase) -> Meaning:
+@preview_of.register
+def _preview_drive(case: DriveCase) -> Preview:
     from ehlectric.drive.quick_estimate import quick_drive
     from ehlectric.drive.solver import prepare
     from ehlectric.drive.summary import checked_summary
@@ -187,15 +187,19 @@ def _check_drive(case: DriveCase) -> Meaning:
     quick, key = quick_drive(case)
     if quick is None:
         row = Row("films and voltages", note=f"{key}: needs solved contacts; ehlectric drive solves them")
-        return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
+        return Preview(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
     ready = prepare(quick, workers=1)
     summary = {**checked_summary(ready), "inputs": case.all_inputs()}
-    told = (*ready.prior_warnings, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
-    return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
+    warnings = (
+        *ready.prior_warnings,
+        *bearing_warnings(ready.bearings),
+        *machine_warnings(case, ready.elements),
+    )
+    return Preview(case.title, tuple(prepared_rows(summary)), summary, warnings)
 
 
-def _without_films(case: BearingCase, reason: str) -> Meaning:
-    """Meaning of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
+def _without_films(case: BearingCase, reason: str) -> Preview:
+    """Preview of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
     from ehlectric.bearing.preparation import resolve_bearing
     from ehlectric.bearing.summary import clearances_of
     from ehlectric.tables.bearing_tables import input_rows
@@ -211,11 +215,11 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
         "films": None,
     }
     rows = (*input_rows(summary), Row("films and voltages", note=reason))
-    return Meaning(case.title, rows, summary, ())
+    return Preview(case.title, rows, summary, ())
 
 
-@check.register
-def _check_sweep(sweep: Sweep) -> Meaning:
+@preview_of.register
+def _preview_sweep(sweep: Sweep) -> Preview:
     from ehlectric.sweep.engine import lacking_point, plan
 
     started = time.perf_counter()
@@ -225,14 +229,14 @@ def _check_sweep(sweep: Sweep) -> Meaning:
         raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")
     each = (time.perf_counter() - started) / len(planned)
     begun = time.perf_counter()
-    meaning = check(sweep.case.replace(first.inputs))
+    preview = preview_of(sweep.case.replace(first.inputs))
     seconds = time.perf_counter() - begun + each
     described = _described(sweep, planned, first)
     lacking = lacking_point(sweep, planned)
     described["lacking"] = None if lacking is None else str(lacking)
-    rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *meaning.rows)
-    summary = {"sweep": described, "first_point": meaning.summary}
-    return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary, verdict=None)
+    rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *preview.rows)
+    summary = {"sweep": described, "first_point": preview.summary}
+    return replace(preview, title=sweep.title or preview.title, rows=rows, summary=summary, verdict=None)
 
 
 def _described(sweep: Sweep, planned: list[Planned], first: Planned) -> dict[str, Any]:
