@@ -33,6 +33,8 @@ SWAPS = {
 
 def errors_of(folder, shadows):
     """Errors of mypy by module, with other texts of some modules."""
+    # The cache takes a module of equal size for the one that it has: each run has a cache of its own.
+    cache = folder / f"cache-{len(shadows)}"
     modules = [f"src/ehlectric/{name}" for name in SWAPS]
     command = [
         sys.executable,
@@ -41,7 +43,7 @@ def errors_of(folder, shadows):
         "--follow-imports",
         "silent",
         "--cache-dir",
-        str(folder / "cache"),
+        str(cache),
     ]
     for path, text in shadows.items():
         other = folder / path.replace("/", "_")
