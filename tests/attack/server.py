@@ -86,7 +86,7 @@ def _child(request: dict[str, Any]) -> int:
     changes = Path(request["changes"]).open("w", encoding="utf-8", buffering=1)  # noqa: SIM115
     _watch(lambda path: changes.write(path + "\n") and None)
     sys.argv = ["ehlectric", *request["arguments"]]
-    from ehlectric.commands.command_line import main
+    from ehlectric.__main__ import main
 
     try:
         main()

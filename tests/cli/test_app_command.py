@@ -101,7 +101,7 @@ def test_a_taken_port_is_one_line(ehlectric):
 @pytest.mark.slow
 def test_a_missing_nicegui_is_one_line(tmp_path):
     code = "import sys; sys.modules['nicegui'] = None; sys.argv[1:] = ['app']; "
-    code += "from ehlectric.commands.command_line import main; main()"
+    code += "from ehlectric.__main__ import main; main()"
     done = subprocess.run(
         [sys.executable, "-c", code],
         cwd=tmp_path,

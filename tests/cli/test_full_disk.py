@@ -15,7 +15,7 @@ from tests.helpers.share import share_of
 LIMITED = """
 import resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv.pop(1)),) * 2)
-from ehlectric.commands.command_line import main
+from ehlectric.__main__ import main
 main()
 """
 SWEEP = """\

@@ -63,7 +63,7 @@ def test_streams_that_python_does_not_have(tmp_path):
     """As with pythonw of Windows."""
     code = (
         "import sys; sys.stdout = sys.stderr = sys.__stdout__ = sys.__stderr__ = None\n"
-        "from ehlectric.commands.command_line import main\n"
+        "from ehlectric.__main__ import main\n"
         "sys.argv = ['ehlectric', *sys.argv[1:]]; main()"
     )
     command = [sys.executable, "-c", code, "oil", "fva-3", "--no-plots", "-o", "out"]

@@ -107,7 +107,7 @@ def test_a_shell_is_completed():
         environment = {
             "_EHLECTRIC_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1),
         }  # fmt: skip
-        program = [sys.executable, "-c", "from ehlectric.commands.command_line import main; main()"]
+        program = [sys.executable, "-c", "from ehlectric.__main__ import main; main()"]
         done = subprocess.run(program, env=os.environ | environment, capture_output=True, text=True)
         return done.stdout.split()
 
@@ -163,7 +163,7 @@ for module, names in lacking.items():
             delattr(module, name)
 for name in ("fcntl", "resource", "termios", "pwd", "grp", "tty", "pty"):
     sys.modules[name] = None
-from ehlectric.commands.command_line import main
+from ehlectric.__main__ import main
 sys.argv = ["ehlectric", *sys.argv[1:]]
 main()
 """

@@ -41,7 +41,7 @@ _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
 _RESULTS = (
     (b"\x89HDF", "a NetCDF file, such as a result", "plot {file}"),
     (b"CDF", "a NetCDF file, such as a result", "plot {file}"),
-    (b"SQLite format 3", "the database of a sweep", "plot {folder}"),
+    (b"SQLite format 3", "the database of a sweep or of moving roughness", "plot {folder}"),
 )
 _SUMMARY = "summary.json"
 
