@@ -2,13 +2,18 @@
 
 `make lint` runs `python tools/lint_house.py`. Each broken rule is a line "file:line: what is wrong". If
 there is one, the exit status is 1. A rule is a function of the root of the repository, listed in `RULES`.
+
+`python tools/lint_house.py --renew` lowers the numbers in tools/words_in_names.toml to those of the source.
+It raises no number.
 """
 
+import argparse
 import ast
 import re
 import string
 import sys
 import tomllib
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -16,6 +21,7 @@ from typing import Any, NamedTuple
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = Path("src/ehlectric")
+WORDS_IN_NAMES = Path("tools/words_in_names.toml")
 
 MOST_WORDS = 30  # of one entry of the changelog
 
@@ -354,6 +360,55 @@ def publications_of_reports(root: Path) -> Iterator[Fault]:
             yield Fault(file, _line_of(root, file, citation), f"no docstring cites {sign}")
 
 
+def _names(node: ast.AST) -> Iterator[str]:
+    """Yield the names that a node writes: of variables, attributes, keywords, functions and modules."""
+    if not isinstance(node, ast.Constant):
+        for _, field in ast.iter_fields(node):
+            yield from (part for part in (field if isinstance(field, list) else [field]) if type(part) is str)
+
+
+def _places_of_words(root: Path) -> Iterator[tuple[str, str]]:
+    """Yield each word of each name of the package, and its place: file:line and name."""
+    for module in modules(root):
+        # A node without a line, such as the arguments of a function, writes no name.
+        for node in sorted(module.nodes, key=lambda node: getattr(node, "lineno", 0)):
+            for name in _names(node):
+                place = f"{module.file.as_posix()}:{getattr(node, 'lineno', 1)} {name}"
+                yield from ((word, place) for word in re.split("[._]+", name.lower()))
+
+
+def words_in_names(root: Path) -> Iterator[Fault]:
+    """Yield words that say too little and are in more names than tools/words_in_names.toml allows."""
+    words = tomllib.loads((root / WORDS_IN_NAMES).read_text(encoding="utf-8"))
+    places: dict[str, list[str]] = {word: [] for word in words}
+    for word, place in _places_of_words(root):
+        if word in words:
+            places[word].append(place)
+    for word, entry in words.items():
+        if len(places[word]) > entry["number"]:
+            message = (
+                f"{len(places[word])} names contain the word {word!r}, and at most {entry['number']} may; "
+                f"use a noun of the field in a new name, such as {entry['nouns']}. The names:"
+            )
+            line = _line_of(root, WORDS_IN_NAMES, f"[{word}]")
+            yield Fault(WORDS_IN_NAMES, line, "\n  ".join([message, *places[word]]))
+
+
+def renew(root: Path = ROOT) -> list[Fault]:
+    """Lower the numbers of words in names to those of the source. Returns faults if a number is too low."""
+    if broken := list(words_in_names(root)):
+        return broken
+    file = root / WORDS_IN_NAMES
+    counts = Counter(word for word, _ in _places_of_words(root))
+    text = re.sub(
+        r"(?m)^\[(\w+)\]\nnumber = \d+$",
+        lambda entry: f"[{entry[1]}]\nnumber = {counts[entry[1]]}",
+        file.read_text(encoding="utf-8"),
+    )
+    file.write_text(text, encoding="utf-8", newline="\n")
+    return []
+
+
 RULES = (
     fragments_of_the_changelog,
     entries_of_the_changelog,
@@ -367,6 +422,7 @@ RULES = (
     texts_of_verdicts,
     names_that_windows_lacks,
     publications_of_reports,
+    words_in_names,
 )
 
 
@@ -377,7 +433,10 @@ def faults(root: Path = ROOT) -> list[Fault]:
 
 def main() -> int:
     """Print the faults, and return the exit status."""
-    broken = faults()
+    parser = argparse.ArgumentParser(description="Check the rules of this repository.")
+    text = f"lower the numbers in {WORDS_IN_NAMES.as_posix()} to those of the source"
+    parser.add_argument("--renew", action="store_true", help=text)
+    broken = renew() if parser.parse_args().renew else faults()
     for fault in broken:
         print(fault)
     return 1 if broken else 0

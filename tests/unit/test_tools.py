@@ -115,6 +115,53 @@ def test_a_publication_without_a_docstring_is_found(tmp_path):
     assert "10.1/none" in fault.message
 
 
+def words_allowed(root, **numbers):
+    """Write the file of numbers of words in names."""
+    entries = [f'[{word}]\nnumber = {number}\nnouns = "row"\n' for word, number in numbers.items()]
+    (root / "tools").mkdir(exist_ok=True)
+    (root / lint_house.WORDS_IN_NAMES).write_text("# Words.\n\n" + "\n".join(entries), encoding="utf-8")
+
+
+# Five names: of a function, an argument, a variable (twice) and an attribute, some within a formatted text.
+NAMES_WITH_FOUND = (
+    """def found_row(found): return f"{FOUND_AT} {x.not_found}", FOUND_AT, 'found', foundation  # found"""
+)
+
+
+@pytest.mark.parametrize(("allowed", "broken"), [(4, True), (5, False), (6, False)])
+def test_a_word_is_in_no_more_names_than_are_allowed(tmp_path, allowed, broken):
+    package(tmp_path, "a.py", NAMES_WITH_FOUND)
+    words_allowed(tmp_path, own=0, found=allowed)
+    faults = list(lint_house.words_in_names(tmp_path))
+    assert len(faults) == broken
+    for fault in faults:
+        assert fault.line == 7
+        assert "5 names" in fault.message
+        assert "such as row" in fault.message
+        places = [line.split() for line in fault.message.splitlines()[1:]]
+        assert {place for place, _ in places} == {f"{lint_house.PACKAGE.as_posix()}/a.py:2"}
+        assert sorted(name for _, name in places) == ["FOUND_AT"] * 2 + ["found", "found_row", "not_found"]
+
+
+def test_a_word_in_names_of_modules_and_keywords_counts(tmp_path):
+    package(tmp_path, "a.py", "from x.own_y import z as own; f(own=1)")
+    words_allowed(tmp_path, own=2)
+    (fault,) = lint_house.words_in_names(tmp_path)
+    assert "3 names" in fault.message
+
+
+def test_renewal_lowers_the_numbers_of_words_and_raises_none(tmp_path):
+    package(tmp_path, "a.py", NAMES_WITH_FOUND)
+    words_allowed(tmp_path, own=2, found=7)
+    assert lint_house.renew(tmp_path) == []
+    text = (tmp_path / lint_house.WORDS_IN_NAMES).read_text(encoding="utf-8")
+    assert text.startswith("# Words.\n\n[own]\nnumber = 0\n")
+    assert "[found]\nnumber = 5\n" in text
+    words_allowed(tmp_path, own=2, found=3)
+    assert len(lint_house.renew(tmp_path)) == 1
+    assert "number = 2" in (tmp_path / lint_house.WORDS_IN_NAMES).read_text(encoding="utf-8")
+
+
 def test_a_tag_is_the_version_of_package_citation_recipe_and_changelog(tmp_path):
     for name in check_tag.VERSIONS:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
