@@ -50,7 +50,7 @@ def fonts(monkeypatch, tmp_path):
     """The fonts that Matplotlib carries alone, and a function that adds another one."""
     own = [entry for entry in fontManager.ttflist if "mpl-data" in entry.fname]
     monkeypatch.setattr(fontManager, "ttflist", own)
-    for told in (fallback_fonts._told, pdf_letters._told):
+    for told in (fallback_fonts._told, pdf_letters._noted):
         told.clear()
     fallback_fonts.fonts_for.cache_clear()
     pdf_letters._faces.cache_clear()
