@@ -222,37 +222,26 @@ class SweepPlan:
 
 
 @dataclass(frozen=True)
-class Axis:
-    """Axis of a map or a line."""
-
-    title: str  # name with its unit in brackets
-    values: tuple[float, ...]  # values in the order of the design, in the shown unit
-    log: bool = False
-
-
-@dataclass(frozen=True)
 class ChartPoint:
     """Point of a map or a line."""
 
     number: int
     state: PointState
     texts: tuple[str, ...]  # lines that say what it is and what it has
+    place: tuple[float, float]  # position in the figure
+    axis: str = "y"  # vertical axis of the position
     # Shown number, in the unit of the chart; None where it must not be drawn or there is none.
     value: float | None = None
     margin: float | None = None  # breakdown voltage divided by applied voltage
-    # Applied voltage in the unit of the chart where a breakdown voltage is shown, 1 where a margin is.
-    voltage: float | None = None
 
 
 @dataclass(frozen=True)
 class Chart:
     """Content of a map or of a line."""
 
-    x: Axis  # first varied input
-    y: Axis | None  # second varied input, whose values vary fastest
     title: str  # name of the shown number with its unit
-    critical: str  # what a margin of 1 means; empty where no point has a margin
-    voltage: str  # name of what the shown number is compared with: the applied voltage, or a margin of 1
+    inputs: tuple[str, ...]  # names of one or two varied inputs with their units; the last varies fastest
+    shape: tuple[int, ...]  # number of values of each
     points: tuple[ChartPoint, ...]
 
 

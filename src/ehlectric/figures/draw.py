@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ehlectric.figures.data import WIDTH, Along, Area, Curve, Panel
+from ehlectric.figures.data import WIDTH, Along, Area, Curve, Panel, with_unit
 from ehlectric.figures.style import scale_axis
 
 # Dashes by their names.
@@ -26,7 +26,20 @@ _MARKERS: Mapping[str, dict[str, Any]] = {
     "dots": {"marker": "o", "ms": 3.5},
     "ring": {"marker": "o", "ms": 4.5, "mfc": "white", "mew": 1.2, "zorder": 5.5},
     "star": {"marker": "*", "ms": 12.0, "mec": "white", "zorder": 6.0},
+    "circle": {"marker": "o", "ms": 4.0, "mfc": "none", "mew": 0.8},
+    "wide circle": {"marker": "o", "ms": 6.5, "mfc": "none", "mew": 0.9},
+    "square": {"marker": "s", "ms": 4.0, "mfc": "none", "mew": 0.8},
+    "diamond": {"marker": "D", "ms": 4.2, "mfc": "none", "mew": 1.2},
+    "plus": {"marker": "+", "ms": 7.0, "mew": 1.3},
+    "cross": {"marker": "x", "ms": 5.5, "mew": 1.6},
+    "wide cross": {"marker": "X", "ms": 5.0, "mec": "black", "mew": 0.4},
 }
+
+
+def marker_look(curve: Curve) -> dict[str, Any]:
+    """Look of the markers of a curve as Matplotlib takes it."""
+    look = _MARKERS[curve.marker]
+    return {"ls": "none", "color": curve.colour, **look, "ms": curve.size * look["ms"]}
 
 
 def line_look(colour: str, dash: str = "solid", width: float = WIDTH) -> dict[str, Any]:
@@ -42,7 +55,7 @@ def draw_curves(curves: Sequence[Curve], ax: Axes) -> list[Line2D]:
     for k, curve in enumerate(curves):
         look = line_look(curve.colour, curve.dash, thinner * curve.width) | {"zorder": 2.0 + 0.01 * k}
         if curve.marker:
-            look |= {"ls": "none", **_MARKERS[curve.marker]}
+            look |= marker_look(curve)
         lines += ax.plot(curve.x, curve.y, label=curve.name or "_", **look)
     return lines
 
@@ -51,23 +64,23 @@ def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
     """Draw a panel with its axis and, where it is given, the axis along it."""
     x, y = (np.concatenate([getattr(curve, axis) for curve in panel.curves]) for axis in ("x", "y"))
     if along is not None:
-        scale_axis(ax.xaxis, f"{along.name} [{along.unit}]", values=np.round(x, 6), log=along.log)
+        scale_axis(ax.xaxis, along.title, values=np.round(x, 6), log=along.log)
         if along.window is not None:
             ax.set_xlim(*along.window)
     # Ticks reach as far as shaded areas, too.
     ends = [end for area in panel.areas if area.ends is not None for end in area.ends]
-    title = f"{panel.title} [{panel.unit}]" if panel.unit else panel.title
-    scale_axis(ax.yaxis, title, values=np.concatenate([y, *ends]), log=panel.log)
+    scale_axis(ax.yaxis, with_unit(panel.title, panel.unit), values=np.concatenate([y, *ends]), log=panel.log)
     if not panel.log:
         ax.set_ylim(panel.bottom, panel.top)
     for area in panel.areas:
-        _shade(area, ax)
+        draw_area(area, ax)
     draw_curves(panel.curves, ax)
     for line in panel.uprights:
         ax.axvline(line.at, **line_look(line.colour, line.dash, 1.0))
 
 
-def _shade(area: Area, ax: Axes) -> None:
+def draw_area(area: Area, ax: Axes) -> None:
+    """Draw a shaded area."""
     look: dict[str, Any] = {"facecolor": (area.colour, area.opacity), "lw": 0.0, "label": area.name or "_"}
     if area.hatched:
         look |= {"edgecolor": (area.colour, 0.3), "hatch": "//"}  # a curve over it stays visible

@@ -39,7 +39,6 @@ from matplotlib.transforms import Bbox, offset_copy
 from ehlectric.arrays import Array
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
-from ehlectric.figures.data import is_wide
 from ehlectric.figures.fallback_fonts import give_fonts
 from ehlectric.figures.figure_names import STYLES, in_formats, with_units_kept
 from ehlectric.figures.tones import Outline, exchange_colours
@@ -597,25 +596,6 @@ def round_numbers(low: float, high: float) -> Array:
         if inside.size >= 4:
             return inside
     return np.asarray(MaxNLocator(5).tick_values(low, high))
-
-
-def by_logarithm(values: Array, *, log_axis: bool) -> bool:
-    """Whether values are interpolated linearly in their logarithm between points.
-
-    Film thickness and breakdown voltage are nearly powers of speed and load. On a logarithmic axis of speed
-    or load, linear interpolation of the values themselves would overstate them between the points.
-
-    Returns True where all finite values are positive, and an axis is logarithmic or they differ by more than
-    the ratio ``WIDE``.
-
-    Examples
-    --------
-    >>> by_logarithm(np.array([1.0, 2.0]), log_axis=False), by_logarithm(np.array([1.0, 2.0]), log_axis=True)
-    (False, True)
-    """
-    finite = values[np.isfinite(values)]
-    positive = bool(finite.size and finite.min() > 0.0)
-    return positive and (log_axis or is_wide(finite))
 
 
 def levels_of(values: Array, *, log: bool) -> Array:

@@ -28,16 +28,18 @@ from ehlectric.figures.style import (
     style,
     text_colour,
 )
-from ehlectric.figures.sweep_lines import LinePath, joined, lines_of, value_lines
+from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
-from ehlectric.figures.sweep_points import (
+from ehlectric.figures.sweep_panels import (
     TIME_SHARES,
-    held_text,
+    LinePath,
+    joined,
     labelled,
-    name_figure,
+    lines_of,
     range_text,
     voltage_text,
 )
+from ehlectric.figures.sweep_points import held_text, name_figure
 from ehlectric.quantities.formats import OF_TIME, Scale, time_share_text
 from ehlectric.quantities.inputs import SPEED
 from ehlectric.quantities.palette import BLUE, GREY, ORANGE
@@ -94,10 +96,8 @@ def _of_margins(results: SweepResults, selection: Slice, margin: Array) -> str:
 def _where(results: SweepResults, selection: Slice) -> str:
     """Clause: the values of x below or above which breakdown is expected, if there is one for each line."""
     log_x = spaced_log(results, selection.x, selection.along)
-    numbers = selection.y is not None and selection.numeric
-    log_y = numbers and spaced_log(results, str(selection.y), np.array(selection.across))
     margins = replace(selection, value=selection.breakdown.margin)
-    lines = lines_of(margins, log=log_y)
+    lines, log_y = lines_of(results, margins)
     if not joined(margins, lines):
         return ""
     path = LinePath(results, margins, log_x, log_y)

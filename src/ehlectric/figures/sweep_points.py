@@ -4,7 +4,6 @@ time.
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Sequence
 from typing import Any
@@ -19,17 +18,16 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.tri import Triangulation
 from scipy.spatial import KDTree
-from scipy.special import ndtr, ndtri
+from scipy.special import ndtri
 
-from ehlectric.arrays import Array, Mask
-from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
+from ehlectric.arrays import Array
 from ehlectric.cases.defaults import HOW
+from ehlectric.figures.data import Curve, MapPanel, Mesh
+from ehlectric.figures.draw import marker_look
 from ehlectric.figures.style import figure_of, name_over, outlined
-from ehlectric.quantities.formats import Scale
+from ehlectric.figures.sweep_panels import SHARE_LEVELS, labelled, quantile_of
 from ehlectric.quantities.palette import BLUE, GREY, MAP_EDGE, ON_MAP, ORANGE
-from ehlectric.quantities.result_warnings import CODES
-from ehlectric.readable import readable
-from ehlectric.sweep.axis_labels import Label, label_of
+from ehlectric.sweep.axis_labels import label_of
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import Slice
 
@@ -103,13 +101,7 @@ def _between(places: Array) -> Array:
     return np.asarray(np.where(jump[nearest, np.newaxis], places[nearest], straight))
 
 
-# Keys of a bearing's summary that are such shares.
-TIME_SHARES = ("bearing.contact_time_share", "bearing.touching_time_share", "bearing.clarke_time_share")
-
-# Lines of equal share.
-_LINES = (CAPACITIVE, 0.1, 0.5, RESISTIVE)
-
-# Colours and names of the areas between the lines.
+# Colours and names of the areas between the lines of equal share.
 _AREAS = (
     (to_rgba(BLUE, 0.25), "capacitive: contacts short it at most 1 % of the time"),
     (to_rgba(ORANGE, 0.25), "intermittent"),
@@ -118,36 +110,28 @@ _AREAS = (
     (to_rgba(GREY, 0.65), "resistive: more than 99 %"),
 )
 
-# Ends of the shares that are drawn: beyond them their quantiles have no finite value.
-_LEAST, _MOST = 1e-300, 1.0 - 1e-16
+
+def draw_regimes(panel: MapPanel, ax: Axes) -> list[Artist]:
+    """Colour the regimes of a map of shares of time, with lines at its levels; returns legend entries."""
+    if np.any(panel.alone):
+        # Dots of the points that belong to no cell have the colour of their regime.
+        numbers = np.searchsorted(SHARE_LEVELS, panel.values[panel.alone])
+        x, y = panel.places[:, panel.alone]
+        colours = [_AREAS[k][0] for k in numbers]
+        ax.scatter(x, y, c=colours, s=40.0, edgecolors="black", lw=0.5, zorder=4.0)
+    if panel.between is not None:
+        _fill_regimes(triangulated(panel.between), quantile_of(panel.between.values), panel.places.T, ax)
+    return [Patch(facecolor=colour, label=name) for colour, name in _AREAS if name]
 
 
-def quantile_of(share: Array) -> Array:
-    """Quantile of the normal distribution at a share of time, about linear in lambda; nan stays nan.
-
-    A share falls as exp(-lambda^2): neither it nor its logarithm is linear between the points of a sweep.
-
-    Examples
-    --------
-    >>> quantile_of(np.array([0.5, 0.99, np.nan])).round(2).tolist()
-    [0.0, 2.33, nan]
-    """
-    quantiles: Array = ndtri(np.clip(share, _LEAST, _MOST))
-    return quantiles
+def triangulated(mesh: Mesh) -> Triangulation:
+    """Triangles of a mesh as Matplotlib takes them."""
+    return Triangulation(mesh.x, mesh.y, mesh.triangles)
 
 
-def share_of(quantile: Array) -> Array:
-    """Share of time at a quantile of the normal distribution; the inverse of ``quantile_of``."""
-    share: Array = ndtr(quantile)
-    return share
-
-
-def fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) -> list[Artist]:
-    """Colour the regimes of a map, and draw lines at 1, 10, 50 and 99 % of the time. ``quantiles``, quantiles
-    of the shares at the nodes, shape (nodes,); ``taken``, positions of the points, which labels keep away
-    from, shape (n, 2). Returns legend entries.
-    """
-    levels = ndtri(_LINES)
+def _fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) -> None:
+    """Areas and lines of quantiles at the nodes; labels keep away from the places that are ``taken``."""
+    levels = ndtri(SHARE_LEVELS)
     shown = quantiles[mesh.get_masked_triangles()]
     ends = min(float(np.min(shown)), levels[0]) - 1.0, max(float(np.max(shown)), levels[-1]) + 1.0
     ax.tricontourf(
@@ -158,137 +142,27 @@ def fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) 
         own = [levels[k] for k in inside]
         lines = ax.tricontour(mesh, quantiles, levels=own, colors="black", linewidths=1.2, linestyles="-")
         lines.set_path_effects(outlined(2.2))
-        label_lines(ax, lines, taken, [f"{100.0 * _LINES[k]:g} %" for k in inside], **ON_BOX)
-    return regime_handles()
+        label_lines(ax, lines, taken, [f"{100.0 * SHARE_LEVELS[k]:g} %" for k in inside], **ON_BOX)
 
 
-def regime_handles() -> list[Artist]:
-    """Legend entries of the regimes."""
-    return [Patch(facecolor=colour, label=name) for colour, name in _AREAS if name]
-
-
-def scatter_regimes(places: Array, shares: Array, some: Mask, ax: Axes) -> None:
-    """Draw points as dots with the colour of their regime: those that belong to no cell of a map."""
-    numbers = np.searchsorted(_LINES, shares[some])
-    look: dict[str, Any] = {"c": [_AREAS[k][0] for k in numbers], "s": 40.0, "edgecolors": "black", "lw": 0.5}
-    ax.scatter(places[some, 0], places[some, 1], zorder=4.0, **look)
-
-
-# Marker of a point by its kind, in figures and in their legends.
-_MARKS: dict[str, dict[str, Any]] = {
-    "solved": {"marker": "o", "ms": 2.6, "color": "black", "mew": 0.0},
-    "less accurate": {"marker": "o", "ms": 6.5, "color": ORANGE, "mfc": "none", "mew": 0.9},
-    "intermittent": {"marker": "X", "ms": 5.0, "color": ORANGE, "mec": "black", "mew": 0.4},
-    "without this value": {"marker": "s", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
-    "do not use": {"marker": "D", "ms": 4.2, "color": ORANGE, "mfc": "none", "mew": 1.2},
-    "not converged": {"marker": "+", "ms": 7.0, "color": "black", "mew": 1.3},
-    "failed": {"marker": "x", "ms": 5.5, "color": ORANGE, "mew": 1.6},
-    "not tried yet": {"marker": "o", "ms": 4.0, "color": GREY, "mfc": "none", "mew": 0.8},
-}
-
-# Codes of warnings that say that the numbers of a point are less accurate than those of other points. Other
-# warnings, such as that of an expected breakdown, say something about a contact whose numbers are good.
-LESS_ACCURATE = frozenset(code for code, cause in CODES.items() if cause.less_accurate)
-
-# Names of kinds in legends, where they differ from the kind.
-_NAMES = {
-    "solved": "points",
-    "do not use": "must not be used",
-    "intermittent": "without a voltage: contacts open and close",
-}
-
-
-def kinds(selection: Slice) -> dict[str, Mask]:
-    """Mask of the points of each kind of mark, shape (points,); kinds without points are left out."""
-    known, intermittent = np.isfinite(selection.values), selection.intermittent
-    without = selection.of("solved") & ~known & ~selection.doubtful
-    masks = {
-        "solved": selection.of("solved") & known,
-        "intermittent": without & intermittent,
-        "without this value": without & ~intermittent,
-        "do not use": selection.doubtful,
-        "not converged": selection.of("not converged"),
-        "failed": selection.of("failed"),
-        "not tried yet": selection.of("open"),
-    }
-    return {kind: mask for kind, mask in masks.items() if np.any(mask)}
-
-
-def warned(selection: Slice) -> Mask:
-    """Mask of the points with a value whose numbers are less accurate than those of others, shape (points,).
-
-    They have a warning of ``LESS_ACCURATE`` that not all points have: a warning of all points tells no point
-    from another.
-    """
-    # Of a share of time with contact, that surfaces touch is no doubt but what it says.
-    doubts = LESS_ACCURATE - {"touching", "partial-film"} if selection.value in TIME_SHARES else LESS_ACCURATE
-    codes = [
-        {warning.code for warning in point.warnings if warning.code in doubts} for point in selection.points
-    ]
-    drawn = selection.of("solved") & np.isfinite(selection.values)
-    of_all = set.intersection(*(own for own, known in zip(codes, drawn, strict=True) if known))
-    return np.asarray(drawn & np.array([bool(own - of_all) for own in codes]))
-
-
-def mark_warned(ax: Axes, selection: Slice, x: Array, y: Array) -> list[Line2D]:
-    """Draw a ring around each point that is less accurate, and return the legend entry of the rings."""
-    some = warned(selection)
-    if not np.any(some):
-        return []
-    mark(ax, "less accurate", x[some], y[some])
-    return [Line2D([], [], ls="none", label=f"{np.sum(some)} less accurate", **_look("less accurate"))]
-
-
-def _look(kind: str) -> dict[str, Any]:
-    """Marker of a kind, smaller where the style has smaller markers."""
-    scale = mpl.rcParams["lines.markersize"] / mpl.rcParamsDefault["lines.markersize"]
-    return _MARKS[kind] | {"ms": scale * _MARKS[kind]["ms"], "mew": scale * _MARKS[kind]["mew"]}
-
-
-def dot_size(selection: Slice, largest: float) -> float:
-    """Diameter of the dots of solved points [pt], smaller if there are more than 400 points."""
-    largest *= mpl.rcParams["lines.markersize"] / mpl.rcParamsDefault["lines.markersize"]
-    return largest * min(1.0, max(0.3, math.sqrt(400.0 / len(selection.points))))
-
-
-def mark(ax: Axes, kind: str, x: Array, y: Array, **look: Any) -> None:
-    """Draw the marks of points of one kind, above everything else in the axes."""
+def mark(ax: Axes, curve: Curve, **look: Any) -> None:
+    """Draw marks of points above everything else in the axes."""
     # A white edge around the rings would hide the curves beside them.
-    edge = [] if kind in ("solved", "less accurate") else outlined(2.6)
-    plain: dict[str, Any] = {"ls": "none", "zorder": 5.0, "clip_on": False, "path_effects": edge}
-    ax.plot(x, y, **(plain | _look(kind) | look))
+    edge = [] if curve.marker in ("dots", "wide circle") else outlined(2.6)
+    plain: dict[str, Any] = {"zorder": 5.0, "clip_on": False, "path_effects": edge}
+    ax.plot(curve.x, curve.y, **(plain | _look(curve) | look))
 
 
-def kind_handles(selection: Slice, **look: Any) -> list[Line2D]:
-    """Legend entries with the number of points of each kind."""
-    return [
-        Line2D([], [], ls="none", label=f"{np.sum(mask)} {_NAMES.get(kind, kind)}", **(_look(kind) | look))
-        for kind, mask in kinds(selection).items()
-    ]
+def mark_handles(curves: Sequence[Curve], **look: Any) -> list[Line2D]:
+    """Legend entries of the marks that have a name."""
+    return [Line2D([], [], label=curve.name, **(_look(curve) | look)) for curve in curves if curve.name]
 
 
-def labelled(results: SweepResults, key: str, values: Array) -> tuple[Label, Scale]:
-    """Name, symbol and SI unit of a key, and the unit that suits the values; °C for temperatures."""
-    label = label_of(key, results.case)
-    return label, label.scaled(values)
-
-
-def voltage_text(selection: Slice) -> str:
-    """Applied voltage of the solved points with its unit, or its range if it differs between them."""
-    return range_text(selection.voltage[np.isfinite(selection.voltage)], "V")
-
-
-def range_text(values: Array, unit: str) -> str:
-    """Text of the range of values: one value with the unit, or the smallest "to" the largest.
-
-    Examples
-    --------
-    >>> range_text(np.array([2.0, 2.0]), "V"), range_text(np.array([2.214, 30.0]), "V")
-    ('2 V', '2.2 to 30 V')
-    """
-    low, high = float(values.min()), float(values.max())
-    texts = [readable(value, 2) if value < 10.0 else readable(value) for value in (low, high)]
-    return f"{readable(low, 4)} {unit}" if high - low <= 1e-9 * high else f"{' to '.join(texts)} {unit}"
+def _look(curve: Curve) -> dict[str, Any]:
+    """Markers of a curve, smaller where the style has smaller markers."""
+    scale = mpl.rcParams["lines.markersize"] / mpl.rcParamsDefault["lines.markersize"]
+    look = marker_look(curve)
+    return look | {"ms": scale * look["ms"], "mew": scale * look.get("mew", 0.0)}
 
 
 def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> None:

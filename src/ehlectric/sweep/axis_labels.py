@@ -45,9 +45,14 @@ class Label:
         units = {"units": self.unit.replace("**", "^").replace("*", " ") or "1"} if number else {}
         return {"long_name": self.name, **units}
 
+    @property
+    def with_symbol(self) -> str:
+        """Name and symbol."""
+        return f"{self.name} {self.symbol}".rstrip()
+
     def axis(self, scale: Scale) -> str:
         """Label of an axis: name, symbol and the unit of ``scale``."""
-        return " ".join(filter(None, [self.name, self.symbol, f"[{scale.unit}]" if scale.unit else ""]))
+        return f"{self.with_symbol} [{scale.unit}]" if scale.unit else self.with_symbol
 
 
 def label_of(key: str, case: SweptCase) -> Label:

@@ -345,7 +345,7 @@ def take(
         raise InputError("y", got=f"{shown(y)}, which is x;", takes="another key that varies")
     if not all(is_number(point.inputs.get(x)) for point in results.points):
         raise InputError("x", got=f"{shown(x)}, whose values are strings or lists", takes="a key of numbers")
-    values = numbers_of(results, value)
+    numbers_of(results, value)
     fixed = {key: _fixed(results, key, text) for key, text in (at or {}).items()}
     for key in fixed:
         if key in (x, y):
@@ -371,14 +371,35 @@ def take(
             "at", f"no point of the sweep has {', '.join(f'{k} = {v}' for k, v in fixed.items())}"
         )
     chosen = _finite(results, chosen, x, y)
-    points = tuple(results.points[k] for k in chosen)
+    taken = _slice(results, chosen, (x, y), value, fixed, free)
+    if not np.any(np.isfinite(taken.values)):
+        raise InputError(
+            "value", f"{value} is in none of the {_drawn(taken.points)}, there is nothing to show"
+        )
+    return taken
+
+
+def whole(results: SweepResults, value: str) -> Slice:
+    """Slice of all points over the first two varied keys, also where no point has the value."""
+    x, *others = results.varied
+    return _slice(results, range(len(results.points)), (x, next(iter(others), None)), value, {}, ())
+
+
+def _slice(
+    results: SweepResults,
+    chosen: Sequence[int],
+    keys: tuple[str, str | None],
+    value: str,
+    fixed: Mapping[str, Any],
+    free: tuple[str, ...],
+) -> Slice:
+    """Slice of the points with some numbers."""
+    (x, y), rows = keys, list(chosen)
+    points = tuple(results.points[k] for k in rows)
     # Values of points with a severe warning are left out of figures.
     usable = np.where([point.doubtful for point in points], np.nan, 1.0)
-    values = usable * values[chosen]
-    if not np.any(np.isfinite(values)):
-        raise InputError("value", f"{value} is in none of the {_drawn(points)}, there is nothing to show")
+    numbers = results.numbers.get(value, [None] * len(results.points))
     breakdown = breakdown_of(results.case, value)
-    across = () if y is None else tuple(_hashable(point.inputs.get(y)) for point in points)
     return Slice(
         x=x,
         y=y,
@@ -388,10 +409,10 @@ def take(
         free=free,
         points=points,
         along=np.array([as_number(point.inputs[x]) for point in points]),
-        across=across,
-        values=values,
-        voltage=usable * breakdown.voltages(results)[chosen],
-        margin=usable * breakdown.margins(results)[chosen],
+        across=() if y is None else tuple(_hashable(point.inputs.get(y)) for point in points),
+        values=usable * np.array(numbers, dtype=float)[rows],
+        voltage=usable * breakdown.voltages(results)[rows],
+        margin=usable * breakdown.margins(results)[rows],
     )
 
 

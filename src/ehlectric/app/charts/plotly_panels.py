@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.figures.data import Along, Area, Curve, Panel
-from ehlectric.quantities.palette import MIDDLE_GREY, faint
+from ehlectric.figures.data import Along, Area, Curve, Limit, MapPanel, Mesh, Panel, with_unit
+from ehlectric.quantities.palette import MIDDLE_GREY, ORANGE, faint
 from ehlectric.readable import readable
 
 # Maps of colours: film, pressure and field. Plotly has no Plasma of its own.
@@ -36,11 +39,25 @@ MOST_PIXELS = 160
 # Height of a panel, and gap between panels as a part of the height of the figure [px].
 _PANEL, _GAP = 190, 0.05
 
-# Number of the first of the hidden axes from 0 to 1 over each panel: behind those of the panels.
-_HIDDEN = 11
+# Number of the first of the hidden axes from 0 to 1 over each panel, behind the axes of panels; height of the
+# marks of points without a value on a hidden axis, and its name in a figure of one panel.
+_HIDDEN, STRIP, STRIP_AXIS = 11, 0.04, "y11"
 
 # Pixels of a line that is a point wide, and largest number of intervals of a curve whose extremes are kept.
 _PIXELS, _INTERVALS = 5.0 / 3.0, 1500
+
+# Ends of the decades of a logarithmic axis that have ticks, and most decades with ticks at 1, 2 and 5.
+_ALL_TICKS, _DECADES = (1e-6, 1e9), 5
+
+# Longest line of the title of an axis [characters], and symbol in the name of a quantity.
+_TITLE = 30
+_SYMBOL = re.compile(r" ?\$[^$]*\$")
+
+# Text at the pointer, letters on the colours of a map, and height of a map [px].
+_TEXT, _ON_MAP, _MAP = "%{text}<extra></extra>", {"color": "#ffffff", "size": 11}, 430
+
+# Largest number of nodes along an axis between which the lines of a map are straight.
+_NODES = 41
 
 # Node that separates two outlines in one curve.
 _GAP_NODE = np.array([np.nan])
@@ -93,13 +110,34 @@ def axis(title: str = "", **more: Any) -> Plot:
     return look | ({"title": {"text": title, "standoff": 6}} if title else {}) | more
 
 
-def log_ticks(*, log: bool) -> Plot:
-    """Type of an axis, and ticks of a logarithmic one, whose numbers are written in full."""
+def log_ticks(*, log: bool, ends: tuple[float, float] | None = None) -> Plot:
+    """Type of an axis, and ticks of a logarithmic one, whose numbers are written in full.
+
+    Between ``ends``, the ticks are 1, 2 and 5 of each decade, and over many decades some powers of ten.
+    """
     if not log:
         return {"type": "linear"}
-    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1.0, 2.0, 5.0)]
+    low, high = ends or _ALL_TICKS
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    many = ends is not None and len(powers) > _DECADES
+    chosen = powers[:: max(1, len(powers) // _DECADES)] if many else powers
+    ticks = [float(f"{digit}e{power}") for power in chosen for digit in ((1,) if many else (1, 2, 5))]
+    if ends is not None:
+        within = [tick for tick in ticks if low * 0.999 <= tick <= high * 1.001]
+        ticks = within if len(within) > 1 else [low, high]
     texts = [readable(tick, 12) for tick in ticks]
     return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
+
+
+def plain(title: str, unit: str) -> str:
+    r"""Name of a quantity with its unit, in lines, and without the symbols that only Matplotlib writes.
+
+    Examples
+    --------
+    >>> plain(r"breakdown voltage $V_\mathrm{b}$", "V")
+    'breakdown voltage [V]'
+    """
+    return "<br>".join(wrap(with_unit(_SYMBOL.sub("", title), unit), _TITLE))
 
 
 def vertical(at: float, **more: Any) -> Plot:
@@ -246,10 +284,10 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
     """
     layout: dict[str, Any] = {
         "xaxis": axis(
-            f"{along.name} [{along.unit}]",
+            plain(along.name, along.unit),
             anchor=axis_name(len(panels) - 1),
             unifiedhovertitle={"text": f"{along.name} = %{{x:,.5~r}} {along.unit}"},
-            **({"range": list(along.window)} if along.window else {}),
+            **({"range": _range(along.window, log=along.log)} if along.window else {}),
             **log_ticks(log=along.log),
         ),
         "hovermode": "x unified",
@@ -264,10 +302,10 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
         domain = {"domain": ends_of_panel, "anchor": "x"}
         ends = {} if panel.log else {"range": [panel.bottom, panel.top]}
         unit = f"{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]" if panel.unit else ""
-        title = f"{panel.title}{unit}"
+        title = f"{plain(panel.title, '')}{unit}"
         layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **log_ticks(log=panel.log))
         data += [_shaded(area, name, hidden) for area in panel.areas]
-        data += [_trace(curve, panel, name, converged=converged) for curve in panel.curves]
+        data += [_trace(curve, panel.unit, name, converged=converged) for curve in panel.curves]
         data += [
             scatter(
                 [line.at] * 2,
@@ -278,29 +316,51 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **mo
             )
             for line in panel.uprights
         ]
-        if panel.areas or panel.uprights:
+        data += [
+            _trace(replace(curve, y=np.full(curve.x.size, STRIP)), None, hidden, converged=converged)
+            for curve in panel.missing
+        ]
+        if panel.areas or panel.uprights or panel.missing:
             whole = {"overlaying": name, "range": [0.0, 1.0], "visible": False, "fixedrange": True}
             layout["yaxis" + hidden[1:]] = whole | domain
     return plot(data, converged=converged, **layout | more)
 
 
-def _trace(curve: Curve, panel: Panel, yaxis: str, *, converged: bool) -> Plot:
+# Looks of markers. Those with a symbol that is open have no face.
+_MARKERS: Mapping[str, Plot] = {
+    "dots": {"size": 6, "line": {"width": 0}},
+    "ring": {"size": 9, "symbol": "circle-open"},
+    "star": {"size": 15, "symbol": "star", "line": {"color": "white", "width": 1}},
+    "circle": {"size": 6, "symbol": "circle-open"},
+    "wide circle": {"size": 13, "symbol": "circle-open"},
+    "square": {"size": 8, "symbol": "square-open"},
+    "diamond": {"size": 9, "symbol": "diamond-open"},
+    "plus": {"size": 10, "symbol": "cross-thin"},
+    "cross": {"size": 8, "symbol": "x-thin"},
+    "triangle": {"size": 8, "symbol": "triangle-down", "line": {"color": "#000000", "width": 1}},
+    "wide cross": {"size": 9, "symbol": "x", "line": {"color": "#000000", "width": 1}},
+}
+
+
+def _range(ends: tuple[float, float], *, log: bool) -> list[float]:
+    """Ends of an axis as Plotly takes them."""
+    return [math.log10(end) for end in ends] if log else list(ends)
+
+
+def _trace(curve: Curve, unit: str | None, yaxis: str, *, converged: bool) -> Plot:
     colour = curve.colour if converged else MIDDLE_GREY
     kept = thinned([curve.y], _INTERVALS)
     if curve.marker:
-        marker: Plot = {"color": colour, "size": 6}
-        if curve.marker == "ring":
-            marker = {"color": "rgba(0,0,0,0)", "size": 9, "line": {"color": colour, "width": 2}}
-        if curve.marker == "star":
-            marker |= {"symbol": "star", "size": 15, "line": {"color": "white", "width": 1}}
-        look: Plot = {"marker": marker}
+        marker = {"color": colour, **_MARKERS[curve.marker]}
+        edge = {"color": colour, "width": 2, **marker.get("line", {})}
+        look: Plot = {"marker": marker | {"size": curve.size * marker["size"], "line": edge}}
     else:
         look = {"line": {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width}}
     return scatter(
         curve.x[kept],
         curve.y[kept],
         # The name of a single mark has its value.
-        hover=f"%{{y:,.4~r}} {panel.unit}" if curve.name and curve.x.size > 1 else "",
+        hover=f"%{{y:,.4~r}} {unit}" if unit is not None and curve.name and curve.x.size > 1 else "",
         label=curve.name,
         yaxis=yaxis,
         name=curve.name,
@@ -345,6 +405,106 @@ def _spans(within: Mask) -> Iterator[slice]:
 
 def _around(low: Array, high: Array) -> Array:
     return np.concatenate([low, high[::-1], low[:1]])
+
+
+def map_plot(panel: MapPanel, texts: Sequence[str], **more: Any) -> Plot:
+    """Figure of a map, of which each point has a cell with its text at the pointer, grey without a value.
+
+    The ``customdata`` of a cell are the number of its point; ``more`` are further keys of the layout.
+    """
+    (xs, i), (ys, j) = (np.unique(places, return_inverse=True) for places in panel.places)
+
+    def cells(of_points: Any, kind: Any = float) -> NDArray[Any]:
+        rows = np.full((ys.size, xs.size), None, dtype=kind)
+        rows[j, i] = of_points
+        return rows
+
+    known = np.isfinite(panel.values)
+    below = np.zeros_like(known) if panel.limit is None else panel.limit.margins < 1.0
+    at: Plot = {"type": "heatmap", "x": values(xs, 12), "y": values(ys, 12)}
+    grey = {"colorscale": [[0.0, MIDDLE_GREY], [1.0, MIDDLE_GREY]], "opacity": 0.35, "showscale": False}
+    of_cells = {"text": cells(texts, object), "customdata": cells(np.arange(known.size), object)}
+    about: Plot = {name: rows.tolist() for name, rows in of_cells.items()} | {"hovertemplate": _TEXT}
+    traces: list[Plot] = [
+        at | grey | about | {"z": values(cells(np.where(known, np.nan, 1.0)))},
+        *([at | _coloured(panel, cells(panel.values))] if known.any() else []),
+        # Lines of equal value between a few solved points would move with every further one.
+        *(_contours(panel.between) if known.all() and not (panel.log or panel.levels) else []),
+        *(line for level in panel.levels for line in _contours(panel.between, **_at(level))),
+        *_limit_line(panel.limit),
+    ]
+    # A cell shows that a point is solved; marks of the side below the limit stand on the cells.
+    marks = [mark for mark in panel.marks if mark.marker != "dots"]
+    if below.any():
+        name = "margin below 1: breakdown expected"
+        x, y = panel.places[:, below]
+        marks.append(Curve(name, x, y, "#ffffff", marker="triangle", size=panel.marks[0].size))
+    traces += [_trace(mark, None, "y", converged=True) for mark in marks]
+    axes: dict[str, Any] = {
+        name: axis(
+            plain(along.name, along.unit),
+            zeroline=False,
+            **log_ticks(log=along.log, ends=(float(nodes[0]), float(nodes[-1]))),
+        )
+        for name, along, nodes in zip(("xaxis", "yaxis"), panel.axes, (xs, ys), strict=True)
+    }
+    return plot(traces, height=_MAP, hovermode="closest", **axes, **more)
+
+
+def _coloured(panel: MapPanel, cells: Array) -> Plot:
+    """Keys of the coloured cells of a map, with their bar."""
+    bar = {"title": {"text": plain(panel.title, panel.unit), "side": "right"}, "thickness": 14}
+    if panel.log:
+        ticks = log_ticks(log=True, ends=(float(np.nanmin(cells)), float(np.nanmax(cells))))
+        bar |= {"tickvals": np.log10(ticks["tickvals"]).tolist(), "ticktext": ticks["ticktext"]}
+    shown = values(np.log10(cells) if panel.log else cells)
+    return {"z": shown, "colorscale": FILM_COLOURS, "colorbar": bar, "hoverinfo": "skip"}
+
+
+def _contours(mesh: Mesh | None, **more: Any) -> list[Plot]:
+    """Lines of equal value of a mesh whose nodes are a grid, with their numbers; none of another mesh."""
+    if mesh is None:
+        return []
+    xs, ys = np.unique(mesh.x), np.unique(mesh.y)
+    if xs.size * ys.size != mesh.x.size:
+        return []
+    inside = np.isin(np.arange(mesh.x.size), mesh.triangles)
+    rows = np.where(inside, mesh.values, np.nan).reshape(xs.size, ys.size).T
+    i, j = kept_nodes(xs.size, _NODES), kept_nodes(ys.size, _NODES)
+    look = {
+        "contours": {"coloring": "none", "showlabels": True, "labelfont": _ON_MAP, "labelformat": ".4~g"},
+        "line": {"color": "rgba(255,255,255,0.75)", "width": 1},
+        "ncontours": 8,
+        "connectgaps": False,
+        "showlegend": False,
+        "showscale": False,
+        "hoverinfo": "skip",
+    }
+    at = {"type": "contour", "x": values(xs[i]), "y": values(ys[j]), "z": values(rows[np.ix_(j, i)], 5)}
+    return [at | look | more]
+
+
+def _at(level: float, **more: Any) -> Plot:
+    """Keys of lines of one value only, with its number in per cent."""
+    look = {"coloring": "none", "showlabels": True, "labelfont": _ON_MAP, "labelformat": ".0%"}
+    return {"contours": look | {"start": level, "end": level, "size": 1.0} | more, "autocontour": False}
+
+
+def _limit_line(limit: Limit | None) -> list[Plot]:
+    """Line along which the margin is 1, red within white; none where the margin does not cross 1."""
+    mesh = None if limit is None else limit.between
+    if limit is None or mesh is None:
+        return []
+    # A hole of the map may lie between both sides.
+    below = mesh.values[mesh.triangles] < 1.0
+    if not np.any(np.any(below, axis=1) & ~np.all(below, axis=1)):
+        return []
+    # By logarithms, as margins are nearly powers of speed and load.
+    log, line = replace(mesh, values=np.log10(mesh.values)), _at(0.0, showlabels=False)
+    return [
+        *_contours(log, **line, line={"color": "#ffffff", "width": 6}),
+        *_contours(log, **line, line={"color": ORANGE, "width": 3}, showlegend=True, name=limit.line),
+    ]
 
 
 def names_of(panels: Sequence[Panel]) -> Iterator[str]:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ehlectric.app.charts.sweep_charts import figure_of
+from ehlectric.app.charts.plotly_panels import STRIP, STRIP_AXIS, Plot, values
+from ehlectric.app.charts.sweep_charts import line_figure, map_figure
 from ehlectric.app.compute import answer_parts
 from ehlectric.app.compute.answer_parts import gauge_text, page_warnings_of, run_case_of
 from ehlectric.app.form_fields import BEARING_GROUPS
@@ -20,7 +21,6 @@ from ehlectric.app.form_fields.drive_fields import DRIVE_GROUPS
 from ehlectric.app.form_fields.field import Field
 from ehlectric.app.page_inputs import Inputs, number_of_text
 from ehlectric.app.view_models import (
-    Axis,
     Chart,
     ChartPoint,
     Deciding,
@@ -43,6 +43,8 @@ from ehlectric.cases.defaults import HOW
 from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_of, kind_of, of_both_ends, unit_of
 from ehlectric.errors import InputError
+from ehlectric.figures.data import with_unit
+from ehlectric.figures.sweep_panels import labelled, lines_panel, map_panel, needed_values
 from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.grouped_digits import certain
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at
@@ -62,9 +64,9 @@ from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.run import planned_points
-from ehlectric.sweep.slices import known_values
+from ehlectric.sweep.slices import known_values, whole
 from ehlectric.sweep.store import NAME, read_sweep
-from ehlectric.sweep.sweep_inputs import Breakdown, Sweep, breakdown_of, check_varied, ranked_value
+from ehlectric.sweep.sweep_inputs import Sweep, breakdown_of, check_varied, ranked_value
 from ehlectric.sweep.warnings import sweep_warnings
 from ehlectric.tables.sweep_summary import grouped_reasons
 
@@ -85,7 +87,7 @@ def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
 
 def view_of(results: SweepResults, shown: str) -> SweepView:
     """State of a sweep as the page shows it."""
-    chart = _chart(results, shown)
+    chart, figure = _chart(results, shown)
     verdict, lowest = _verdict(results), _lowest(chart)
     return SweepView(
         counts=dict(Counter(point.state for point in chart.points)),
@@ -94,7 +96,7 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
         deciding=Deciding("") if lowest is None else deciding(chart),
         number=lowest,
         chart=chart,
-        figure=figure_of(chart),
+        figure=figure,
         columns=(
             "Point",
             *(named(key, results.case) for key in results.varied),
@@ -143,7 +145,7 @@ def _lowest(chart: Chart) -> Number | None:
     if not known:
         return None
     worst = min(known, key=lambda point: point.margin or 0.0)
-    inputs = worst.texts[: 2 if chart.y else 1]
+    inputs = worst.texts[: len(chart.inputs)]
     return Number("sweep.margin", "Lowest margin", ratio_text(worst.margin or 0.0), note=", ".join(inputs))
 
 
@@ -202,110 +204,60 @@ def _values(results: SweepResults) -> dict[str, str]:
     }
 
 
-def _chart(results: SweepResults, shown: str) -> Chart:
-    axes = [_axis(results, key) for key in results.varied[:2]]
-    about, label = breakdown_of(results.case, shown), label_of(shown, results.case)
+def _chart(results: SweepResults, shown: str) -> tuple[Chart, Plot]:
+    """Points of the map or of the line of a value, and its figure."""
+    selection = whole(results, shown)
     name = named(shown, results.case)
-    values = results.numbers.get(shown, [None] * len(results.points))
-    rows = _rows(results, (about.margin, about.value, about.voltage))
-    usable = [
-        value
-        for point, value in zip(results.points, values, strict=True)
-        if value is not None and not point.doubtful
-    ]
-    scale = label.scaled(np.array(usable, dtype=float))
     inputs = {key: (named(key, results.case), _input_scale(results, key)) for key in results.varied}
-    points = tuple(
-        _point(
-            point,
-            value,
-            margin=_margin(row, about),
-            limit=_limit(row, about, shown),
-            named_scale=(name, scale),
-            inputs=inputs,
-        )
-        for point, value, row in zip(results.points, values, rows, strict=True)
+    at = [inputs[key][1].of(results.values(key)) for key in results.varied[:2]]
+    drawn = selection.values if selection.y is not None else needed_values(selection)
+    scale, known = labelled(results, shown, drawn)[1], np.isfinite(selection.values)
+    # None where a point has no value that may be drawn, and no margin with it.
+    numbers, margins = (
+        [float(one) if np.isfinite(one) else None for one in column]
+        for column in (scale.of(selection.values), np.where(known, selection.margin, np.nan))
     )
-    critical = f"margin 1: {about.name} = {about.voltage_name}"
-    some = any(point.margin is not None for point in points)
-    second = axes[1] if len(axes) > 1 else None
-    limit = critical if shown == about.margin else about.voltage_name
-    return Chart(axes[0], second, _titled(name, scale), critical if some else "", limit, points)
-
-
-def _rows(results: SweepResults, keys: Sequence[str]) -> list[dict[str, Any]]:
-    """Values of some keys of the summary of each point, None where it has none."""
-    none = [None] * len(results.points)
-    columns = [results.columns.get(key, none) for key in keys]
-    return [dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True)]
-
-
-def _axis(results: SweepResults, key: str) -> Axis:
-    scale = _input_scale(results, key)
-    # Twelve digits: 300.00000000000006 rpm would be the text of a tick.
-    shown = tuple(float(f"{value:.12g}") for value in scale.of(np.array(results.axes[key], dtype=float)))
-    return Axis(_titled(named(key, results.case), scale), shown, _is_log(results.axes[key]))
-
-
-def _titled(name: str, scale: Scale) -> str:
-    return f"{name} [{scale.unit}]" if scale.unit else name
-
-
-def _is_log(values: Sequence[float]) -> bool:
-    """Whether values are spaced by equal ratios, and not by equal steps."""
-    if len(values) < 3 or min(values) <= 0.0:
-        return False
-    ratios, steps = np.diff(np.log(values)), np.diff(values)
-    return bool(np.ptp(ratios) < 1e-6 * abs(ratios[0]) and np.ptp(steps) > 1e-6 * abs(steps[0]))
+    if selection.y is None:
+        at.append(np.where(known, scale.of(selection.values), STRIP))
+    rows = zip(zip(*values(np.array(at), 12), strict=True), numbers, margins, strict=True)
+    points = [
+        _point(point, *row, named_scale=(name, scale), inputs=inputs)
+        for point, row in zip(results.points, rows, strict=True)
+    ]
+    titles = tuple(with_unit(inputs[key][0], inputs[key][1].unit) for key in results.varied[:2])
+    shape = tuple(len(results.axes[key]) for key in results.varied[:2])
+    chart = Chart(with_unit(name, scale.unit), titles, shape, tuple(points))
+    if selection.y is None:
+        return chart, line_figure(*lines_panel(results, selection), points)
+    return chart, map_figure(map_panel(results, selection, limited=True), points)
 
 
 def _input_scale(results: SweepResults, key: str) -> Scale:
-    return label_of(key, results.case).scaled(np.array(results.axes[key], dtype=float))
-
-
-def _margin(row: Mapping[str, Any], about: Breakdown) -> float | None:
-    """Margin of a summary, or where that has none, the ratio of its voltages."""
-    margin = row.get(about.margin)
-    if is_number(margin):
-        return float(margin)
-    value, voltage = row.get(about.value), row.get(about.voltage)
-    return float(value / voltage) if is_number(value) and is_number(voltage) and voltage else None
-
-
-def _limit(row: Mapping[str, Any], about: Breakdown, shown: str) -> float | None:
-    """Value at which a point breaks down: the voltage beside a breakdown voltage, 1 beside a margin."""
-    if shown == about.value:
-        return row.get(about.voltage)
-    return 1.0 if shown == about.margin else None
+    return labelled(results, key, results.values(key))[1]
 
 
 def _point(
     point: Point,
+    place: tuple[float, float],
     value: float | None,
-    *,
     margin: float | None,
-    limit: float | None,
+    *,
     named_scale: tuple[str, Scale],
     inputs: Mapping[str, tuple[str, Scale]],
 ) -> ChartPoint:
-    """Point of a chart of a value, with the names and scales of the value and of the inputs."""
-    state, (name, scale) = _state(point, value), named_scale
-    texts = []
-    for key, item in point.inputs.items():
-        label, of_input = inputs[key]
-        texts.append(f"{label}: {of_input.text(item)}")
-    if value is not None and state == "solved":
-        texts.append(f"{name}: {scale.text(float(value))}")
+    """Point of a chart at a place, with the names and scales of its value and of the inputs."""
+    (name, scale), state = named_scale, _state(point, value)
+    texts = [f"{label}: {of_input.text(point.inputs[key])}" for key, (label, of_input) in inputs.items()]
+    if value is not None:
+        texts.append(f"{name}: {readable(value, 4)} {scale.unit}".rstrip())
         texts += [] if margin is None else [f"Margin: {readable(margin)}"]
     else:
         texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
     serious = [warning for warning in page_warnings_of(point.warnings) if warning.severity != "note"]
     texts += [f"{warning.severity}: {warning.text}" for warning in serious[:_MOST_WARNINGS]]
     texts += [f"and {len(serious) - _MOST_WARNINGS} more warnings"] if len(serious) > _MOST_WARNINGS else []
-    if value is None or state != "solved":
-        return ChartPoint(point.number, state, tuple(texts))
-    voltage = None if limit is None else float(scale.of(limit))
-    return ChartPoint(point.number, state, tuple(texts), float(scale.of(value)), margin, voltage)
+    axis = STRIP_AXIS if len(inputs) == 1 and value is None else "y"
+    return ChartPoint(point.number, state, tuple(texts), place, axis, value, margin)
 
 
 def _state(point: Point, value: float | None) -> PointState:

@@ -23,8 +23,6 @@ from ehlectric.app.calls import (
     SWEEP_SEEN,
     SWEEP_SOLVED,
 )
-from ehlectric.app.charts.sweep_charts import chosen_trace
-from ehlectric.app.charts.sweep_charts import place as place_of_point
 from ehlectric.app.form_fields import Group
 from ehlectric.app.form_fields.field import Field as FormField
 from ehlectric.app.form_fields.field import in_field_unit, written_text
@@ -58,9 +56,10 @@ from ehlectric.app.pages.frame import (
 from ehlectric.app.pages.page_parts import Control, GroupBox, card, control, page_texts
 from ehlectric.app.pages.result_parts import NoteList, Panel
 from ehlectric.app.session import Session
-from ehlectric.app.view_models import Deciding, Note, SweepChoices, SweepPlan, SweepView, Variable
+from ehlectric.app.view_models import Chart, Deciding, Note, SweepChoices, SweepPlan, SweepView, Variable
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
+from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import split
 from ehlectric.quantities.verdict import Verdict
 from ehlectric.readable import readable
@@ -415,10 +414,9 @@ class MapPart:
         if view is None:
             return
         figure = dict(view.figure)
-        figure["data"] = [*figure["data"][:-1], chosen_trace(view.chart, self._chosen)]
+        figure["data"] = [*figure["data"], chosen_trace(view.chart, self._chosen)]
         self._plot.update_figure(figure)
-        about = f"{view.chart.title} over {view.chart.x.title}"
-        about += f" and {view.chart.y.title}" if view.chart.y else ""
+        about = f"{view.chart.title} over {' and '.join(view.chart.inputs)}"
         about += "; arrow keys choose a point, Enter opens its case; the table below has all numbers"
         self._keys.props.update({"role": "group", "aria-label": about})
 
@@ -455,12 +453,11 @@ class MapPart:
                 ui.navigate.to(self._address, new_tab=True)
             return
         right, up = _STEPS[str(event.args)]
-        chart = self._view.chart
-        i, j = (0, 0) if self._chosen is None else place_of_point(chart, self._chosen)
+        width, height = (*self._view.chart.shape, 1)[:2]
+        i, j = (0, 0) if self._chosen is None else divmod(self._chosen, height)
         if self._chosen is not None:
             i, j = i + right, j + up
-        height = len(chart.y.values) if chart.y else 1
-        if 0 <= i < len(chart.x.values) and 0 <= j < height:
+        if 0 <= i < width and 0 <= j < height:
             await self._choose(i * height + j)
 
     async def _choose(self, number: int) -> bool:
@@ -501,6 +498,21 @@ _BUTTON = """
     :aria-label="'choose point ' + props.row.number">{{ props.row.number }}</button>
 </q-td>
 """
+
+
+def chosen_trace(chart: Chart, chosen: int | None) -> dict[str, Any]:
+    """Trace that marks the chosen point; without one it is empty."""
+    points = [] if chosen is None else [chart.points[chosen]]
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "x": [point.place[0] for point in points],
+        "y": [point.place[1] for point in points],
+        "yaxis": points[0].axis if points else "y",
+        "marker": {"symbol": "square-open", "size": 16, "color": ORANGE, "line": {"width": 3}},
+        "hoverinfo": "skip",
+        "showlegend": False,
+    }
 
 
 def _points_text(view: SweepView) -> str:

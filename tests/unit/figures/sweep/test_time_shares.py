@@ -9,7 +9,7 @@ import pytest
 from ehlectric.figures.sweep_figures import of_slice
 from ehlectric.figures.sweep_lines import value_lines
 from ehlectric.figures.sweep_maps import value_map
-from ehlectric.figures.sweep_points import TIME_SHARES, quantile_of, share_of
+from ehlectric.figures.sweep_panels import TIME_SHARES, quantile_of, share_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import take
