@@ -63,8 +63,12 @@ def test_points_without_a_number_are_marked_and_never_coloured(loads, state):
     if len(loads) > 1:
         (solved,) = traces(results, colorscale="Viridis")
         drawn = [value for column in zip(*solved["z"], strict=True) for value in column]
-        (seen,) = (trace for trace in view.figure["data"] if "customdata" in trace)
-        texts = dict(zip(np.ravel(seen["customdata"]), np.ravel(seen["text"]), strict=True))
+        # The pointer reaches the cells with a value, and the grey ones.
+        parts = [trace for trace in view.figure["data"] if "customdata" in trace]
+        seen = [
+            zip(*(np.ravel(part[key]) for key in ("customdata", "text", "z")), strict=True) for part in parts
+        ]
+        texts = {n: text for part in seen for n, text, z in part if z is not None}
     else:
         (dots,) = traces(results, name="3 points")
         known = dict(zip(dots["x"], dots["y"], strict=True))
@@ -88,6 +92,7 @@ def test_texts_at_the_pointer_make_no_html():
 def test_second_input_varies_fastest():
     results = grid({SPEED: (10.0, 20.0), LOAD: (1e6, 2e6, 3e6)})
     (coloured,) = traces(results, colorscale="Viridis")
+    assert coloured["customdata"] == [[0, 3], [1, 4], [2, 5]]
     expected = results.values(VALUE).reshape(2, 3).T
     np.testing.assert_allclose(coloured["z"], expected, rtol=1e-6)
     chart = view_of(results, VALUE).chart

@@ -425,9 +425,10 @@ def map_plot(panel: MapPanel, texts: Sequence[str], **more: Any) -> Plot:
     grey = {"colorscale": [[0.0, MIDDLE_GREY], [1.0, MIDDLE_GREY]], "opacity": 0.35, "showscale": False}
     of_cells = {"text": cells(texts, object), "customdata": cells(np.arange(known.size), object)}
     about: Plot = {name: rows.tolist() for name, rows in of_cells.items()} | {"hovertemplate": _TEXT}
+    shown = at | about | {"hoverongaps": False}
     traces: list[Plot] = [
-        at | grey | about | {"z": values(cells(np.where(known, np.nan, 1.0)))},
-        *([at | _coloured(panel, cells(panel.values))] if known.any() else []),
+        *([] if known.all() else [shown | grey | {"z": values(cells(np.where(known, np.nan, 1.0)))}]),
+        *([shown | _coloured(panel, cells(panel.values))] if known.any() else []),
         # Lines of equal value between a few solved points would move with every further one.
         *(_contours(panel.between) if known.all() and not (panel.log or panel.levels) else []),
         *(line for level in panel.levels for line in _contours(panel.between, **_at(level))),
@@ -458,7 +459,7 @@ def _coloured(panel: MapPanel, cells: Array) -> Plot:
         ticks = log_ticks(log=True, ends=(float(np.nanmin(cells)), float(np.nanmax(cells))))
         bar |= {"tickvals": np.log10(ticks["tickvals"]).tolist(), "ticktext": ticks["ticktext"]}
     shown = values(np.log10(cells) if panel.log else cells)
-    return {"z": shown, "colorscale": FILM_COLOURS, "colorbar": bar, "hoverinfo": "skip"}
+    return {"z": shown, "colorscale": FILM_COLOURS, "colorbar": bar}
 
 
 def _contours(mesh: Mesh | None, **more: Any) -> list[Plot]:
