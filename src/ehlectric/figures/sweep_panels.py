@@ -12,7 +12,6 @@ from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE
-from ehlectric.quantities.result_warnings import CODES
 from ehlectric.figures.data import (
     WIDTH,
     Along,
@@ -27,6 +26,7 @@ from ehlectric.figures.data import (
 )
 from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.palette import AMBER, BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
+from ehlectric.quantities.result_warnings import CODES
 from ehlectric.readable import readable
 from ehlectric.sweep.axis_labels import Label, label_of
 from ehlectric.sweep.computed_lines import computed_line

@@ -7,8 +7,8 @@ from functools import lru_cache
 from html import escape
 from textwrap import wrap
 
-from ehlectric.app.view_models import ChartPoint
 from ehlectric.app.charts.plotly_panels import Plot, log_ticks, map_plot, stack
+from ehlectric.app.view_models import ChartPoint
 from ehlectric.figures.data import Along, MapPanel, Panel
 
 # Longest line where the pointer is [characters].
