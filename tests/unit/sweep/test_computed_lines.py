@@ -8,7 +8,8 @@ import pytest
 
 from ehlectric import Sweep, run_sweep
 from ehlectric.bearing.many_points import columns_of
-from ehlectric.figures.sweep_lines import LinePath, lines_of, value_lines
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_panels import LinePath, lines_of
 from ehlectric.sweep.computed_lines import computed_line
 from ehlectric.sweep.slices import take
 from tests.unit.bearing.curves.test_computed_curves import SPEED, random_between, rollers
@@ -35,7 +36,7 @@ def results(tmp_path_factory):
 def test_lines_of_quick_bearings_are_the_bearings_between_the_points(results, value):
     selection = take(results, SPEED, TEMPERATURE, value)
     path = LinePath(results, selection, True, False)
-    for line in lines_of(selection, log=False):
+    for line in lines_of(results, selection)[0]:
         x, drawn = path.values(line)
         speeds = random_between(x[0], x[-1])
         case = results.case.replace({TEMPERATURE: line.value})
