@@ -56,8 +56,8 @@ def is_grouped(text: str) -> bool:
 
 # Number with a separator of thousands, by its decimal mark.
 _THOUSANDS = {
-    ".": re.compile(r"[-+]?[0-9]{1,3}(?:,[0-9]{3})++(?:\.[0-9]*+)?"),
-    ",": re.compile(r"[-+]?[0-9]{1,3}(?:\.[0-9]{3})++(?:,[0-9]*+)?"),
+    ".": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:,[0-9]{3})++(?:\.[0-9]*+)?"),
+    ",": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})++(?:,[0-9]*+)?"),
 }
 
 

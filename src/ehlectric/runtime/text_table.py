@@ -159,7 +159,7 @@ class Dialect:
         """
         if '"' in line and self.separator is not None:
             try:
-                return [field.strip() for row in self._parsed([line]) for field in row]
+                return [field.strip() for row in self._parsed([line.strip(" \n")]) for field in row]
             except csv.Error:
                 pass
         return [field.strip().strip('"').strip() for field in line.split(self.separator)]
@@ -434,12 +434,13 @@ class Layout:
         return float(10.0 ** max([-300, *digits]))
 
 
-def layout_of(path: object, lines: Sequence[str], *, heads_decide: bool = True) -> Layout:
+def layout_of(path: object, lines: Sequence[str], *, strict: bool = False) -> Layout:
     """Layout of a table of numbers that ends with the last of some lines.
 
     Each of the rows of a comma and two whole numbers, such as "0,5", may also be one number. The number of
-    heads decides if ``heads_decide``; such rows are refused otherwise, and without heads. Raises NoTableError
-    if the lines have no columns of numbers, and InputError if these may be read in two ways.
+    heads decides; without heads, or if ``strict``, such rows are refused. The first row is a line of numbers
+    that another one follows; if ``strict``, it is the first line of numbers. Raises NoTableError if the lines
+    have no columns of numbers, and InputError if these may be read in two ways.
 
     Examples
     --------
@@ -450,13 +451,15 @@ def layout_of(path: object, lines: Sequence[str], *, heads_decide: bool = True) 
     filled = [(number, line) for number, line in enumerate(lines, 1) if line.strip()]
     if not filled:
         raise NoTableError(path, "is empty", takes="lines of numbers")
-    dialect, rows = _dialect(path, filled, heads_decide=heads_decide)
+    if max(len(line) for _, line in filled) > _LONGEST:
+        raise NoTableError(path, f"has a line of more than {_LONGEST} characters", takes="a row in each line")
+    dialect, rows = _dialect(path, filled, strict=strict)
     counts = Counter(place for row in rows for place, field in enumerate(row) if not is_void(field))
     columns = tuple(sorted(place for place, count in counts.items() if 2 * count > len(rows)))
     if not columns:
         got = f"has no columns of numbers, as in its line {shown(filled[-1][1].strip())}"
         raise NoTableError(path, got, takes="numbers separated by ';', ',', tabs or spaces")
-    header = lines[: _first_row(path, filled, dialect, columns)]
+    header = lines[: _first_row(path, filled, dialect, columns, strict=strict)]
     return Layout(dialect, columns, columns[-1] + 1, len(header), tuple(map(uncommented, header)))
 
 
@@ -466,7 +469,7 @@ def _spread(lines: Sequence[tuple[int, str]]) -> Sequence[tuple[int, str]]:
 
 
 def _dialect(
-    path: object, filled: Sequence[tuple[int, str]], *, heads_decide: bool
+    path: object, filled: Sequence[tuple[int, str]], *, strict: bool
 ) -> tuple[Dialect, list[list[str]]]:
     """Dialect in which most of some lines are rows of numbers, and these rows."""
     half = filled[len(filled) // 2 :]
@@ -476,30 +479,31 @@ def _dialect(
     most = {d: max((sum(map(bool, row)) for row in rows[d]), default=0) for d in _DIALECTS}
     best = max(_DIALECTS, key=lambda d: (len(rows[d]), most[d]))
     single = Dialect(";", ",")
-    if best != Dialect(",") or len(rows[single]) < len(rows[best]):
+    certain = (line for _, line in filled if single.number(line.strip()) is None)
+    if best != Dialect(",") or any(best.is_row(best.fields(line)) for line in certain):
         return best, rows[best]
     # A pair such as "0,5" is one number with a decimal comma, too: the heads decide.
     heads = [row for _, line in filled if not best.is_row(row := best.fields(line))]
-    if not heads or not heads_decide:
+    if not heads or strict:
         number, line = next((n, line) for n, line in filled if single.number(line.strip()) is not None)
         got = f"line {number} is {shown(line.strip())}, one number with a decimal comma or two whole ones;"
-        takes = "a semicolon or a tab between columns" + ", or heads above them" * heads_decide
+        takes = "a semicolon or a tab between columns" + ", or heads above them" * (not strict)
         raise InputError(path, got, takes=takes)
     best = best if len(heads[-1]) >= most[best] else single
     return best, rows[best]
 
 
 def _first_row(
-    path: object, filled: Sequence[tuple[int, str]], dialect: Dialect, columns: Sequence[int]
+    path: object, filled: Sequence[tuple[int, str]], dialect: Dialect, columns: Sequence[int], *, strict: bool
 ) -> int:
     """Number of lines above the first row that another row follows."""
     begin = wrong = None
     for place, (_, line) in enumerate(filled):
         row = dialect.fields(line)
         if len(row) > columns[-1] and dialect.is_row([row[k] for k in columns]):
-            if begin is not None:
+            begin = place if begin is None else begin
+            if strict or begin < place:
                 break
-            begin = place
         else:
             wrong, begin = place if wrong is None else wrong, None
     if begin is None:

@@ -18,10 +18,10 @@ from ehlectric.figures.figure_names import _OF_UNIT
 from ehlectric.quantities import grouped_digits, unit_spelling, units
 from ehlectric.quantities.units import ROTATION, length_unit
 from ehlectric.runs import result_folders
-from ehlectric.runtime import delimited
+from ehlectric.runtime import text_table
 from ehlectric.runtime.files import _FORMULA
 from ehlectric.runtime.files import _NUMBER as _NUMBER_OF_CELL
-from ehlectric.surfaces import surface_files
+from ehlectric.surfaces import text_profiles
 from ehlectric.surfaces.surface_files import read_surface
 from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
@@ -150,19 +150,17 @@ PATTERNS = {
     "comma": units._COMMA.fullmatch,
     "infinite": units._INFINITE.fullmatch,
     "thousands": grouped_digits._THOUSANDS["."].fullmatch,
-    "quoted field": delimited._QUOTED.findall,
+    "fields": text_table.Dialect(",").fields,
+    "point number": text_table.Dialect(";").number,
+    "decimal comma number": text_table.Dialect(";", ",").number,
+    "quoted field": text_table._QUOTED.findall,
     "token": key_names._TOKENS.findall,
     "place": table._PLACE.findall,
     "quoted": table._QUOTED.findall,
     "comma number": table._COMMA_NUMBER.findall,
     "unit number": table._UNIT_NUMBER.findall,
-    "point number": surface_files._NUMBER["."].fullmatch,
-    "decimal comma number": surface_files._NUMBER[","].fullmatch,
-    "spaced number": surface_files._SPACED_NUMBER.fullmatch,
-    "pair": surface_files._WHOLE_PAIR.fullmatch,
-    "single": surface_files._SINGLE.fullmatch,
-    "brackets": surface_files._BRACKETED.findall,
-    "bracketed fields": surface_files._BRACKETED_FIELDS.fullmatch,
+    "brackets": text_profiles._BRACKETED.findall,
+    "bracketed fields": text_profiles._BRACKETED_FIELDS.fullmatch,
     "number of a unit": _OF_UNIT.findall,
     "csv": _FORMULA.match,
     "number of a csv": _NUMBER_OF_CELL.fullmatch,

@@ -55,7 +55,7 @@ def test_heads_settle_what_a_comma_is():
     with pytest.raises(InputError, match=r"line 1 is '0,5', .*decimal comma"):
         layout("\n".join(["0,5"] * 20))
     with pytest.raises(InputError, match=r"line 2 is '0,5', .*decimal comma"):
-        layout("\n".join(["t,u", *["0,5"] * 20]), heads_decide=False)
+        layout("\n".join(["t,u", *["0,5"] * 20]), strict=True)
 
 
 def test_single_lines_of_numbers_above_the_heads_belong_to_the_header():

@@ -165,7 +165,7 @@ def test_text_matrix_without_the_package_says_what_reads_it(tmp_path, monkeypatc
     path.write_text(path.read_text().replace("1.000000e+00", "BAD"))
     with pytest.raises(
         InputError,
-        match=r"line 6 .*ehlectric\[ins",
+        match=r"line 6\b.*ehlectric\[ins",
     ):
         read_surface(path)
 
@@ -207,7 +207,7 @@ def test_column_of_validity(tmp_path):
 
 BAD_TEXT = [
     ({"rows": 3}, " 3 points"),
-    ({"change": lambda lines: [*lines[:20], "here; text", *lines[20:]]}, "line 22 .*'here; text'"),
+    ({"change": lambda lines: [*lines[:20], "here; text", *lines[20:]]}, "line 22\\b.*'here'"),
     ({"change": lambda lines: [*lines[:20], "30;0", *lines[21:]]}, "do not increase"),
     ({"change": lambda lines: [*lines[:20], *lines[25:]]}, "not uniform"),
     ({"header": "x [nm];z [mm]"}, "largest slope"),
@@ -215,7 +215,7 @@ BAD_TEXT = [
         {"change": lambda lines: [f"{k};{3 * k}" for k in range(len(lines))], "header": "x [um];z [um]"},
         "heights range",
     ),
-    ({"change": lambda lines: [*lines[:20], "10.0;inf", *lines[21:]]}, "line 22 .*'10.0;inf'"),
+    ({"change": lambda lines: [*lines[:20], "10.0;inf", *lines[21:]]}, "line 22\\b.*'inf'"),
 ]
 
 

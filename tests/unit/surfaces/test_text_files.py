@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces import surface_files
+from ehlectric.surfaces import text_profiles
 from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.each import each
 from tests.unit.surfaces.test_files import DEKTAK
@@ -68,7 +68,7 @@ DOUBTFUL = [
     ),
     ([], [f"{k},{k % 7},{k},5" for k in K], " 4 columns"),
     ([], [*rows_of(";")[:-1], "99,50;1"], "decimal points and decimal commas"),
-    ([], [*rows_of(";")[:-1], "1.234,5;1"], "two columns|line 200 "),
+    ([], [*rows_of(";")[:-1], "1.234,5;1"], "two columns|line 200\\b"),
     (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], " 3 columns"),
     (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], " 3 columns"),
     (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], " 3 columns"),
@@ -79,8 +79,11 @@ DOUBTFUL = [
     ),
     (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 .*'2'.* 0 or 1"),
     (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "validity ''"),
-    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 "),
+    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200\\b"),
     ([], [*rows_of(";")[:-1], "9e99;1"], " 10 m"),
+    # The rows above a wrong one are no header.
+    ([], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 2\\b.*'BAD'|line 2 is"),
+    (["x [um];z [nm]"], [*rows_of(";")[:1], "0.50;BAD", *rows_of(";")[2:]], "line 3\\b.*'BAD'"),
 ]
 
 
@@ -180,7 +183,7 @@ def test_rounded_positions_are_no_gap(tmp_path):
 
 
 def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
-    monkeypatch.setattr(surface_files, "MOST_LINES", 50)
+    monkeypatch.setattr(text_profiles, "MOST_LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text("\n" * 51 + "1;2\n")
     with pytest.raises(InputError, match=r"a\.csv: .* 52 .* 50$"):
