@@ -318,9 +318,9 @@ def save_animation(
         # Without a fixed layout, tick labels that appear and disappear would shift the panels.
         drawn.figure.draw_without_rendering()
         drawn.figure.set_layout_engine("none")
-        with alone_in(path.parent, [path.name], locks=[FIGURE_LOCK]), whole(path) as beside:
+        with alone_in(path.parent, [path.name], locks=[FIGURE_LOCK]), whole(path) as draft:
             try:
-                write(beside, _instants(drawn, run.frames, progress), fps)
+                write(draft, _instants(drawn, run.frames, progress), fps)
             except (BrokenPipeError, subprocess.CalledProcessError):
                 refuse_full(path)
                 raise InputError.worded(

@@ -91,16 +91,16 @@ def _contact(row: Mapping[str, Any]) -> str:
 
 def circuit(result: BearingResult) -> str:
     """Sentence: whether breakdown is expected, with the margin; without one, the capacitance."""
-    found, shaft = result.breaks(), result.shaft_voltage
-    if found["first_break"] is None:
+    breaks, shaft = result.breaks(), result.shaft_voltage
+    if breaks["first_break"] is None:
         if lubrication(result.solution) == "conducting":
             return "Contacts open and close: discharges likely, no voltage computed"
         value = result.capacitance(result.case.bearing.fill)
         return f"Capacitance of the bearing: {prefixed(value, 'F')}"
-    first = volts(found["shaft_first_break"])
+    first = volts(breaks["shaft_first_break"])
     if shaft is None:
-        return f"First breakdown at {first}: {found['first_break_at']}"
-    verdict, margin, lead = result.verdict, found["margin"], "Margin"
+        return f"First breakdown at {first}: {breaks['first_break_at']}"
+    verdict, margin, lead = result.verdict, breaks["margin"], "Margin"
     if verdict is not None and verdict.level != "grey":
         lead = f"{verdict.lead}: margin"
     return f"{lead} {ratio_text(margin)} (first breakdown {first} / shaft voltage {volts(shaft)})"
@@ -117,15 +117,15 @@ def pitch(result: BearingResult) -> str:
 
 def impedance(result: BearingResult) -> str:
     """Sentence: the capacitance that the bearing is above its corner frequency, and its impedance there."""
-    found = impedance_of(result.solution)
-    assert found is not None
-    shown = [(prefixed(magnitude_at(found.mean or found, at), "Ω"), at) for at in read_at(result)]
+    curve = impedance_of(result.solution)
+    assert curve is not None
+    shown = [(prefixed(magnitude_at(curve.mean or curve, at), "Ω"), at) for at in read_at(result)]
     values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
-    if found.mean is not None:
+    if curve.mean is not None:
         share = time_share_text(float(duty_of(result.solution).touching_time_share))
         return f"An element touches both rings {share}: mean |Z| = {values}"
     value = prefixed(float(shaft_capacitance(result.solution)), "F")
-    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
+    return f"A capacitor of {value} above {prefixed(curve.corner, 'Hz')}: |Z| = {values}"
 
 
 def margin(result: BearingResult) -> str:
@@ -144,13 +144,13 @@ def duty_cycle(result: BearingResult) -> str:
     states of lubrication.
     """
     assert result.duty is not None
-    found = result.duty.summary()
+    summary = result.duty.summary()
     names = {"full_film": "full film", "partial_film": "partial film", "touching": "touching"}
     names["standstill"] = "standstill"
-    shares = [f"{name} {readable(100.0 * found[f'{key}_share'])} %" for key, name in names.items()]
-    what, share = "Breakdown expected", found["breakdown_share"]
+    shares = [f"{name} {readable(100.0 * summary[f'{key}_share'])} %" for key, name in names.items()]
+    what, share = "Breakdown expected", summary["breakdown_share"]
     if share is None:
-        what, share = "Full film", found["full_film_share"]
+        what, share = "Full film", summary["full_film_share"]
     return f"{what} for {readable(100.0 * share)} % of the time\n{', '.join(shares)}"
 
 
@@ -164,33 +164,33 @@ def duty_lines(result: BearingResult) -> list[str]:
     return cycle_lines(result.case.title, duty.source, text)
 
 
-def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
+def capacitance_over_speed(curves: Curves, at_case: Speed | None) -> str:
     """Sentence: the capacitance at the lowest and the highest speed, and at the speed of the bearing."""
     values = curves["capacitance"]
     ends = [f"{prefixed(float(values[k]), 'F')} at {speed_text(curves.speed[k])}" for k in (0, -1)]
-    if own is not None:
-        ends[1] += f"; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {speed_text(own[0])}"
+    if at_case is not None:
+        ends[1] += f"; {prefixed(at_case[1]['bearing']['capacitance'], 'F')} at {speed_text(at_case[0])}"
     return f"Capacitance {', '.join(ends)}"
 
 
-def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
+def breakdown_over_speed(curves: Curves, at_case: Speed | None) -> str:
     """Sentence: at which speeds the margin is below 1, and the margin of the bearing itself."""
     margin = curves["first_break"] / curves["shaft_voltage"]
     known = np.isfinite(margin)
-    at_own = ""
-    if own is not None and (value := value_of(own[1], "first_break")) is not None:
-        shaft = own[1]["bearing"]["shaft_voltage"]
-        at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
-        at_own += f" at {speed_text(own[0])}"
+    case_text = ""
+    if at_case is not None and (value := value_of(at_case[1], "first_break")) is not None:
+        shaft = at_case[1]["bearing"]["shaft_voltage"]
+        case_text = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
+        case_text += f" at {speed_text(at_case[0])}"
     opening = opening_speed_of(curves)
     below = "" if opening is None else f"; contacts open and close below {speed_text(opening)}"
     if not np.any(known):
         first = np.flatnonzero(np.isfinite(curves["first_break"]))
         ends = [f"{volts(curves['first_break'][k])} at {speed_text(curves.speed[k])}" for k in first[[0, -1]]]
-        span = f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
+        span = f"First breakdown at {case_text}" if case_text else f"First breakdown from {' to '.join(ends)}"
         return f"{span}{below}"
     text = f"{_where(curves, margin[known], curves.speed[known])}{below}"
-    return f"{text} ({at_own})" if at_own else text
+    return f"{text} ({case_text})" if case_text else text
 
 
 def _where(curves: Curves, margin: Array, speed: Array) -> str:
@@ -234,17 +234,17 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     return text + (": voltages are upper bounds" if voltages and solution.case.bearing.bounding else "")
 
 
-def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
+def curves_line(points: Speeds, curves: Curves, at_case: Speed | None) -> str:
     """Line: how the curves over speed were computed, and how they were scaled to the bearing itself."""
     contacts = sorted({OF_CONTACTS[summary["bearing"]["contacts"]] for _, summary in points})
     text = f"curves: {' or '.join(contacts)}"
-    if own is None or own[1]["bearing"]["contacts"] != "solved":
+    if at_case is None or at_case[1]["bearing"]["contacts"] != "solved":
         return text
     factors = [curves.scaled[key] for key in ("capacitance", "first_break") if curves.scaled[key] != 1.0]
     if not factors:
         return text
     values = " and ".join(readable(factor) for factor in factors)
-    return f"{text}, scaled by {values} to the solved contacts at {speed_text(own[0])} (star)"
+    return f"{text}, scaled by {values} to the solved contacts at {speed_text(at_case[0])} (star)"
 
 
 Draw = Callable[[BearingResult, Axes], Axes]
@@ -376,7 +376,7 @@ def figure(result: BearingResult, name: str) -> Figure:
     (name,) = in_formats([name])
     if name in SPEED_FIGURES:
         points, _ = over_speed(result.case, ratio_of_case=_lambda_ratio(result))
-        return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
+        return speed_figure(points, name, _lines_over_speed(result), at_case=_speed_and_summary(result))
     panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
     voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
     lines = duty_lines(result) if name == DUTY_FIGURE else case_lines(result, voltages=voltages)
@@ -403,17 +403,17 @@ def _make_room(figure: Figure, axes: Sequence[Axes]) -> None:
     figure.set_figheight(figure.get_figheight() + _LINE * more)
 
 
-def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | None = None) -> Figure:
+def speed_figure(points: Speeds, name: str, title: str = "", *, at_case: Speed | None = None) -> Figure:
     """Figure of a bearing over the speed of its shaft. ``points``, speed of the inner ring [rad/s], and the
     summary at this speed. Raises InputError where there is no figure of this name, or the bearing has no
     breakdown voltage at any speed.
     """
     draw, finding = drawing_of(_speed_drawings(points), name)
-    curves = curves_of(points, own)
-    lines = [finding(curves, own), title, curves_line(points, curves, own)]
+    curves = curves_of(points, at_case)
+    lines = [finding(curves, at_case), title, curves_line(points, curves, at_case)]
     title = "\n".join(filter(None, lines))
     with style():
-        ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
+        ax = draw(points, new_panels(1, 1, _SPEED_SIZE)[0], at_case=at_case)
         return titled(ax, title, converged=all(summary["converged"] for _, summary in points))
 
 
@@ -422,7 +422,7 @@ def save_speed_figures(
     folder: Path,
     title: str = "",
     *,
-    own: Speed | None = None,
+    at_case: Speed | None = None,
     formats: Sequence[str] = ("png",),
     at: Mapping[str, str] | None = None,
 ) -> list[Path]:
@@ -430,7 +430,9 @@ def save_speed_figures(
     speed of the inner ring [rad/s], and the summary at this speed.
     """
     files = {of_cut(name, at): name for name in _speed_drawings(points)}
-    return save_each(lambda file: speed_figure(points, files[file], title, own=own), files, folder, formats)
+    return save_each(
+        lambda file: speed_figure(points, files[file], title, at_case=at_case), files, folder, formats
+    )
 
 
 def save_over_speed(
@@ -443,9 +445,9 @@ def save_over_speed(
     points, left_out = over_speed(result.case, ratio_of_case=_lambda_ratio(result))
     if not points:
         return [], left_out
-    own = _own_speed(result)
+    at_case = _speed_and_summary(result)
     title = _lines_over_speed(result)
-    return save_speed_figures(points, folder, title, own=own, formats=formats), left_out
+    return save_speed_figures(points, folder, title, at_case=at_case, formats=formats), left_out
 
 
 def _speed_drawings(points: Speeds) -> dict[str, SpeedDrawing]:
@@ -454,7 +456,7 @@ def _speed_drawings(points: Speeds) -> dict[str, SpeedDrawing]:
     return {name: pair for name, pair in SPEED_FIGURES.items() if pair[0] not in empty}
 
 
-def _own_speed(result: BearingResult) -> Speed:
+def _speed_and_summary(result: BearingResult) -> Speed:
     """Speed of the inner ring of a bearing [rad/s], and its summary."""
     return result.case.bearing.inner_speed, result.summary()
 

@@ -325,11 +325,11 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
     ax = axes_or_new(ax)
     circuit, position = result.solution.circuits()[0], result.solution.positions[0]
     shaft, path = result.shaft_voltage, shaft_path(result.solution)
-    share, own = path.film_share(circuit.capacitance), position.inner_share(circuit)
-    at, summits = np.arange(own.size), result.solution.summits
+    share, inner_part = path.film_share(circuit.capacitance), position.inner_share(circuit)
+    at, summits = np.arange(inner_part.size), result.solution.summits
     inner, outer = (
         ring.values.breakdown_voltage * ring.part_left(summits) / part / share
-        for ring, part in zip(position.rings, (own, 1.0 - own), strict=True)
+        for ring, part in zip(position.rings, (inner_part, 1.0 - inner_part), strict=True)
     )
     everything = np.concatenate([inner, outer, [] if shaft is None else [shaft]])
     if is_wide(everything):
@@ -515,8 +515,8 @@ def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 def phase_varies(result: BearingResult) -> bool:
     """Whether the phase in the drawn range differs by more than two degrees, or contacts change it."""
-    found = _impedance(result)
-    return found.mean is not None or bool(np.ptp(_shown(found)[2]) > _CONSTANT)
+    curve = _impedance(result)
+    return curve.mean is not None or bool(np.ptp(_shown(curve)[2]) > _CONSTANT)
 
 
 def read_at(result: BearingResult) -> tuple[float, ...]:

@@ -36,34 +36,34 @@ _RIGHTMOST = 0.85
 _WIDTH = 75.0
 
 
-def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
+def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: Speed | None = None) -> Axes:
     """Draw the capacitance of a bearing over its speed, with its range from air to oil around the films.
 
-    ``points`` are speeds of the inner ring [rad/s] with their summaries; ``own``, speed and summary of the
+    ``points`` are speeds of the inner ring [rad/s] with their summaries; ``at_case``, speed and summary of the
     bearing itself, is marked with a star, and the curves are scaled to it.
     """
-    curves = curves_of(points, own)
-    return _draw(capacitance_panel(points, curves, own), curves, axes_or_new(ax))
+    curves = curves_of(points, at_case)
+    return _draw(capacitance_panel(points, curves, at_case), curves, axes_or_new(ax))
 
 
-def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
+def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: Speed | None = None) -> Axes:
     """Draw first and ring-to-ring breakdown of a bearing over its speed, with the shaft voltage.
 
     The arguments are those of ``capacitance_over_speed``. The area is shaded where the shaft voltage is above
     the first breakdown, and the critical speed and the margin of the bearing itself are named.
     """
-    ax, curves = axes_or_new(ax), curves_of(points, own)
-    _draw(breakdown_panel(points, curves, own), curves, ax)
+    ax, curves = axes_or_new(ax), curves_of(points, at_case)
+    _draw(breakdown_panel(points, curves, at_case), curves, ax)
     _name_critical(curves, ax)
-    _own_margin(own, curves, ax)
+    _label_margin(at_case, curves, ax)
     return ax
 
 
 def margin_over_speed(result: BearingResult, ax: Axes | None = None) -> Axes:
     """Draw the margin of a bearing over its speed within what is uncertain: median, and 90 of 100 cases."""
-    ax, band, found = axes_or_new(ax), result.margin_band, result.margin
-    assert band is not None and found is not None
-    panel = margin_panel(band, (result.case.bearing.inner_speed, found))
+    ax, band, margin = axes_or_new(ax), result.margin_band, result.margin
+    assert band is not None and margin is not None
+    panel = margin_panel(band, (result.case.bearing.inner_speed, margin))
     draw_panel(panel, ax, Along("speed of the inner ring", "rpm", log=True))
     label_ends(ax, [(float(line.y[-1]), line.name, line.colour) for line in panel.curves if line.name])
     legend_above(ax, [area for area in ax.collections if not str(area.get_label()).startswith("_")])
@@ -98,11 +98,11 @@ def _name_critical(curves: Curves, ax: Axes) -> None:
     note(ax, at, height, f" {speed_text(critical)} ", data_axis="x", ha=side, va=end, color=ORANGE)
 
 
-def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
+def _label_margin(at_case: Speed | None, curves: Curves, ax: Axes) -> None:
     """Write the margin of the bearing itself beside an arrow."""
-    if own is None or (first := value_of(own[1], "first_break")) is None:
+    if at_case is None or (first := value_of(at_case[1], "first_break")) is None:
         return
-    rpm, shaft = units.rpm(own[0]), own[1]["bearing"]["shaft_voltage"]
+    rpm, shaft = units.rpm(at_case[0]), at_case[1]["bearing"]["shaft_voltage"]
     if shaft is None:
         ax.annotate(f"{volts(first)} ", (rpm, first), ha="right", va="bottom", fontsize="small")
         return
@@ -116,11 +116,11 @@ def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
         fontsize="small",
         zorder=6.0,
         path_effects=outlined(2.0),
-        **_beside(ax, curves, rpm, first=first, shaft=shaft),
+        **_label_place(ax, curves, rpm, first=first, shaft=shaft),
     )
 
 
-def _beside(ax: Axes, curves: Curves, rpm: float, *, first: float, shaft: float) -> dict[str, Any]:
+def _label_place(ax: Axes, curves: Curves, rpm: float, *, first: float, shaft: float) -> dict[str, Any]:
     """Place of a label at two rising curves [V]: between them, below both, or above both where there is room.
 
     Offset of the label in points, and its alignment. Right of a speed, the curves are above their values at

@@ -199,12 +199,12 @@ def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
     axes with the probability in per cent; the range of voltages from 5 % to 95 % is shaded.
     """
     ax = axes_or_new(ax)
-    discharge, found, applied = result.case.discharge, result.discharge, result.field.voltage
+    discharge, film_breakdown, applied = result.case.discharge, result.discharge, result.field.voltage
     assert discharge is not None and discharge.weibull is not None
-    assert found is not None and found.breakdown_voltage is not None
-    low, high = found.breakdown_voltage_low, found.breakdown_voltage_high
+    assert film_breakdown is not None and film_breakdown.breakdown_voltage is not None
+    low, high = film_breakdown.breakdown_voltage_low, film_breakdown.breakdown_voltage_high
     assert low is not None and high is not None
-    law = WeakestLink(discharge.weibull.shape, found.breakdown_voltage)
+    law = WeakestLink(discharge.weibull.shape, film_breakdown.breakdown_voltage)
     voltages = np.linspace(0.0, 1.15 * max(high, applied), 401)
     ax.axvspan(
         low,

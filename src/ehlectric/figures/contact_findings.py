@@ -229,26 +229,26 @@ def cuts_text(result: PointResult) -> str:
 
 def breakdown_text(result: AnyContact) -> str:
     """Whether the film breaks down at the voltage of the case, at which voltage it does, and where."""
-    found, volts, touching = result.discharge, result.field.voltage, result.spots
+    discharge, volts, touching = result.discharge, result.field.voltage, result.spots
     if touching is not None and touching.electrical.breakdown_5 is not None:
         around = (
             "5 % of the film around the spots breaks down at "
             f"{readable(touching.electrical.breakdown_5, 2)} V"
         )
         return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
-    assert found is not None and found.breakdown_voltage is not None and found.margin is not None
-    applied, place = f"{readable(volts)} V", place_text(result, found.zone_position)
-    breaking = f"{readable(found.breakdown_voltage)} V"
-    if found.strength_law == "weibull" and found.probability is not None:
-        chance = f"{readable(100.0 * found.probability, 2)} %"
+    assert discharge is not None and discharge.breakdown_voltage is not None and discharge.margin is not None
+    applied, place = f"{readable(volts)} V", place_text(result, discharge.zone_position)
+    breaking = f"{readable(discharge.breakdown_voltage)} V"
+    if discharge.strength_law == "weibull" and discharge.probability is not None:
+        chance = f"{readable(100.0 * discharge.probability, 2)} %"
         return f"Probability of breakdown {chance} at {applied}; 63 % at {breaking}"
     verdict = result.verdict
     assert verdict is not None
-    strength = found.dielectric_strength
+    strength = discharge.dielectric_strength
     given = "by the table given" if strength is None else f"{readable(strength / 1e6)} V/µm given"
     # The panels of a point contact say where they cut the film.
     where = f" at {place}" if isinstance(result, Result) else ""
-    margin = f"margin {ratio_text(found.margin)}, strength {given}"
+    margin = f"margin {ratio_text(discharge.margin)}, strength {given}"
     return f"{verdict.lead} at {applied}: breakdown voltage {breaking}{where} ({margin})"
 
 
@@ -263,12 +263,12 @@ def meter_text(result: AnyContact) -> str:
 
 def spots_text(result: AnyContact) -> str:
     """Number of spots, the load that they carry, and the electrical behaviour."""
-    found = result.spots
-    assert found is not None
-    before = None if found.coarser is None else found.coarser.load_share
-    share = about_share(found.touching.load_share, before)
-    number = "1 spot carries" if found.spots.number == 1 else f"{found.spots.number} spots carry"
-    return f"{number} {share} of the load on this grid: the contact is {found.electrical.behaviour}"
+    spots = result.spots
+    assert spots is not None
+    before = None if spots.coarser is None else spots.coarser.load_share
+    share = about_share(spots.touching.load_share, before)
+    number = "1 spot carries" if spots.spots.number == 1 else f"{spots.spots.number} spots carry"
+    return f"{number} {share} of the load on this grid: the contact is {spots.electrical.behaviour}"
 
 
 def temperature_text(result: AnyContact) -> str:

@@ -105,9 +105,9 @@ _LOW = 0.5
 # Widths of a figure: with one map, what each further map beside it adds, and with low maps [inches].
 _WIDTH, _FURTHER, _WIDE = 5.8, 1.6, 7.2
 
-# Room around the maps: beside them for labels and a colour bar; above and below them for title and labels,
+# Room around the maps: at their sides for labels and a colour bar; above and below them for title and labels,
 # for each row of a legend, and for a colour bar [inches].
-_BESIDE, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
+_SIDES, _ABOVE, _ROW, _BAR = 1.6, 0.85, 0.2, 0.45
 
 
 Range = tuple[float, float]
@@ -150,12 +150,12 @@ def map_panels(
         high = number * ((wide - 0.7) * shape + 0.3)
         panels = new_panels(number, 1, (wide, high + more + _BAR), exact=True)
     else:
-        wide, beside = page_width(_WIDTH + _FURTHER * (number - 1)), number
+        wide, columns = page_width(_WIDTH + _FURTHER * (number - 1)), number
         if page_width(_WIDTH) < _WIDTH:
             # In a column of a journal the maps stand below each other.
-            wide, beside = page_width(_WIDTH), 1
-        high = number // beside * (wide - _BESIDE) / beside * shape + more
-        panels = new_panels(number // beside, beside, (wide, high), exact=True)
+            wide, columns = page_width(_WIDTH), 1
+        high = number // columns * (wide - _SIDES) / columns * shape + more
+        panels = new_panels(number // columns, columns, (wide, high), exact=True)
     # Axes of equal scale shrink; this layout makes the colour bars as high as the shrunk axes.
     figure_of(panels[0]).set_layout_engine("compressed")
     return panels

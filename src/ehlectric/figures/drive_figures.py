@@ -150,7 +150,7 @@ def duty_cycle(result: DriveResult) -> str:
     """Sentence: expected discharges of each bearing over the duty cycle, and their energy."""
     assert result.duty is not None
     sums = zip(NAMES, result.duty.discharges, result.duty.energy, strict=True)
-    texts = [f"{_count(count.value)} with {_energy(one.value)} ({name})" for name, count, one in sums]
+    texts = [f"{_count(count.value)} with {_energy(energy.value)} ({name})" for name, count, energy in sums]
     return f"Expected discharges over the cycle: {' and '.join(texts)}"
 
 
@@ -294,8 +294,8 @@ def _most(result: DriveResult) -> float:
 
 def _breakdowns(result: DriveResult) -> list[float]:
     """Breakdown voltages of both bearings that are near enough to be drawn [V], equal ones once."""
-    found = sorted({breakdown_of(result, b) for b in range(2)})
-    return [volts for volts in found if volts <= _NEAR_LIMIT * float(np.max(result.solution.record.peak))]
+    levels = sorted({breakdown_of(result, b) for b in range(2)})
+    return [volts for volts in levels if volts <= _NEAR_LIMIT * float(np.max(result.solution.record.peak))]
 
 
 def _log_share(ax: Axes, shares: Array) -> None:
@@ -352,7 +352,7 @@ def highest_lines(result: DriveResult) -> tuple[Array, Array]:
 
 # Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row, where
 # their sum is.
-_LETTERS, _LINES, _BESIDE = 20, 2, 0.24
+_LETTERS, _LINES, _BEARING_SHIFT = 20, 2, 0.24
 
 AS_IT_IS = "as it is"
 
@@ -362,7 +362,7 @@ RATES = ((BLUE, "o", NAMES[0]), (ORANGE, "s", NAMES[1]), (BLACK, "D", "both bear
 
 def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
     """Name, and summaries of the drive as it is and of each remedy: of each bearing, and of their sums."""
-    solutions = [(AS_IT_IS, result.solution), *((title, found) for title, _, found in result.remedies)]
+    solutions = [(AS_IT_IS, result.solution), *((title, remedied) for title, _, remedied in result.remedies)]
     for name, solution in solutions:
         yield name, [*(end_summary(solution, b) for b in range(len(ENDS))), both_summary(solution)]
 
@@ -398,8 +398,8 @@ def rates(result: DriveResult, ax: Axes) -> None:
 def energies(result: DriveResult, ax: Axes) -> None:
     """Draw the mean energy of a discharge of the drive and of each remedy in its row."""
     rows = list(variants(result))
-    found = [end["energy_mean"] for _, (*pair, _) in rows for end in pair if end["events"]]
-    factor, unit = unit_for(max(found, default=1e-9), "J", least=1.0)
+    means = [end["energy_mean"] for _, (*pair, _) in rows for end in pair if end["events"]]
+    factor, unit = unit_for(max(means, default=1e-9), "J", least=1.0)
     for row, (_, (*pair, _)) in enumerate(rows):
         for b, end in enumerate(pair):
             if end["events"]:
@@ -408,7 +408,7 @@ def energies(result: DriveResult, ax: Axes) -> None:
                 )
         if not any(end["events"] for end in pair):
             note(ax, 0.03, row, "no discharge", data_axis="y", va="center", color=GREY)
-    positive = [factor * value for value in found if value > 0.0]
+    positive = [factor * value for value in means if value > 0.0]
     if positive and max(positive) > 20.0 * min(positive):
         _log_axis(ax.xaxis, 0.5 * min(positive), 2.0 * max(positive), ticks=5)
     else:
@@ -430,7 +430,7 @@ def legend_of_remedies(axes: list[Axes]) -> None:
 
 def _place(row: int, b: int) -> float:
     """Height of a bearing in its row, between those of the bearings the height of their sum."""
-    return row + (-_BESIDE, _BESIDE, 0.0)[b]
+    return row + (-_BEARING_SHIFT, _BEARING_SHIFT, 0.0)[b]
 
 
 def _rows(ax: Axes, names: list[str]) -> None:
@@ -476,20 +476,20 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     remedies and a duty cycle where the file has none, and voltages over time where no time was recorded.
     """
     voltages_file, over_voltage, over_frequency, of_events, of_remedies, over_cycle = DRIVE_FIGURE_FILES
-    found: dict[str, _Drawing] = {}
+    drawings: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
-        found[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
-    found[over_voltage] = _Drawing((time_at_voltage, time_above), 2, (6.3, 5.0), histogram)
+        drawings[voltages_file] = _Drawing(VOLTAGE_PANELS, 3, (6.3, 5.4), voltages, legend_of, shared=True)
+    drawings[over_voltage] = _Drawing((time_at_voltage, time_above), 2, (6.3, 5.0), histogram)
     if has_spectrum(result):
-        found[over_frequency] = _Drawing((shaft_spectrum,), 1, (6.3, 3.6), spectrum)
+        drawings[over_frequency] = _Drawing((shaft_spectrum,), 1, (6.3, 3.6), spectrum)
     if len(result.solution.record.events):
-        found[of_events] = _Drawing(DISTRIBUTIONS, 2, (6.3, 5.0), discharges, legend_of_discharges)
+        drawings[of_events] = _Drawing(DISTRIBUTIONS, 2, (6.3, 5.0), discharges, legend_of_discharges)
     if result.remedies:
         height = 1.7 + 0.5 * (1 + len(result.remedies))
-        found[of_remedies] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
+        drawings[of_remedies] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
     if result.duty is not None:
-        found[over_cycle] = _Drawing(DUTY_PANELS, 3, (6.3, 5.4), duty_cycle, legend_of_cycle, shared=True)
-    return found
+        drawings[over_cycle] = _Drawing(DUTY_PANELS, 3, (6.3, 5.4), duty_cycle, legend_of_cycle, shared=True)
+    return drawings
 
 
 def figure(result: DriveResult, name: str) -> Figure:
@@ -556,8 +556,8 @@ def bearing_panel(result: DriveResult, b: int) -> Panel:
 
 def shown_discharges(result: DriveResult, b: int) -> tuple[Array, Array]:
     """Times of the discharges of a bearing in the trace, in the unit of the axis; voltages [V]."""
-    own, begin = events_of(result, b), _begin(result)
-    here = own[(own[:, ON] >= begin) & (own[:, ON] <= begin + _span(result))]
+    events, begin = events_of(result, b), _begin(result)
+    here = events[(events[:, ON] >= begin) & (events[:, ON] <= begin + _span(result))]
     return _times(result, here[:, ON]), here[:, VOLTAGE]
 
 
@@ -605,12 +605,12 @@ def over_cycle_time(result: DriveResult, ax: Axes, *, number: int) -> None:
 
 def legend_of_cycle(axes: list[Axes]) -> None:
     """Legend above the first panel: states of the films, and both bearings."""
-    found: dict[str, Artist] = {}
+    by_label: dict[str, Artist] = {}
     for ax in (axes[0], axes[-1]):
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             if not label.startswith("_") and label != "speed":
-                found.setdefault(label, handle)
-    legend_above(axes[0], list(found.values()), columns=3)
+                by_label.setdefault(label, handle)
+    legend_above(axes[0], list(by_label.values()), columns=3)
 
 
 # Panels of the figure, from top to bottom.
@@ -620,13 +620,13 @@ VOLTAGE_PANELS = tuple(partial(over_time, number=number) for number in range(3))
 
 def legend_of(axes: list[Axes]) -> None:
     """Legend above the first panel, with what any of the panels shows."""
-    found: dict[str, Artist] = {}
+    by_label: dict[str, Artist] = {}
     for ax in axes[1:]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             if label not in NAMES:
-                found.setdefault(label, handle)
-    if found:
-        legend_above(axes[0], list(found.values()))
+                by_label.setdefault(label, handle)
+    if by_label:
+        legend_above(axes[0], list(by_label.values()))
 
 
 # Quantities of a discharge, and their columns of a record.
@@ -648,11 +648,11 @@ def distribution(result: DriveResult, ax: Axes, *, quantity: int = 0) -> None:
     edges, log = bins_of(np.concatenate(values))
     factor, prefixed = unit_for(float(edges[-1]), about.unit, least=1.0)
     edges = factor * edges
-    for b, own in enumerate(values):
-        if not own.size:
+    for b, sample in enumerate(values):
+        if not sample.size:
             continue
-        counts, _ = np.histogram(np.clip(factor * own, edges[0], edges[-1]), edges)
-        share = 100.0 * counts / own.size
+        counts, _ = np.histogram(np.clip(factor * sample, edges[0], edges[-1]), edges)
+        share = 100.0 * counts / sample.size
         name = f"{NAMES[b]}: {number_of_events(result, b)} discharges"
         _stairs(ax, b, share, edges, name, width=1.1)
     scale_axis(ax.xaxis, f"{about.label} [{prefixed}]", values=edges, log=log)

@@ -25,22 +25,22 @@ def give_fonts(figure: Figure) -> None:
     for text in figure.findobj(Text):
         assert isinstance(text, Text)
         if not text.get_text().isascii():
-            own = findfont(text.get_fontproperties())
-            families = families_for(text.get_text(), own)
+            font_file = findfont(text.get_fontproperties())
+            families = families_for(text.get_text(), font_file)
             text.set_fontfamily([*dict.fromkeys((*text.get_fontfamily(), *families))])
 
 
-def families_for(text: str, own: str) -> tuple[str, ...]:
-    """Families of fonts of the system for the characters of a text that a font file ``own`` lacks. A note in
+def families_for(text: str, font_file: str) -> tuple[str, ...]:
+    """Families of fonts of the system for the characters of a text that ``font_file`` lacks. A note in
     the log names a text with characters that no font has.
     """
     lacking = frozenset(letter for letter in text if letter.isprintable() and not letter.isspace())
-    lacking -= characters_of(str(own))
+    lacking -= characters_of(str(font_file))
     if not lacking:
         return ()
     entries, missing = fonts_for(lacking)
     if missing:
-        _tell(text, missing)
+        _note_missing(text, missing)
     return tuple(entry.name for entry in entries)
 
 
@@ -52,9 +52,9 @@ def fonts_for(lacking: frozenset[str]) -> tuple[tuple[FontEntry, ...], frozenset
     for entry in _in_order(lacking):
         if not missing:
             break
-        if found := missing & characters_of(entry.fname):
+        if covered := missing & characters_of(entry.fname):
             chosen.append(entry)
-            missing -= found
+            missing -= covered
     return tuple(chosen), missing
 
 
@@ -76,7 +76,7 @@ def _in_order(letters: Iterable[str]) -> Iterator[FontEntry]:
         slanted, heavy = entry.style != "normal", entry.weight not in (400, "normal", "regular")
         return places.get(entry.name, len(usual)), slanted, heavy, entry.name
 
-    yield from sorted((one for one in fontManager.ttflist if not one.name.startswith(_BOXES)), key=place)
+    yield from sorted((font for font in fontManager.ttflist if not font.name.startswith(_BOXES)), key=place)
 
 
 def scripts_of(letters: Iterable[str]) -> Sequence[str]:
@@ -96,14 +96,14 @@ def scripts_of(letters: Iterable[str]) -> Sequence[str]:
     ]
 
 
-_told: set[str] = set()
+_noted_letters: set[str] = set()
 
 
-def _tell(text: str, missing: frozenset[str]) -> None:
+def _note_missing(text: str, missing: frozenset[str]) -> None:
     """Write one note about a text with characters that no font has."""
-    if missing <= _told:
+    if missing <= _noted_letters:
         return
-    _told.update(missing)
+    _noted_letters.update(missing)
     line = next(line for line in text.replace("\xa0", " ").split("\n") if missing & set(line))
     letters = "".join(letter for letter in dict.fromkeys(line) if letter in missing)
     MACHINE.warning(

@@ -172,7 +172,9 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     ax.set_ylabel(f"pressure $p$ [{above.unit}]", color=BLUE)
     twin = ax.twinx()
     # Dashes tell the curves of both axes apart without colours too.
-    dashed = [replace(one, dash="longdash") if one.name == "film thickness" else one for one in below.curves]
+    dashed = [
+        replace(curve, dash="longdash") if curve.name == "film thickness" else curve for curve in below.curves
+    ]
     lines += draw_curves(dashed, twin)
     twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=text_colour(ORANGE))
     _align(ax, twin, above.top, below.top / 3.0)

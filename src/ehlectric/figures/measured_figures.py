@@ -73,8 +73,8 @@ def _title(factors: FilmFactors) -> list[str]:
     films = "solved contacts"
     if error is not None:
         films = f"films {HOW[factors.contacts]}, up to {readable(100.0 * error, 2)} % off"
-    found = int(factors.found.sum())
-    rows = f"{found} of {len(factors.reasons)} rows of {Path(factors.source).name}"
+    fitted = int(factors.found.sum())
+    rows = f"{fitted} of {len(factors.reasons)} rows of {Path(factors.source).name}"
     how = f"{films}, isothermal and fully flooded at film factor 1"
     return [f"{what}: {text}", factors.title, f"{rows}; {how}"]
 

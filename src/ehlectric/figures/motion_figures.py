@@ -207,11 +207,11 @@ def _high(run: MotionRun, ax: Axes) -> tuple[Artist, Artist]:
 def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
     """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time."""
     ax = axes_or_new(ax)
-    found = TouchHistory.of(run)
-    assert found is not None
-    time, load, area = _times(run, "time"), 100.0 * found.load_share, 100.0 * found.area_share
-    touch = f"{readable(100.0 * found.time_share)} % of {found.steps} time steps"
-    share = share_text(found.mean_share, found.coarser)
+    touching = TouchHistory.of(run)
+    assert touching is not None
+    time, load, area = _times(run, "time"), 100.0 * touching.load_share, 100.0 * touching.area_share
+    touch = f"{readable(100.0 * touching.time_share)} % of {touching.steps} time steps"
+    share = share_text(touching.mean_share, touching.coarser)
     ax.plot(time, load, color=BLUE, lw=0.9, label=f"load of asperities, mean {share} %")
     ax.plot(time, area, color=ORANGE, lw=0.9, label=f"real contact area, touching at {touch}")
     ax.set(ylabel="share [%]", ylim=fitted(load, area))
@@ -426,7 +426,7 @@ def sampling_text(run: MotionRun) -> str:
     return f"{run.frames} recorded instants, at most {travel} of travel between two of them"
 
 
-def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
+def compared_film(run: MotionRun, ax: Axes | None = None) -> Axes:
     """Draw the film thickness with moving and with stationary roughness, and before the motion. Returns axes
     whose range fits the film in the Hertz zone; outside the zone the film is thicker.
     """
@@ -435,7 +435,7 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
+def compared_pressure(run: MotionRun, ax: Axes | None = None) -> Axes:
     """Draw the pressure with moving and with stationary roughness, and before the motion. Returns axes whose
     range begins at zero pressure.
     """
@@ -445,7 +445,7 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
+def compared_field(run: MotionRun, ax: Axes | None = None) -> Axes:
     """Draw the field strength with moving and with stationary roughness, and before the motion. Returns axes
     whose range fits the field in the Hertz zone; outside the zone the field is smaller.
     """
@@ -573,12 +573,12 @@ def maps(run: MotionRun) -> Axes:
     return ax
 
 
-def beside_stationary(run: MotionRun) -> Axes:
+def comparison_with_stationary(run: MotionRun) -> Axes:
     """Compare moving with stationary roughness at the instant of the largest difference in minimum film.
     Returns the first of four panels: film, pressure, field and roughness.
     """
     axes = _stack(4)
-    for draw, ax in zip((film_beside, pressure_beside, field_beside), axes[:3], strict=True):
+    for draw, ax in zip((compared_film, compared_pressure, compared_field), axes[:3], strict=True):
         draw(run, ax)
     frame = compared_frame(run)
     assert frame is not None
@@ -591,7 +591,7 @@ def beside_stationary(run: MotionRun) -> Axes:
 FIGURES: Mapping[str, Callable[[MotionRun], Axes]] = {
     "motion_history.png": history,
     "motion_maps.png": maps,
-    "motion_beside_stationary.png": beside_stationary,
+    "motion_beside_stationary.png": comparison_with_stationary,
 }
 
 
@@ -602,7 +602,7 @@ def drawings_of(run: MotionRun) -> dict[str, Callable[[MotionRun], Axes]]:
     its film is missing or the surfaces never lie where the case puts them.
     """
     empty = [maps] if run.frames < 2 else []
-    empty += [beside_stationary] if coincident_frame(run) is None else []
+    empty += [comparison_with_stationary] if coincident_frame(run) is None else []
     return {name: draw for name, draw in FIGURES.items() if draw not in empty}
 
 

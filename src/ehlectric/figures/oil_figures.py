@@ -100,10 +100,10 @@ def over_pressure(report: OilReport) -> list[Axes]:
     if not axes:
         return axes
     for ax, panel in zip(axes, panels, strict=True):
-        one = PROPERTIES[panel.names[0]]
+        oil_property = PROPERTIES[panel.names[0]]
         for colour, oil in zip(_colours(len(report.oils)), report.oils, strict=True):
-            values = panel.factor * np.array([_value(one, oil, at) for at in pressure.tolist()])
-            within = pressure <= one.range_end(oil)
+            values = panel.factor * np.array([_value(oil_property, oil, at) for at in pressure.tolist()])
+            within = pressure <= oil_property.range_end(oil)
             ax.plot(1e-9 * pressure[within], values[within], color=colour, label=celsius(oil.temperature))
             _beyond(ax, panel, oil, (pressure, values), colour)
         for mark in report.pressures:
@@ -147,12 +147,12 @@ def _oil_at(report: OilReport, kelvin: float) -> KnownOil | None:
         return None
 
 
-def _value(one: OilProperty, oil: KnownOil | None, pressure: float) -> float:
+def _value(oil_property: OilProperty, oil: KnownOil | None, pressure: float) -> float:
     """Value of a property; NaN where it is not known, or beyond a pole of its law."""
     if oil is None:
         return math.nan
     try:
-        value = one.value(oil, pressure)
+        value = oil_property.value(oil, pressure)
     except InputError:
         return math.nan
     return math.nan if value is None else value
@@ -161,12 +161,12 @@ def _value(one: OilProperty, oil: KnownOil | None, pressure: float) -> float:
 def _beyond(ax: Axes, panel: _Panel, oil: KnownOil, curve: tuple[Array, Array], colour: str) -> None:
     """Draw the part of a curve beyond the range of its law, and the end of the range."""
     pressure, values = curve
-    one = PROPERTIES[panel.names[0]]
-    end = one.range_end(oil)
+    oil_property = PROPERTIES[panel.names[0]]
+    end = oil_property.range_end(oil)
     if end >= pressure[-1]:
         return
     beyond = pressure >= end
-    at_end = panel.factor * _value(one, oil, end)
+    at_end = panel.factor * _value(oil_property, oil, end)
     x, y = np.append(end, pressure[beyond]), np.append(at_end, values[beyond])
     ax.plot(1e-9 * x, y, color=colour, ls=":")
     ax.plot([1e-9 * end], [at_end], color=colour, **_DOT)
@@ -189,10 +189,10 @@ def over_temperature(report: OilReport) -> list[Axes]:
         return axes
     for ax, panel in zip(axes, panels, strict=True):
         for name, (colour, dashes) in zip(panel.names, _LOOKS, strict=False):
-            one = PROPERTIES[name]
-            values = panel.factor * np.array([_value(one, oil, 0.0) for oil in oils])
+            oil_property = PROPERTIES[name]
+            values = panel.factor * np.array([_value(oil_property, oil, 0.0) for oil in oils])
             ax.plot(CELSIUS.of(kelvins), values, color=colour, ls=dashes, label=_NAMES.get(name, ""))
-            marked = [panel.factor * _value(one, oil, 0.0) for oil in report.oils]
+            marked = [panel.factor * _value(oil_property, oil, 0.0) for oil in report.oils]
             ax.plot(CELSIUS.of(np.array(known)), marked, color=colour, clip_on=False, **_DOT)
         _finish(ax, panel, _title(report, panel.names[0], 0.0), values)
         ax.set(xlabel="temperature [°C]", xlim=CELSIUS.of(kelvins[[0, -1]]))
@@ -246,10 +246,10 @@ def _heading(report: OilReport, over: str, pressure: float) -> str:
     """Lines of the title of a figure: the oil, what it is, and what is not known of it at a pressure [Pa]."""
     named = report.named
     missing = [
-        one.title
-        for one in PROPERTIES.values()
-        if one.over_pressure or pressure == 0.0
-        if all(math.isnan(_value(one, oil, pressure)) for oil in report.oils)
+        oil_property.title
+        for oil_property in PROPERTIES.values()
+        if oil_property.over_pressure or pressure == 0.0
+        if all(math.isnan(_value(oil_property, oil, pressure)) for oil in report.oils)
     ]
     lines = [f"{named.name or 'Oil'} {over}", named.title]
     if missing:

@@ -169,16 +169,16 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     Returns the first axes, with the pressure along entrainment.
     """
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
-    beside = side_by_side(axes[0]) > 1
+    two_columns = side_by_side(axes[0]) > 1
     for side, (along, window) in enumerate(zip("xy", film_window(result), strict=True)):
         for row, draw in enumerate((pressure_cut, film_cut, field_cut)):
-            ax = axes[2 * row + side if beside else 3 * side + row]
+            ax = axes[2 * row + side if two_columns else 3 * side + row]
             draw(result, ax, along=along)
             ax.set_xlim(*window)
             if row == 2:
                 label_position(result, ax, along)
             ax.tick_params(labelbottom=row == 2)
-            if beside:
+            if two_columns:
                 ax.label_outer()
     return axes[0]
 

@@ -65,11 +65,11 @@ def speed_axis(curves: Curves) -> Along:
     return Along("speed of the inner ring", "rpm", log=is_wide(curves.speed))
 
 
-def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
+def breakdown_panel(points: Speeds, curves: Curves, at_case: Speed | None) -> Panel:
     """First and ring-to-ring breakdown with the shaft voltage, and where the margin is below 1."""
     first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
     voltages = np.concatenate([first, through, shaft])
-    value = None if own is None else value_of(own[1], "first_break")
+    value = None if at_case is None else value_of(at_case[1], "first_break")
     least = _LEAST_VOLTAGE * float(np.nanmax(voltages, initial=0.0))
     least = least if value is None else min(least, 0.5 * value)
     drawn = [*_curves(curves, "shaft_voltage", "shaft voltage", SHAFT)]
@@ -80,8 +80,8 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
         at = critical / RPM
         drawn.append(_mark(critical, curves.at("shaft_voltage", critical), ORANGE, "ring"))
         marked.append(Upright(f"critical speed {speed_text(critical)}", at, ORANGE, "dot"))
-    if own is not None and value is not None:
-        drawn.append(_mark(own[0], value, BLACK, "star"))
+    if at_case is not None and value is not None:
+        drawn.append(_mark(at_case[0], value, BLACK, "star"))
     nodes, low = curves.between("first_break")
     _, high = curves.between("shaft_voltage")
     danger = Area("margin below 1", nodes / RPM, high > low, ORANGE, 0.2, (np.maximum(low, least), high))
@@ -96,7 +96,7 @@ def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
     )
 
 
-def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Panel:
+def margin_panel(band: MarginBand, at_case: tuple[float, float] | None = None) -> Panel:
     """Margin over the speed within what is uncertain, and that of the bearing itself at its speed [rad/s]."""
     rpm, ones = band.speed / RPM, np.ones_like(band.speed)
     # Surfaces that touch have a margin of 0, which a logarithmic axis does not have.
@@ -107,8 +107,8 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
         Curve("margin 1", rpm, ones, MIDDLE_GREY, "dash"),
         Curve("median", rpm, np.where(band.median > least, median, np.nan), BLACK, width=1.4),
     ]
-    if own is not None:
-        drawn.append(_mark(own[0], own[1], BLACK, "star"))
+    if at_case is not None:
+        drawn.append(_mark(at_case[0], at_case[1], BLACK, "star"))
     areas: tuple[Area, ...] = (
         Area("90 of 100 cases", rpm, high > 1.0, BLUE, 0.2, (even, high)),
         Area("of these, breakdown", rpm, low < 1.0, ORANGE, 0.25, (low, even)),
@@ -120,7 +120,7 @@ def margin_panel(band: MarginBand, own: tuple[float, float] | None = None) -> Pa
     return Panel("margin", "", drawn, top, least, areas=areas, log=True)
 
 
-def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
+def capacitance_panel(points: Speeds, curves: Curves, at_case: Speed | None) -> Panel:
     """Capacitance, with its range from air to oil around the films; the curve of the bearing is bold."""
     nodes, air = curves.between("capacitance_air")
     _, oil = curves.between("capacitance_oil")
@@ -133,8 +133,8 @@ def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Pane
         drawn += _curves(curves, f"capacitance_{fill}", f"{fill} around the films", look, factor, dots=bold)
     if fills not in ({"oil"}, {"air"}):
         drawn += _curves(curves, "capacitance", "this bearing", (BLACK, "solid", 1.4), factor)
-    if own is not None:
-        drawn.append(_mark(own[0], factor * own[1]["bearing"]["capacitance"], BLACK, "star"))
+    if at_case is not None:
+        drawn.append(_mark(at_case[0], factor * at_case[1]["bearing"]["capacitance"], BLACK, "star"))
     everything = factor * np.concatenate([curves[key] for key in ("capacitance_oil", "capacitance_air")])
     band = Area(
         "between air and oil", nodes / RPM, np.isfinite(oil - air), BLUE, 0.15, (factor * air, factor * oil)

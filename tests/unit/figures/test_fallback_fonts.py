@@ -50,8 +50,8 @@ def fonts(monkeypatch, tmp_path):
     """The fonts that Matplotlib carries alone, and a function that adds another one."""
     own = [entry for entry in fontManager.ttflist if "mpl-data" in entry.fname]
     monkeypatch.setattr(fontManager, "ttflist", own)
-    for told in (fallback_fonts._told, pdf_letters._noted):
-        told.clear()
+    for noted in (fallback_fonts._noted_letters, pdf_letters._noted):
+        noted.clear()
     fallback_fonts.fonts_for.cache_clear()
     pdf_letters._faces.cache_clear()
 
@@ -126,7 +126,7 @@ def test_letters_of_two_fonts(fonts):
 
 def pdf_text(title, tmp_path):
     blocks = (Block("plain"), Block(f'title = "{title}"', "code"))
-    sections = (Section("First", blocks, one_page=True), Section(f"Section {title}", blocks))
+    sections = (Section("First", blocks, single_page=True), Section(f"Section {title}", blocks))
     (tmp_path / "report.pdf").write_bytes(pdf_of(Report(title, "contact", "2026-01-01T00:00:00", sections)))
     command = ["pdftotext", tmp_path / "report.pdf", "-"]
     return subprocess.run(command, capture_output=True, text=True, check=True)

@@ -535,9 +535,9 @@ def test_the_crossing_is_marked_named_and_in_the_title(points):
 
 
 def test_a_critical_speed_of_the_summary_is_that_of_the_figure(points):
-    own = at_speed(3000.0, 2.3e-10, 5.6, 4.0)
-    own[1]["margin"] = {"critical_speed": 1234.0 / RPM}
-    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=own)
+    at_case = at_speed(3000.0, 2.3e-10, 5.6, 4.0)
+    at_case[1]["margin"] = {"critical_speed": 1234.0 / RPM}
+    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], at_case=at_case)
     assert said(drawn).startswith(
         "Margin below 1 up to about 1230 rpm; contacts open and close below 774 rpm (margin 1.40"
     )
@@ -591,7 +591,9 @@ def test_curves_begin_where_the_surfaces_part():
     assert first[1]["bearing"]["lambda_ratio"] >= 1.0
     assert [at for at, _ in points] == sorted(at for at, _ in points)
     named = f"{float(f'{first[0] * RPM:.3g}'):g} rpm"
-    drawn = speed_figure(points, SPEED_FIGURE_FILES[1], own=(slow.case.bearing.inner_speed, slow.summary()))
+    drawn = speed_figure(
+        points, SPEED_FIGURE_FILES[1], at_case=(slow.case.bearing.inner_speed, slow.summary())
+    )
     whole = " ".join(title_of(drawn))
     assert whole.startswith(f"Margin below 1 at all speeds from {named} to 400 rpm;")
     assert f"below {named}" in said(drawn)
@@ -663,15 +665,15 @@ def test_speeds_at_which_contacts_open_are_shaded_and_in_the_title(points):
 
 def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
     """5.6 V by formula and 5.0 V solved at 3000 rpm: the curve has 5.0 V there, and keeps its shape."""
-    own = at_speed(3000.0, 1.8e-10, 5.0, 5.0)
-    own[1]["bearing"] |= {"contacts": "solved", "through_breakdown": 5.0}
-    curves = curves_of(points, own)
+    at_case = at_speed(3000.0, 1.8e-10, 5.0, 5.0)
+    at_case[1]["bearing"] |= {"contacts": "solved", "through_breakdown": 5.0}
+    curves = curves_of(points, at_case)
     np.testing.assert_allclose(curves["first_break"], np.array([np.nan, 2.5, 5.6, 9.0]) * 5.0 / 5.6)
     np.testing.assert_allclose(curves["shaft_voltage"], np.array([3.5, 3.7, 4.0, 4.2]) * 5.0 / 4.0)
     for name, key, height in zip(
         SPEED_FIGURE_FILES, ("capacitance", "first_break"), (180.0, 5.0), strict=True
     ):
-        drawn = speed_figure(points, name, own=own)
+        drawn = speed_figure(points, name, at_case=at_case)
         (star,) = [found for found in drawn.axes[0].get_lines() if found.get_marker() == "*"]
         np.testing.assert_allclose(star.get_data(), [[3000.0], [height]], rtol=1e-12)
         assert key in curves.values
@@ -686,9 +688,9 @@ def test_curves_are_scaled_to_a_bearing_of_solved_contacts(points):
 @pytest.mark.parametrize("first", [4.05, 4.3, 5.0, 8.0, 3.9, 2.0])
 def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     """Whether the first breakdown is far above the shaft voltage of 4 V, a little, or below it."""
-    own = at_speed(3000.0, 1.8e-10, first, 4.0)
-    own[1]["bearing"]["through_breakdown"] = first
-    no_curve_in_labels(speed_figure(points, SPEED_FIGURE_FILES[1], own=own))
+    at_case = at_speed(3000.0, 1.8e-10, first, 4.0)
+    at_case[1]["bearing"]["through_breakdown"] = first
+    no_curve_in_labels(speed_figure(points, SPEED_FIGURE_FILES[1], at_case=at_case))
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from ehlectric.figures import motion_figures as motion_maps
 from ehlectric.figures import style as drawing
 from ehlectric.figures.animation import line_frames, map_frames, save_animation
 from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
-from ehlectric.figures.motion_figures import beside_stationary, history, maps
+from ehlectric.figures.motion_figures import comparison_with_stationary, history, maps
 from ehlectric.figures.motion_panels import speed_text
 from ehlectric.motion.stored_run import MotionRun, intervals_above
 from ehlectric.quantities.palette import OUT_OF_RANGE, RED
@@ -272,14 +272,14 @@ def test_moving_lies_beside_stationary_where_their_films_differ_most(run):
     least = 1e6 * run.along("thickness")[frame].min()
     assert least == pytest.approx(0.4, rel=1e-6)
     assert run.frame_time[frame] >= run.field_history.settled_from
-    ax = motion_beside.film_beside(run)
+    ax = motion_beside.compared_film(run)
     np.testing.assert_allclose(line(ax, "moving").get_ydata(), 1e6 * run.along("thickness")[frame])
     still = line(ax, "stationary")
     np.testing.assert_allclose(still.get_ydata(), 1e6 * (run.along("thickness")[0] + 0.2e-6))
     assert still.get_label() == "stationary, min. 0.7 µm"
-    field = motion_beside.field_beside(run)
+    field = motion_beside.compared_field(run)
     assert line(field, "stationary").get_label() == "stationary, max. 2.2 V/µm"
-    title = " ".join(title_of(beside_stationary(run).get_figure()))
+    title = " ".join(title_of(comparison_with_stationary(run).get_figure()))
     # 0.4 um is 43 % less than 0.7 um.
     assert title.startswith(
         "Minimum film 0.4 µm moving, 43 % thinner than with stationary roughness (0.7 µm)"
@@ -289,7 +289,7 @@ def test_moving_lies_beside_stationary_where_their_films_differ_most(run):
 
 def test_roughness_below_is_that_of_the_instant_and_of_stationary_surfaces():
     run = MotionRun.of(by_hand(coincident=END / 2.0))
-    lowest = beside_stationary(run).get_figure().axes[3]
+    lowest = comparison_with_stationary(run).get_figure().axes[3]
     frame, there = motion_beside.compared_frame(run), int(np.argmin(np.abs(run.frame_time - END / 2.0)))
     for name, at in (("surface 1", frame), ("surface 1, stationary", there)):
         (found,) = [of for of in lowest.get_lines() if of.get_label() == name]
@@ -503,9 +503,9 @@ def test_ffmpeg_that_fails_is_said_in_one_line(tmp_path, monkeypatch):
         (motion_history.least_film, "[µm]"),
         (motion_history.largest_field, "[V/µm]"),
         (motion_history.places, "$x/b$"),
-        (motion_beside.film_beside, "[µm]"),
-        (motion_beside.pressure_beside, "[GPa]"),
-        (motion_beside.field_beside, "[V/µm]"),
+        (motion_beside.compared_film, "[µm]"),
+        (motion_beside.compared_pressure, "[GPa]"),
+        (motion_beside.compared_field, "[V/µm]"),
         (motion_maps.film_map, "[ms]"),
         (motion_maps.pressure_map, "[ms]"),
         (motion_maps.field_map, "[ms]"),
