@@ -22,8 +22,8 @@ def main() -> None:
     """Entry point of the ``ehlectric`` command, also where there is hardly any memory."""
     left, least = left_of_process(), LEAST_MEMORY + MEMORY_OF_CORE * cores()
     if left < least:
-        told = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
-        sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
+        message = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
+        sys.exit(_end(f"{message}; expected at least {in_bytes(least)}"))
     gc.set_threshold(_NEW_OBJECTS)
     try:
         from ehlectric.commands.command_line import exit_status, process

@@ -164,7 +164,7 @@ class InputError(ValueError):
         >>> print(InputError.together([wrong, InputError.missing("lubricant", "a table")]))
         contact.load: got '20 V'; expected a force; also missing: lubricant
         """
-        each = [one for error in errors for one in error.several or (error,)]
+        each = [part for error in errors for part in error.several or (error,)]
         first, *others = several = {(error.key, error.text): error for error in each}.values()
         missing = [error.key or "" for error in others if error.is_missing]
         further = [str(error) for error in others if not error.is_missing]

@@ -11,7 +11,7 @@ from ehlectric.arrays import Numbers
 from ehlectric.bearing.loads.ball_loads import ball_equilibrium, check_ball_loads
 from ehlectric.bearing.loads.four_point_loads import four_point_equilibrium
 from ehlectric.bearing.loads.geometry import (
-    ONE_ROW,
+    SINGLE_ROW,
     BallBearing,
     FourPointBearing,
     Geometry,
@@ -62,7 +62,7 @@ def _groove_sizes(bearing: Bearing) -> tuple[int, float, float, float, float]:
 def _rows(bearing: Bearing) -> Rows:
     """Rows of a bearing, or of a pair with its preload or play."""
     if bearing.pair is None:
-        return ONE_ROW
+        return SINGLE_ROW
     preload, play = bearing.pair.preload, bearing.pair.axial_clearance
     return Rows(2, 0.0 if preload is None else preload, 0.0 if play is None else play)
 

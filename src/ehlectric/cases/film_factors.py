@@ -250,8 +250,8 @@ class FilmFactors(Shown):
     @property
     def found(self) -> Array:
         """Whether each row has a film factor, shape (n,)."""
-        found: Array = np.isfinite(self.columns["film_factor"])
-        return found
+        has_factor: Array = np.isfinite(self.columns["film_factor"])
+        return has_factor
 
     @property
     def speed_key(self) -> str:

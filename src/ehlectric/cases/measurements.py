@@ -74,7 +74,9 @@ class ColumnBook:
     def names(self) -> Mapping[str, str]:
         """Quantities by the names over a column, in small letters and with spaces."""
         return {
-            name: key for key, one in self.columns.items() for name in (key.replace("_", " "), *one.names)
+            name: key
+            for key, column in self.columns.items()
+            for name in (key.replace("_", " "), *column.names)
         }
 
 
@@ -338,9 +340,9 @@ def read_measurement(measured: str | Path | pd.DataFrame, book: ColumnBook = MEA
         takes = f"at most {book.most_rows}; average them"
         raise InputError(source, f"has more than {book.most_rows} rows", takes=takes)
     rows, void = _without_void(source, rows, columns)
-    found = {place: _values(source, rows, place, column) for place, column in columns.items()}
-    values = {columns[place].name: found[place] for place in found if not columns[place].uncertainty}
-    uncertain = {place: found[place] for place in found if columns[place].uncertainty}
+    numbers = {place: _values(source, rows, place, column) for place, column in columns.items()}
+    values = {columns[place].name: numbers[place] for place in numbers if not columns[place].uncertainty}
+    uncertain = {place: numbers[place] for place in numbers if columns[place].uncertainty}
     uncertainties = _uncertainties(source, columns, uncertain, values)
     return Measurement(source, rows.lines, values, uncertainties, ignored, void)
 
@@ -483,11 +485,11 @@ def _refuse_grouped(source: str, cells: Sequence[str], column: Column) -> None:
 
 
 def _uncertainties(
-    source: str, columns: Mapping[int, Column], found: Mapping[int, Array], values: Mapping[str, Array]
+    source: str, columns: Mapping[int, Column], uncertain: Mapping[int, Array], values: Mapping[str, Array]
 ) -> dict[str, Array]:
     """Standard uncertainties in SI units by quantity; one without a name belongs to the measured quantity."""
     uncertainties: dict[str, Array] = {}
-    for place, numbers in found.items():
+    for place, numbers in uncertain.items():
         column = columns[place]
         name = column.name or next((key for key in ("capacitance", "impedance", "film") if key in values), "")
         if name not in values:

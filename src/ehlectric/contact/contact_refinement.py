@@ -258,20 +258,22 @@ class FilmProgress:
     def text(self, nodes: int, step: int, residual: float) -> str:
         """Line about a Newton step: nodes of its grid along entrainment, its number, and the residual."""
         now = f"{nodes} nodes, step {step + 1}, residual {residual:.1e}"
-        told = "" if self._error is None else f"; error {_percent(self._error)} so far"
+        accuracy = "" if self._error is None else f"; error {_percent(self._error)} so far"
         reach = self._reach
         if reach is None or self._done >= len(reach.grids):
-            return f"film: {now}{told}"
+            return f"film: {now}{accuracy}"
         last = reach.last(self._done, self._error)
         if last is None:
-            return f"film: grid {self._done + 1}, {now}{told}"
+            return f"film: grid {self._done + 1}, {now}{accuracy}"
         if last <= self._done:
-            return f"film: {now}{told}"
+            return f"film: {now}{accuracy}"
         left = reach.seconds(self._done, last, self._measured) - (self._clock() - self._started)
         reached = reach.expected(last, self._done, self._error)
         if reached is not None and reached > reach.target:
-            told += f", about {_percent(reached)} in reach"
-        return f"film: grid {self._done + 1} of {last}, {now}{told}; about {_duration(max(left, 1.0))} left"
+            accuracy += f", about {_percent(reached)} in reach"
+        return (
+            f"film: grid {self._done + 1} of {last}, {now}{accuracy}; about {_duration(max(left, 1.0))} left"
+        )
 
 
 def _percent(error: float) -> str:

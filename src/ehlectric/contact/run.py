@@ -116,12 +116,12 @@ def run(
     load_library()
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
-        told = FilmProgress(contact.reach)
+        film_progress = FilmProgress(contact.reach)
         result = solve(
             contact,
-            progress=lambda nodes, step, residual: progress(0, 0, told.text(nodes, step, residual)),
+            progress=lambda nodes, step, residual: progress(0, 0, film_progress.text(nodes, step, residual)),
             solvers=solvers,
-            on_grid=told.on_grid,
+            on_grid=film_progress.on_grid,
         )
         progress(0, 0, "writing results")
         files = save(result, folder, replaced=names, further=further)

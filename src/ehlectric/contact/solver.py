@@ -338,5 +338,5 @@ def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Arr
     if all(np.array_equal(axis, other) for axis, other in zip(axes, nodes, strict=True)):
         return values
     at = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
-    found: Array = RegularGridInterpolator(axes, values)(at)
-    return found
+    interpolated: Array = RegularGridInterpolator(axes, values)(at)
+    return interpolated

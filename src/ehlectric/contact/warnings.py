@@ -47,7 +47,7 @@ def case_warnings(setup: Case | Setup, conditions: Conditions | PointConditions)
     # The moduli of two bodies, such as glass and steel, contain no factor 2.
     yield from () if given is None else modulus_doubt(given)
     yield from raised(_doubts(setup, conditions))
-    yield from own_law_warnings(setup, conditions)
+    yield from user_law_warnings(setup, conditions)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     # Load that the Hertz pressure would carry on the whole domain, over the load of the contact.
@@ -77,7 +77,7 @@ def _doubts(setup: Case | Setup, conditions: Conditions | PointConditions) -> It
         yield from rq_flag("meter.ra", setup.meter.ra, setup.meter.rq_over_ra)
 
 
-def own_law_warnings(
+def user_law_warnings(
     setup: Case | Setup, conditions: Conditions | PointConditions
 ) -> Iterator[ResultWarning]:
     """Notes about laws of the user's own, which no file contains, and which heat may not change."""

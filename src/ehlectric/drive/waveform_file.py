@@ -363,11 +363,11 @@ def _unit(text: str) -> tuple[str, float]:
     text = typed(text)
     # Capitals count in mV and MV, and in ms and Ms.
     large = len(text) == 2 and text[0] == "M"
-    found = _UNIT.fullmatch(text.lower()[large:])
+    match = _UNIT.fullmatch(text.lower()[large:])
     scale = 1e6 if large else 1.0
-    if found is None:
+    if match is None:
         return "", scale
-    return found.lastgroup or "", _FACTORS[found[1].replace("micro", "u")[:1]] * scale
+    return match.lastgroup or "", _FACTORS[match[1].replace("micro", "u")[:1]] * scale
 
 
 def _parts(head: str) -> tuple[str, str]:
@@ -476,25 +476,29 @@ class _Choice:
 def _choice(
     path: Path,
     labels: _Labels,
-    wanted: tuple[str | int | None, str | int | None],
+    requested: tuple[str | int | None, str | int | None],
     given: tuple[str | None, str | None],
     step: float | None,
 ) -> _Choice:
-    """Columns that are read, of ``wanted`` voltage and time; ``given`` are the units of time and voltage."""
+    """Columns that are read, ``requested`` of voltage and time; ``given`` are units of time and voltage."""
     heads = labels.heads
     times = [head for head in heads if head.is_time]
     unnamed, unread = not any(head.name or head.unit for head in heads), labels.above
-    if wanted[1] is not None:
-        times = [_named(path, "time_column", wanted[1], heads)]
+    if requested[1] is not None:
+        times = [_named(path, "time_column", requested[1], heads)]
     elif unnamed and unread and step is None and len(heads) > 1:
         what = f"{path} has no names of its {len(heads)} columns in {shown(unread)} above them"
         raise InputError.worded("time_column", f"missing; {what}; expected the number of one, such as 1")
     elif unnamed and not unread and len(heads) > 1:
         times = heads[:1]
     channels = [head for head in heads if head not in times and not head.is_numbering]
-    value = _named(path, "column", wanted[0], heads) if wanted[0] is not None else _single(path, channels)
+    value = (
+        _named(path, "column", requested[0], heads) if requested[0] is not None else _single(path, channels)
+    )
     if value in times:
-        raise InputError("column", got=shown(wanted[0]), takes="a column of voltages, not that of the times")
+        raise InputError(
+            "column", got=shown(requested[0]), takes="a column of voltages, not that of the times"
+        )
     # Some programs write times before every channel.
     before = [head for head in times if head.place < value.place]
     time = (before or times[:1])[-1] if times else None
@@ -518,16 +522,16 @@ def _no_times(labels: _Labels) -> str:
     )
 
 
-def _named(path: Path, key: str, wanted: str | int, heads: Sequence[_Head]) -> _Head:
+def _named(path: Path, key: str, requested: str | int, heads: Sequence[_Head]) -> _Head:
     """Column of a name or a number."""
-    if isinstance(wanted, int):
-        found = [head for head in heads if head.place + 1 == wanted]
+    if isinstance(requested, int):
+        matches = [head for head in heads if head.place + 1 == requested]
     else:
-        name = " ".join(wanted.split()).casefold()
-        found = [head for head in heads if head.name.casefold() == name]
-    if len(found) != 1:
-        raise InputError(key, got=f"{shown(wanted)}, but {path} has the columns {_listed(heads)}")
-    return found[0]
+        name = " ".join(requested.split()).casefold()
+        matches = [head for head in heads if head.name.casefold() == name]
+    if len(matches) != 1:
+        raise InputError(key, got=f"{shown(requested)}, but {path} has the columns {_listed(heads)}")
+    return matches[0]
 
 
 def _listed(heads: Sequence[_Head]) -> str:
@@ -551,18 +555,18 @@ def _single(path: Path, channels: Sequence[_Head]) -> _Head:
 
 
 def _factor(
-    path: Path, labels: _Labels, head: _Head, asked: tuple[str, str | None, str], assumed: list[str]
+    path: Path, labels: _Labels, head: _Head, unit_input: tuple[str, str | None, str], assumed: list[str]
 ) -> float:
     """Factor from the unit of a column to the SI unit: as its head, the user or a line above states it.
 
-    ``asked`` are the key of the unit, the unit that the user gave, and the SI unit. A unit that nobody states
-    is taken as the SI unit and added to ``assumed``.
+    ``unit_input`` are the key of the unit, the unit that the user gave, and the SI unit. A unit that nobody
+    states is taken as the SI unit and added to ``assumed``.
     """
-    key, given, base = asked
-    wanted = None if given is None else _factor_of(key, given, base, f"got {shown(given)}")
-    if head.base or (head.unit and wanted is None):
+    key, given, base = unit_input
+    requested = None if given is None else _factor_of(key, given, base, f"got {shown(given)}")
+    if head.base or (head.unit and requested is None):
         stated = _factor_of(path, head.unit, base, f"has {shown(head.unit)} as unit of {head}")
-        if wanted is not None and wanted != stated:
+        if requested is not None and requested != stated:
             raise InputError(key, got=f"{shown(given)}, but {path} states {shown(head.unit)} of {head}")
         return stated
     above = [
@@ -575,9 +579,9 @@ def _factor(
     if not above and labels.above and not head.name:
         # The line above the numbers could not be read, and may state the unit.
         above = [labels.above]
-    if wanted is not None and factors <= {wanted}:
-        return wanted
-    if above and (len(factors) != 1 or wanted is not None):
+    if requested is not None and factors <= {requested}:
+        return requested
+    if above and (len(factors) != 1 or requested is not None):
         says = "missing;" if given is None else f"got {shown(given)}, but"
         states = f"{path} states {shown(', '.join(above))} above its numbers"
         raise InputError.worded(key, f"{says} {states}; expected the unit of {head}, such as {_USUAL[base]}")

@@ -39,8 +39,8 @@ _WIDTH = 75.0
 def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, at_case: Speed | None = None) -> Axes:
     """Draw the capacitance of a bearing over its speed, with its range from air to oil around the films.
 
-    ``points`` are speeds of the inner ring [rad/s] with their summaries; ``at_case``, speed and summary of the
-    bearing itself, is marked with a star, and the curves are scaled to it.
+    ``points`` are speeds of the inner ring [rad/s] with their summaries; ``at_case``, speed and summary of
+    the bearing itself, is marked with a star, and the curves are scaled to it.
     """
     curves = curves_of(points, at_case)
     return _draw(capacitance_panel(points, curves, at_case), curves, axes_or_new(ax))

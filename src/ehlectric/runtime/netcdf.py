@@ -85,15 +85,21 @@ class Layout:
         """Content as a reader of the file finds it, without xarray."""
         return Reread(
             {
-                name: RereadVariable(_names(one[0]), np.asarray(one[1]), dict(one[2]) if len(one) > 2 else {})
-                for name, one in self.variables.items()
+                name: RereadVariable(
+                    _names(variable[0]),
+                    np.asarray(variable[1]),
+                    dict(variable[2]) if len(variable) > 2 else {},
+                )
+                for name, variable in self.variables.items()
             },
             dict(self.attributes),
         )
 
     def write(self, file: Any) -> None:
         """Write to an ``h5netcdf.File`` what xarray writes of ``dataset``."""
-        arrays = {name: (_names(one[0]), np.asarray(one[1])) for name, one in self.variables.items()}
+        arrays = {
+            name: (_names(variable[0]), np.asarray(variable[1])) for name, variable in self.variables.items()
+        }
         for dims, values in arrays.values():
             for dim, size in zip(dims, values.shape, strict=True):
                 if dim not in file.dimensions:
@@ -114,7 +120,11 @@ class Layout:
             attributes["dtype"] = "bool"
         elif dtype.kind in "UO":
             dtype, values = import_module("h5py").string_dtype(), values.astype(object)
-        near = [one for one in sorted(self.coordinates) if {*_names(self.variables[one][0])} <= {*dims}]
+        near = [
+            coordinate
+            for coordinate in sorted(self.coordinates)
+            if {*_names(self.variables[coordinate][0])} <= {*dims}
+        ]
         if near and name not in (*self.coordinates, *dims):
             attributes["coordinates"] = " ".join(near)
         options = {"fillvalue": fill, **self.storage.get(name, {})}
@@ -160,7 +170,7 @@ class Reread:
     @property
     def sizes(self) -> dict[str, int]:
         """Sizes by the names of the dimensions."""
-        return {name: size for one in self.variables.values() for name, size in one.sizes.items()}
+        return {name: size for variable in self.variables.values() for name, size in variable.sizes.items()}
 
     def __contains__(self, name: str) -> bool:
         return name in self.variables

@@ -15,12 +15,12 @@ from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
 
 # Two threads that start processes at once would leave the empty module behind, and so would a fork meanwhile.
-_ONE_AT_A_TIME = threading.Lock()
+_START_LOCK = threading.Lock()
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(
-        before=_ONE_AT_A_TIME.acquire,
-        after_in_parent=_ONE_AT_A_TIME.release,
-        after_in_child=_ONE_AT_A_TIME.release,
+        before=_START_LOCK.acquire,
+        after_in_parent=_START_LOCK.release,
+        after_in_child=_START_LOCK.release,
     )
 
 
@@ -45,7 +45,7 @@ def _without_script() -> Iterator[None]:
 
     It lasts some milliseconds, in which other threads cannot pickle what the script defines.
     """
-    with _ONE_AT_A_TIME:
+    with _START_LOCK:
         script = sys.modules["__main__"]
         sys.modules["__main__"] = ModuleType("__main__")
         try:

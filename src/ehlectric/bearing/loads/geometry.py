@@ -136,7 +136,7 @@ class Rows:
         return self.preload, self.endplay
 
 
-ONE_ROW = Rows()
+SINGLE_ROW = Rows()
 
 
 class _Bearing(ABC):
@@ -220,7 +220,7 @@ class BallBearing(_Bearing):
     radial_clearance: Numbers | None = None
     # Free contact angle a_0, at which ball and grooves just touch without load [rad].
     contact_angle: Numbers | None = None
-    rows: Rows = ONE_ROW
+    rows: Rows = SINGLE_ROW
 
     def __post_init__(self) -> None:
         self._refuse_grooves()
@@ -521,7 +521,7 @@ class RollerBearing(_Bearing):
     profile: str = "logarithmic"
     # Angle between the contacts and the radial plane, from 0 to 90 degrees [rad].
     contact_angle: Numbers = 0.0
-    rows: Rows = ONE_ROW
+    rows: Rows = SINGLE_ROW
 
     def __post_init__(self) -> None:
         _refuse_overlap(self.elements, self.roller_diameter, self.pitch_diameter)

@@ -256,7 +256,7 @@ def _nearest(groups: Groups, *, known: Mask | bool) -> Groups:
     inside = np.equal(ellipse.ratio, ratio)
     if not np.all(inside):
         pairs = zip(vars(ellipse).values(), vars(Ellipse.of(ratio)).values(), strict=True)
-        ellipse = Ellipse(*(np.where(inside, own, limit) for own, limit in pairs))
+        ellipse = Ellipse(*(np.where(inside, value, limit) for value, limit in pairs))
     return Groups(load * (ratio**0.75 / ellipse.q**0.25), moes_l, ratio, ellipse)
 
 
@@ -385,11 +385,11 @@ class OilChange:
 
     def of_lines(self, name: str) -> Numbers:
         """Part of the factor that is fitted to line contacts; points have it, too."""
-        one, lubricant, load, square, both = (
+        offset, lubricant, load, square, both = (
             shape * self._shape + compressibility * self._compressibility
             for shape, compressibility in zip(*_OIL[name], strict=True)
         )
-        constant, slope = one + lubricant * self._lubricant, load + both * self._lubricant
+        constant, slope = offset + lubricant * self._lubricant, load + both * self._lubricant
         change = self._part * (constant + self._load * (slope + square * self._load))
         return np.exp(change)
 
@@ -407,8 +407,8 @@ class OilChange:
 
     def of_stiff(self, name: str) -> Numbers:
         """Part of the factor for an oil that is compressed little, in a point contact."""
-        one, lubricant, load = _STIFF[name]
-        return np.exp(self._part * self._stiff * (one + lubricant * self._lubricant + load * self._load))
+        offset, lubricant, load = _STIFF[name]
+        return np.exp(self._part * self._stiff * (offset + lubricant * self._lubricant + load * self._load))
 
 
 def _ratio(density: Callable[..., Any], pressure: Numbers) -> Numbers:
