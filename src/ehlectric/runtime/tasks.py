@@ -170,7 +170,7 @@ def _take(
         except Exception:  # raised by the executor, because the function raises none
             finished.died.append(task)
         else:
-            if crew.one_machine and ran_out(outcome):
+            if crew.shares_memory and ran_out(outcome):
                 finished.short.append(task)
             else:
                 finished.outcomes.append((task[0], outcome))

@@ -57,7 +57,7 @@ class Crew:
     # Function that returns what the crew is waiting for, as text; empty if it is working.
     waiting: Callable[[], str] = str
     # Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
-    one_machine: bool = False
+    shares_memory: bool = False
     # Function that is given the futures that nobody waits for any more, and stops what it can of them.
     abandon: Callable[[Iterable[Future[Any]]], None] = cancel
     # Function that is called about every second while nothing finishes, and ends a crew that would never
@@ -192,7 +192,7 @@ def _of_pool(pool: ProcessPoolExecutor, number: int) -> Iterator[Crew]:
         return _AHEAD * number + 1 if here is None else 1
 
     try:
-        yield Crew(submit, width, renew, one_machine=True, abandon=abandon, check=check)
+        yield Crew(submit, width, renew, shares_memory=True, abandon=abandon, check=check)
     finally:
         # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
         # too late to tell them, and the process then waits for them for ever. This is also faster.

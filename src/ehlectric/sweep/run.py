@@ -174,7 +174,7 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
 
     done(())
     batches, others = batches_of(sweep, store.open_points())
-    here = solvers.one_machine and weight_of(batches) < _HERE
+    here = solvers.shares_memory and weight_of(batches) < _HERE
     left = run_batches(batches, this_process() if here else solvers, done)
     alone = chain.from_iterable(batch.tasks() for batch in left)
     run_points(chain(alone, tasks(others)), solvers, done, sweep.uncertainty_samples)

@@ -189,7 +189,7 @@ def test_points_of_a_batch_whose_process_dies_are_solved_one_by_one(tmp_path):
     with processes(1) as crew:
         deadly = replace(
             crew,
-            one_machine=False,
+            shares_memory=False,
             submit=lambda call, *values: crew.submit(kill if values else call, *values),
         )
         results = run(speeds(3), tmp_path, solvers=nullcontext(deadly)).result
