@@ -213,11 +213,13 @@ def _check_axes(path: Path, root: ElementTree.Element) -> None:
     kind = _text(root, "FeatureType")
     if kind not in ("", "SUR", "PRF"):
         raise InputError(path, f"is of the type {shown(kind)}", takes="a surface, SUR, or a profile, PRF")
-    for axis, wanted in (("CX", "I"), ("CY", "I"), ("CZ", "A")):
+    for axis, expected in (("CX", "I"), ("CY", "I"), ("CZ", "A")):
         actual = _text(root, f"{axis}/AxisType")
-        if actual != wanted and not (axis == "CY" and not actual):
-            what = "equally spaced positions" if wanted == "I" else "heights as stored"
-            raise InputError(path, f"its axis {axis} is of type {shown(actual)}", takes=f"{wanted!r}, {what}")
+        if actual != expected and not (axis == "CY" and not actual):
+            what = "equally spaced positions" if expected == "I" else "heights as stored"
+            raise InputError(
+                path, f"its axis {axis} is of type {shown(actual)}", takes=f"{expected!r}, {what}"
+            )
     if _text(root, "CZ/DataType") not in _KINDS:
         data_type = shown(_text(root, "CZ/DataType"))
         raise InputError(path, f"its heights are of type {data_type}", takes=f"one of {', '.join(_KINDS)}")
